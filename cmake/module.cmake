@@ -1,0 +1,22 @@
+# morsel_add_module(NAME SOURCES … DEPENDS … PRIVATE_DEPENDS …): the library target morsel_NAME, alias morsel::NAME,
+# whose headers are included as "morsel/NAME/….h" in the build tree and after installation alike.
+function(morsel_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
+  set(target morsel_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(morsel::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+
+  # A link per module, not one to the whole tree, which would contain the build folder again.
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include/morsel)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${name} ${PROJECT_BINARY_DIR}/include/morsel/${name} SYMBOLIC)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  # The same expression gives the same bits with every compiler and processor: no fused multiply-adds of its choosing.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                         -Wno-restrict  # g++ 12 reports string concatenation
+                         -ffp-contract=off)
+  target_link_libraries(${target} PUBLIC ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
+  set_property(GLOBAL APPEND PROPERTY MORSEL_MODULES ${name})
+endfunction()

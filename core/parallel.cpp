@@ -1,0 +1,50 @@
+#include "morsel/core/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
+#include <string>
+
+#include "morsel/core/error.h"
+
+namespace morsel::core {
+
+int thread_count() {
+  const auto allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return static_cast<int>(allowed);
+}
+
+struct ThreadLimit::Control {
+  explicit Control(std::size_t threads) : limit(tbb::global_control::max_allowed_parallelism, threads) {}
+  tbb::global_control limit;
+};
+
+ThreadLimit::ThreadLimit(int threads) {
+  if (threads < 1)
+    throw InvalidArgument("the number of threads must be at least 1, not " + std::to_string(threads));
+  control_ = std::make_unique<Control>(static_cast<std::size_t>(threads));
+}
+
+ThreadLimit::~ThreadLimit() = default;
+
+void detail::run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
+  const int threads = thread_count();
+  if (threads == 1 || chunks == 1) {
+    for (std::size_t k = 0; k < chunks; ++k) chunk(k);
+    return;
+  }
+  // The default arena has no more slots than the machine has processors; one of our own honours a raised
+  // limit.
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t k = range.begin(); k != range.end(); ++k) chunk(k);
+                      });
+  });
+}
+
+}  // namespace morsel::core

@@ -1,0 +1,54 @@
+#include "morsel/morse/critical_points.h"
+
+#include <catch2/catch.hpp>
+
+#include "support/fields.h"
+#include "support/meshes.h"
+
+using namespace morsel;
+using namespace morsel::test;
+using core::ScalarField;
+using morse::CriticalPoints;
+using morse::CriticalType;
+
+TEST_CASE("height on the octahedron has one minimum and one maximum") {
+  const CriticalPoints points = morse::classify({octahedron().mesh(), {1, -1, 0, 0.1, 0.2, 0.3}});
+  REQUIRE(points.points.size() == 2);
+  CHECK(points.points[0] == morse::CriticalPoint{0, CriticalType::maximum, 1});
+  CHECK(points.points[1] == morse::CriticalPoint{1, CriticalType::minimum, 1});
+}
+
+TEST_CASE("a monkey saddle has multiplicity 2") {
+  const CriticalPoints points = morse::classify({bipyramid(6).mesh(), {0, -9, 1, -1, 2, -2, 3, -3}});
+  CHECK(points.minima == 1);
+  const auto saddle = points.points.front();
+  CHECK(saddle == morse::CriticalPoint{0, CriticalType::saddle, 2});
+  CHECK(points.maxima == 3);
+  CHECK(points.saddle_multiplicity == 2);
+  CHECK(points.total() == 5);
+}
+
+TEST_CASE("a boundary vertex is never a maximum") {
+  const CriticalPoints up = morse::classify({wheel(6).mesh(), {0, 1, 2, 3, 4, 5, 6}});
+  CHECK(up.minima == 1);
+  CHECK(up.maxima == 0);
+  CHECK(up.saddle_multiplicity == 0);
+  const CriticalPoints down = morse::classify({wheel(6).mesh(), {9, 1, 2, 3, 4, 5, 6}});
+  CHECK(down.minima == 1);
+  CHECK(down.maxima == 1);
+  CHECK(down.saddle_multiplicity == 1);
+}
+
+TEST_CASE("Euler identity, component by component, for every field on every mesh") {
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const NamedField& f : field_zoo(entry.mesh, 11)) {
+      INFO(entry.name << ", " << f.name);
+      const CriticalPoints points = morse::classify(f.field);
+      std::vector<long> sum(entry.mesh.component_count(), 0);
+      for (const auto& p : points.points)
+        sum[entry.mesh.component_of_vertex(p.vertex)] +=
+            p.type == CriticalType::saddle ? -long{p.multiplicity} : 1;
+      for (Index c = 0; c < entry.mesh.component_count(); ++c)
+        CHECK(sum[c] == entry.mesh.euler_characteristic(c));
+    }
+}
