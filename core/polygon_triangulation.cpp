@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
 constexpr std::size_t kSmallPolygon = 64;
-constexpr std::uint64_t kTestsPerCorner = 1000;
+constexpr std::uint64_t kTestsPerCorner = 200;
 
 std::uint64_t key_of(Index a, Index b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::uint64_t{std::max(a, b)};

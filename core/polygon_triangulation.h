@@ -36,7 +36,7 @@ class EdgeSet {
 class PolygonTriangulator {
  public:
   /// `edges` holds the sides of all polygons and receives the diagonals; both must outlive this. Work ends
-  /// with an error after `most_tests` tests and a thousand for each corner: some seconds.
+  /// with an error after `most_tests` tests and 200 more for each corner: some seconds.
   PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges,
                       std::uint64_t most_tests = 300'000'000)
       : positions_(positions), edges_(edges), tests_left_(most_tests) {}

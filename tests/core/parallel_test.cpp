@@ -116,9 +116,12 @@ TEST_CASE("a raised limit really runs more threads than the machine has processo
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   core::parallel_for(0, 50, 1, [&](std::size_t, std::size_t) {
     for (bool enough = false; !enough && std::chrono::steady_clock::now() < deadline;) {
-      const std::lock_guard lock(mutex);
-      seen.insert(std::this_thread::get_id());
-      enough = seen.size() > std::thread::hardware_concurrency();
+      {
+        const std::lock_guard lock(mutex);
+        seen.insert(std::this_thread::get_id());
+        enough = seen.size() > std::thread::hardware_concurrency();
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   });
   CHECK(seen.size() > std::thread::hardware_concurrency());
