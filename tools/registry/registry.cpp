@@ -5,7 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/morse/functions/height.h"
-#include "morsel/morse/functions/mean_curvature.h"
+#include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/salient.h"

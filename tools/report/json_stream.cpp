@@ -5,6 +5,11 @@
 namespace morsel::tools {
 namespace {
 
+/// Text that is not UTF-8 (a path may hold any bytes) is written with replacement characters.
+std::string dump(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// Indents all lines but the first of a dumped value.
 std::string indented(const std::string& text, std::size_t depth) {
   std::string result;
@@ -22,7 +27,7 @@ void JsonStream::next_item(std::string_view key) {
     out_ << (has_items_.back() ? ",\n" : "\n") << std::string(2 * has_items_.size(), ' ');
     has_items_.back() = true;
   }
-  if (!key.empty()) out_ << Json(key).dump() << ": ";
+  if (!key.empty()) out_ << dump(Json(key), -1) << ": ";
 }
 
 void JsonStream::begin(std::string_view key, char bracket) {
@@ -42,12 +47,12 @@ void JsonStream::end(char bracket) {
 void JsonStream::member(std::string_view key, const Json& value) {
   next_item(key);
   const bool flat = !value.is_structured() || value.empty();
-  out_ << (flat ? value.dump() : indented(value.dump(2), has_items_.size()));
+  out_ << (flat ? dump(value, -1) : indented(dump(value, 2), has_items_.size()));
 }
 
 void JsonStream::element(const Json& value) {
   next_item({});
-  out_ << value.dump();
+  out_ << dump(value, -1);
 }
 
 }  // namespace morsel::tools
