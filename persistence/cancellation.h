@@ -30,28 +30,28 @@ struct CancellationResult {
   std::string note;               ///< with `count`: why another number was reached; empty if it was
 };
 
-/// Returns a field g on the mesh of f, with an order of its own, such that with t the largest cancelled
-/// persistence
-/// - no value differs by more than t, up to a rounding of the difference;
-/// - the extrema of g are the essential ones and those of the pairs that are not cancelled, at the same
-/// vertices
-///   and with the same values; saddles follow from the Euler identity;
-/// - with a threshold, g has as many pairs of non-zero persistence as f has above it. (They may end below it,
-///   because their saddles move by up to t: cancelling again may cancel more.)
+/// Returns a field g on the mesh of f, with an order of its own. With t the largest cancelled persistence:
+/// 1. |g − f|, computed in double, is at most t everywhere.
+/// 2. The extrema of g are the essential ones and those of the pairs that stay, at the same vertices and with
+///    the same values; survivors of equal value keep f's order. Saddles follow from the Euler identity.
+/// 3. With a threshold, g has as many pairs of non-zero persistence as f has above it. (They may end below
+/// it,
+///    because their saddles move by up to t: cancelling again may cancel more.)
 /// Caps are never cancelled. If nothing is to be cancelled, f itself is returned.
 ///
 /// How: from the minima that stay, the basins of the others are flooded to where they overflow; on the
 /// result, the maxima that do not stay are carved down likewise; last, each plateau that this leaves is
-/// ordered so that all its vertices have a lower and a higher neighbour. This is the flooding of
-/// Edelsbrunner, Morozov, Pascucci 2006 ("Persistence-sensitive simplification of functions on 2-manifolds")
-/// in its simplest form: the points of the diagram that stay may move by t.
+/// ordered so that all its vertices have a lower and a higher neighbour. Simpler than Edelsbrunner, Morozov,
+/// Pascucci 2006
+/// ("Persistence-sensitive simplification of functions on 2-manifolds"), which keeps the points of the
+/// diagram that stay where they are; here they may move by t.
 ///
-/// `count` is reached exactly where some number of cancelled pairs does it. Each takes an extremum and one of
-/// a saddle's multiplicity away, so without multiple saddles the number of critical points falls by two a
-/// pair and keeps its parity; it cannot fall below the essential classes and what the caps are paired with.
-/// Otherwise the nearest number found is taken, the lower of two equally near ones. How multiple saddles come
-/// out is seen only after cancelling, so numbers of pairs around the estimated one are tried: all promising
-/// ones on small meshes, a few dozen at most on large ones.
+/// `count` is reached where some number of cancelled pairs does it. Each pair takes an extremum and one of a
+/// saddle's multiplicity away, so without multiple saddles the number of critical points falls by two a pair
+/// and keeps its parity; it cannot fall below the essential classes and what the caps are paired with.
+/// Otherwise the nearest number is taken, the lower of two equally near ones, and the note says so. How
+/// multiple saddles come out is seen only by cancelling, so numbers of pairs around an estimate are tried,
+/// 2²² / n but at least 12: where multiple saddles abound on a large mesh, a better one may be missed.
 ///
 /// Throws InvalidArgument for a negative or non-finite threshold or a count of 0. O(n) and O(s log s) in the
 /// number of saddles; with `count`, times the tries. The same result for every number of threads.

@@ -54,8 +54,8 @@ struct EssentialSaddle {
 /// saddles (with their counts) = saddle multiplicity, and the essential saddles number 2 × genus.
 struct Diagram {
   /// By ascending persistence: first the finite pairs, then those of caps. Among equals minimum_saddle comes
-  /// before saddle_maximum, then what is met first by the sweep from below (from above), then, at one saddle,
-  /// the younger extremum: so every pair comes before those that outlive it.
+  /// before saddle_maximum, then what its sweep (from below, from above) meets first, then, at one saddle,
+  /// the younger extremum. Cancellation takes pairs in this order.
   std::vector<PersistencePair> pairs;
   std::size_t finite_count = 0;
   std::vector<EssentialExtrema> essential_extrema;  ///< per component of the mesh
