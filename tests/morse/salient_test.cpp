@@ -160,7 +160,7 @@ TEST_CASE("salient smoothing gives the same bits for every number of threads and
   for (const char* text : {"1std", "local"}) {
     const auto run = [&](int threads, std::size_t memory) {
       const core::ThreadLimit limit(threads);
-      SalientOptions chosen = options(4, 0.08, text);
+      SalientOptions chosen = options(4, 0.1, text);
       chosen.memory = memory;
       const auto result = morse::salient(field, chosen);
       return std::pair(values_of(result.field), result.pairs);
