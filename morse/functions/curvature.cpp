@@ -21,7 +21,8 @@ std::vector<double> outward_signs(const core::TriangleMesh& mesh) {
   std::vector<Index> origin(components, core::kNone);
   for (Index v = mesh.vertex_count(); v-- > 0;) origin[mesh.component_of_vertex(v)] = v;
   // A power of two changes no digit, and keeps the products of three lengths in range.
-  const double scale = std::ldexp(1.0, -std::ilogb(std::max(mesh.bounding_box().diagonal(), 1e-300)));
+  const core::BoundingBox& box = mesh.bounding_box();
+  const double scale = std::ldexp(1.0, -std::ilogb(std::max((box.max - box.min).maxCoeff(), 1e-300)));
   std::vector<double> volume(components, 0.0);
   std::vector<double> magnitude(components, 0.0);
   for (const core::Triangle& t : mesh.triangles()) {

@@ -132,7 +132,9 @@ class Filter {
       const double dz = (x.z - center.z) * per_sigma_;
       const double difference = x.value - center.value;
       const double t = difference / sigma_s;  // before squaring: a tiny σ_s squared would be 0
-      const double weight = std::exp(-0.5 * (dx * dx + dy * dy + dz * dz + t * t));
+      const double exponent = -0.5 * (dx * dx + dy * dy + dz * dz + t * t);
+      if (exponent < -746) continue;  // exp is exactly 0 there, and slow to say so
+      const double weight = std::exp(exponent);
       sum += difference * weight;
       weights += weight;
     }
