@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "morsel/core/mesh_io.h"
+#include "morsel/core/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/sha256.h"
