@@ -77,9 +77,12 @@ std::vector<Index> measure(const ScalarField& field) {
   CHECK(complex.maximum_count() == points.maxima);
   const Segmentation s = segment(field, complex.gradient());
   const auto& mesh = field.mesh();
+  Index wrong = 0;
   for (Index t = 0; t < mesh.triangle_count(); ++t)
-    REQUIRE(s.cells.at(s.morse_smale.triangle[t]) ==
-            std::array{s.ascending.triangle[t], s.descending.triangle[t]});
+    if (s.cells.at(s.morse_smale.triangle[t]) !=
+        std::array{s.ascending.triangle[t], s.descending.triangle[t]})
+      ++wrong;
+  CHECK(wrong == 0);
   return {complex.minimum_count(), complex.saddle_count(), complex.maximum_count(),
           complex.cap_count(),     complex.arc_count(),    complex.quad_count(),
           s.descending.count,      s.ascending.count,      s.morse_smale.count};
