@@ -25,10 +25,11 @@ const Words& words(DefectKind kind) {
        "", 1},
       {"index_out_of_range", "face that names a vertex that does not exist",
        "faces that name a vertex that does not exist", "", 1},
-      {"degenerate_face", "degenerate face", "degenerate faces", "dropping degenerate faces", 1},
-      {"duplicate_face", "duplicate face", "duplicate faces", "dropping duplicate faces", 1},
+      {"degenerate_face", "degenerate face", "degenerate faces",
+       "removing degenerate faces and repeated corners", 1},
+      {"duplicate_face", "duplicate face", "duplicate faces", "removing duplicate faces", 1},
       {"unreferenced_vertex", "vertex that no face uses", "vertices that no face uses",
-       "dropping unreferenced vertices", 1},
+       "removing vertices that no face uses", 1},
       {"non_manifold_edge", "non-manifold edge", "non-manifold edges", "splitting non-manifold edges", 2},
       {"inconsistent_orientation", "edge between faces of opposite orientation",
        "edges between faces of opposite orientation", "orienting faces consistently", 2},
@@ -69,13 +70,30 @@ struct HalfEdge {
   }
 };
 
-/// Marks the faces that later checks leave out, and tallies why.
+/// Collects faces, of which several triangles may be parts; triangles come in ascending order.
+class FaceTally {
+ public:
+  FaceTally(DefectKind kind, std::span<const Index> faces) : tally_(kind), faces_(faces) {}
+  void add(Index triangle) {
+    const Index face = faces_.empty() ? triangle : faces_[triangle];
+    if (face != last_) tally_.add(face);
+    last_ = face;
+  }
+  void append_to(std::vector<Defect>& defects) && { std::move(tally_).append_to(defects); }
+
+ private:
+  Tally tally_;
+  std::span<const Index> faces_;
+  Index last_ = kNone;
+};
+
+/// Marks the triangles that later checks leave out, and tallies why.
 std::vector<bool> sound_faces(std::size_t vertices, std::span<const Triangle> triangles,
-                              std::vector<Defect>& defects) {
+                              std::span<const Index> faces, std::vector<Defect>& defects) {
   std::vector<bool> sound(triangles.size(), true);
-  Tally out_of_range(DefectKind::index_out_of_range);
-  Tally degenerate(DefectKind::degenerate_face);
-  Tally duplicate(DefectKind::duplicate_face);
+  FaceTally out_of_range(DefectKind::index_out_of_range, faces);
+  FaceTally degenerate(DefectKind::degenerate_face, faces);
+  FaceTally duplicate(DefectKind::duplicate_face, faces);
   std::vector<std::pair<Triangle, Index>> sorted;
   for (Index t = 0; t < triangles.size(); ++t) {
     Triangle corners = triangles[t];
@@ -106,8 +124,9 @@ std::vector<bool> sound_faces(std::size_t vertices, std::span<const Triangle> tr
 }
 
 /// Edges, and what is wrong with them; `joins` gets the pairs of half-edges of edges with two faces.
-void check_edges(std::span<const Triangle> triangles, const std::vector<bool>& sound,
-                 std::vector<std::pair<Index, Index>>& joins, std::vector<Defect>& defects) {
+void check_edges(std::span<const Triangle> triangles, std::span<const Index> faces,
+                 const std::vector<bool>& sound, std::vector<std::pair<Index, Index>>& joins,
+                 std::vector<Defect>& defects) {
   std::vector<HalfEdge> halfedges;
   for (Index t = 0; t < triangles.size(); ++t)
     for (Index i = 0; sound[t] && i < 3; ++i) {
@@ -141,7 +160,7 @@ void check_edges(std::span<const Triangle> triangles, const std::vector<bool>& s
   }
   std::vector<bool> bad(triangles.size(), false);
   for (const Index t : contradictions) bad[components.find(t)] = true;
-  Tally non_orientable(DefectKind::non_orientable);
+  FaceTally non_orientable(DefectKind::non_orientable, faces);
   for (Index t = 0; !contradictions.empty() && t < triangles.size(); ++t)
     if (sound[t] && bad[components.find(t)]) non_orientable.add(t);
   std::move(non_manifold).append_to(defects);
@@ -191,7 +210,8 @@ std::string describe(const Defect& defect) {
   return text + ")";
 }
 
-std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles) {
+std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles,
+                                 std::span<const Index> faces) {
   std::vector<Defect> defects;
   if (triangles.empty()) defects.push_back({DefectKind::empty, 1, {}});
   Tally non_finite(DefectKind::non_finite_position);
@@ -199,7 +219,7 @@ std::vector<Defect> find_defects(std::span<const Point> positions, std::span<con
     if (!positions[v].allFinite()) non_finite.add(v);
   std::move(non_finite).append_to(defects);
 
-  const std::vector<bool> sound = sound_faces(positions.size(), triangles, defects);
+  const std::vector<bool> sound = sound_faces(positions.size(), triangles, faces, defects);
   Tally unreferenced(DefectKind::unreferenced_vertex);
   std::vector<bool> used(positions.size(), false);
   for (const Triangle& t : triangles)
@@ -210,33 +230,56 @@ std::vector<Defect> find_defects(std::span<const Point> positions, std::span<con
   std::move(unreferenced).append_to(defects);
 
   std::vector<std::pair<Index, Index>> joins;
-  check_edges(triangles, sound, joins, defects);
+  check_edges(triangles, faces, sound, joins, defects);
   check_fans(positions.size(), triangles, sound, joins, defects);
   return defects;
 }
 
 namespace {
 
-std::string sentence(const std::vector<Defect>& defects) {
-  std::string text = "this is not an oriented 2-manifold: ";
-  for (std::size_t i = 0; i < defects.size(); ++i) text += (i > 0 ? "; " : "") + describe(defects[i]);
-  std::string mend;
-  std::string hopeless;
-  for (const Defect& d : defects) {
-    const std::string_view repair = repair_of(d.kind);
-    if (!repair.empty()) {
-      mend += (mend.empty() ? "" : ", ") + std::string(repair);
-    } else {
-      hopeless = "; nothing can be done here about: " + std::string(defect_name(d.kind));
-    }
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& items, std::string_view last_joint) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? last_joint : ", ";
+    text += items[i];
   }
-  if (!hopeless.empty()) return text + hopeless;
-  return text + "; repair (--repair) would mend this by " + mend;
+  return text;
+}
+
+std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std::string_view subject) {
+  std::vector<std::string> found;
+  std::vector<std::string> mends;
+  std::vector<std::string> hopeless;
+  bool is_empty = false;
+  for (const Defect& d : defects) {
+    found.push_back(describe(d));
+    is_empty = is_empty || d.kind == DefectKind::empty;
+    const std::string_view repair = repair_of(d.kind);
+    if (repair.empty())
+      hopeless.emplace_back(words(d.kind).plural);
+    else
+      mends.emplace_back(repair);
+  }
+  std::string text = std::string(subject) + " is not a surface that can be worked on: ";
+  text += repair_tried ? "even repaired it has " : "it has ";
+  text += listed(found, " and ");
+  if (repair_tried || is_empty) return text;
+  if (!mends.empty()) {
+    text +=
+        hopeless.empty() ? "; repair (--repair) would mend this by " : "; repair (--repair) would help by ";
+    text += listed(mends, " and ");
+  }
+  if (!hopeless.empty())
+    text += (mends.empty() ? "; no repair mends " : ", but none mends ") + listed(hopeless, " or ");
+  return text;
 }
 
 }  // namespace
 
-MeshError::MeshError(std::vector<Defect> defects)
-    : BadInput(sentence(defects)), defects_(std::move(defects)) {}
+MeshError::MeshError(std::vector<Defect> defects, bool repair_tried, std::string_view subject)
+    : BadInput(sentence(defects, repair_tried, subject)),
+      defects_(std::move(defects)),
+      repair_tried_(repair_tried) {}
 
 }  // namespace morsel::core

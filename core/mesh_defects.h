@@ -42,23 +42,32 @@ std::string_view defect_name(DefectKind kind);
 /// One clause: "3 non-manifold edges (the first: 4-7, 4-9, 5-9)".
 std::string describe(const Defect& defect);
 
-/// What repair would mend this kind, as a clause ("splitting them"); empty where none does.
+/// What repair does about this kind, as a clause ("splitting non-manifold edges"); empty where it does
+/// nothing.
 std::string_view repair_of(DefectKind kind);
 
 /// All that keeps these triangles from being a TriangleMesh, in the order of DefectKind; empty if nothing
 /// does. A face with one defect (out of range, degenerate, duplicate: the first that applies) does not count
-/// towards others. Time O(n log n), serial, deterministic.
-std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles);
+/// towards others. If the triangles are parts of larger faces, `faces` has the face of each, ascending, and
+/// faces are counted and named by those numbers. Time O(n log n), serial, deterministic.
+std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles,
+                                 std::span<const Index> faces = {});
 
 /// A mesh that is refused, with all its defects. The sentence names each with its first elements, its number
 /// and the repair that would help.
 class MeshError : public BadInput {
  public:
-  explicit MeshError(std::vector<Defect> defects);
+  /// `subject` begins the sentence. If repair was tried already, the sentence does not advise it.
+  explicit MeshError(std::vector<Defect> defects, bool repair_tried = false,
+                     std::string_view subject = "the mesh");
+
   const std::vector<Defect>& defects() const noexcept { return defects_; }
+  /// The same error with another subject, such as the name of the mesh's file.
+  MeshError about(std::string_view subject) const { return MeshError(defects_, repair_tried_, subject); }
 
  private:
   std::vector<Defect> defects_;
+  bool repair_tried_;
 };
 
 }  // namespace morsel::core

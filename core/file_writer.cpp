@@ -1,0 +1,191 @@
+#include "morsel/core/file_writer.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <locale>
+#include <stdexcept>
+#include <streambuf>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/error.h"
+
+namespace morsel::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 18;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw WriteFailed("cannot write " + path.string() + ": " + reason);
+}
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  fail(path, std::generic_category().message(error));
+}
+
+/// The file that a chain of symbolic links ends at, which need not exist.
+fs::path followed(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
+    path = path.parent_path() / fs::read_symlink(path);
+  return path;
+}
+
+/// Devices, and files by their descriptors (/dev/stdout, /dev/fd/3, /proc/self/fd/3), which must not be
+/// replaced.
+bool is_system_path(const fs::path& path) {
+  const std::string text = path.lexically_normal().string();
+  return text.starts_with("/dev/") || text.starts_with("/proc/");
+}
+
+}  // namespace
+
+struct FileWriter::Output {
+  explicit Output(const fs::path& target);
+  ~Output() { discard(); }
+
+  void append(const char* data, std::size_t size) {
+    if (file < 0) throw std::logic_error("FileWriter: written after commit()");
+    if (size > buffer.size() - used) {
+      flush();
+      if (size > buffer.size()) {
+        write_out(data, size);
+        return;
+      }
+    }
+    std::copy_n(data, size, buffer.data() + used);
+    used += size;
+  }
+  void flush() { write_out(buffer.data(), std::exchange(used, 0)); }
+  void write_out(const char* data, std::size_t size);
+  void commit();
+  void discard() noexcept;
+
+  struct StreamBuffer : std::streambuf {
+    explicit StreamBuffer(Output& o) : output(o) {}
+    int_type overflow(int_type c) override {
+      if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+      const char byte = traits_type::to_char_type(c);
+      output.append(&byte, 1);
+      return c;
+    }
+    std::streamsize xsputn(const char* data, std::streamsize size) override {
+      output.append(data, static_cast<std::size_t>(size));
+      return size;
+    }
+    Output& output;
+  };
+
+  fs::path shown;      // as the caller named it
+  fs::path path;       // links followed
+  fs::path temporary;  // empty when written directly
+  int file = -1;
+  std::vector<char> buffer;
+  std::size_t used = 0;
+  StreamBuffer stream_buffer{*this};
+  std::ostream stream{&stream_buffer};
+};
+
+FileWriter::Output::Output(const fs::path& target) : shown(target), buffer(kBufferSize) {
+  if (!target.has_filename()) fail(shown, "that is not the name of a file");
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) fail(shown, EISDIR);
+  if ((exists && !S_ISREG(status.st_mode)) || is_system_path(target)) {
+    file = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (file < 0) fail(shown, errno);
+  } else {
+    // Renaming would replace a file that its owner has protected.
+    if (exists && ::access(target.c_str(), W_OK) != 0) fail(shown, errno);
+    path = followed(target);
+    static std::atomic<unsigned> counter{0};
+    do {
+      temporary = path.parent_path() /
+                  (".morsel-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+      file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file < 0 && errno == EEXIST);
+    if (file < 0) {
+      const int error = errno;
+      temporary.clear();
+      fail(shown, error);
+    }
+    if (exists) static_cast<void>(::fchmod(file, status.st_mode & 07777));
+  }
+  stream.imbue(std::locale::classic());
+  stream.precision(17);
+  stream.exceptions(std::ios::badbit | std::ios::failbit);
+}
+
+void FileWriter::Output::write_out(const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(file, data, size);
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      fail(shown, errno);
+    }
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void FileWriter::Output::commit() {
+  if (file < 0) return;
+  flush();
+  // Pipes and some file systems cannot be synced and say EINVAL, EROFS or ENOTSUP; what counts are lost data.
+  if (!temporary.empty() && ::fsync(file) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT))
+    fail(shown, errno);
+  if (::close(std::exchange(file, -1)) != 0 && errno != EINTR) fail(shown, errno);
+  if (temporary.empty()) return;
+  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(shown, errno);
+  temporary.clear();
+}
+
+void FileWriter::Output::discard() noexcept {
+  if (file >= 0) ::close(std::exchange(file, -1));
+  if (!temporary.empty()) ::unlink(temporary.c_str());
+}
+
+FileWriter::FileWriter(const fs::path& path) : output_(std::make_unique<Output>(path)) {}
+
+FileWriter::~FileWriter() = default;
+
+void FileWriter::write(std::string_view text) { output_->append(text.data(), text.size()); }
+
+void FileWriter::write_bytes(const void* data, std::size_t size) {
+  output_->append(static_cast<const char*>(data), size);
+}
+
+void FileWriter::write_number(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  output_->append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+void FileWriter::write_number(std::uint64_t value) {
+  std::array<char, 24> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  output_->append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+std::ostream& FileWriter::stream() { return output_->stream; }
+
+void FileWriter::commit() { output_->commit(); }
+
+void write_file(const fs::path& path, std::string_view contents) {
+  FileWriter writer(path);
+  writer.write(contents);
+  writer.commit();
+}
+
+}  // namespace morsel::core

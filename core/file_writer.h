@@ -1,0 +1,46 @@
+#pragma once
+/// Writing a file whole or not at all.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string_view>
+
+namespace morsel::core {
+
+/// Writes to a temporary file in the target's folder; commit() brings it to disk and renames it to the
+/// target. Without commit() (an error, a Cancelled on its way up) the destructor removes it and the target
+/// stays as it was. A target that exists keeps its permissions, and a symbolic link to it stays a link. A
+/// device or pipe (/dev/stdout) cannot be renamed to: it is written as the data come.
+///
+/// All functions throw WriteFailed with the path and the system's reason. Buffered; not thread-safe.
+class FileWriter {
+ public:
+  explicit FileWriter(const std::filesystem::path& path);
+  ~FileWriter();
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+
+  void write(std::string_view text);
+  void write_bytes(const void* data, std::size_t size);
+  /// The shortest text that reads back as the same double; independent of locales.
+  void write_number(double value);
+  void write_number(std::uint64_t value);
+  /// A stream on the same file, for libraries that want one; writes may alternate. Its errors are thrown as
+  /// WriteFailed too; it has the classic locale.
+  std::ostream& stream();
+
+  /// Makes the file appear, complete. Nothing may be written afterwards; a second commit does nothing.
+  void commit();
+
+ private:
+  struct Output;
+  std::unique_ptr<Output> output_;
+};
+
+/// A whole file at once.
+void write_file(const std::filesystem::path& path, std::string_view contents);
+
+}  // namespace morsel::core

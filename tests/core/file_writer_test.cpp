@@ -1,0 +1,183 @@
+#include "morsel/core/file_writer.h"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "support/scratch.h"
+
+using namespace morsel;
+using namespace morsel::test;
+using core::FileWriter;
+using core::WriteFailed;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+/// Files of this process may not grow beyond `bytes` while it lives: what a full disk does, without one.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+}  // namespace
+
+TEST_CASE("a file appears when it is committed and not before") {
+  const Scratch scratch;
+  const fs::path path = scratch / "report.json";
+  {
+    FileWriter writer(path);
+    writer.write("a ");
+    writer.write_number(0.1);
+    writer.write(" ");
+    writer.write_number(std::uint64_t{18446744073709551615u});
+    writer.stream() << ' ' << 1e6 << ' ' << 12;
+    writer.write_bytes("\0z", 2);
+    CHECK_FALSE(fs::exists(path));
+    writer.commit();
+    writer.commit();
+    CHECK_THROWS_AS(writer.write("late"), std::logic_error);
+  }
+  CHECK(contents(path) == std::string("a 0.1 18446744073709551615 1000000 12\0z", 39));
+  CHECK(files_in(scratch.path()) == 1);
+}
+
+TEST_CASE("what is not committed leaves the old file and nothing else") {
+  const Scratch scratch;
+  const fs::path path = scratch / "report.json";
+  core::write_file(path, "old");
+  try {
+    FileWriter writer(path);
+    writer.write(std::string(1 << 20, 'x'));
+    throw core::Cancelled();
+  } catch (const core::Cancelled&) {
+  }
+  CHECK(contents(path) == "old");
+  CHECK(files_in(scratch.path()) == 1);
+  core::write_file(path, "new");
+  CHECK(contents(path) == "new");
+}
+
+TEST_CASE("a full disk fails with the reason and leaves the old file") {
+  const Scratch scratch;
+  const fs::path path = scratch / "report.json";
+  core::write_file(path, "old");
+  const std::string much(3 << 20, 'x');
+  for (const bool through_stream : {false, true}) {
+    const SmallDisk disk(1 << 20);
+    const auto write = [&] {
+      FileWriter writer(path);
+      if (through_stream)
+        writer.stream() << much;
+      else
+        writer.write(much);
+      writer.commit();
+    };
+    CHECK_THROWS_WITH(write(), Catch::Contains("report.json") && Catch::Contains("File too large"));
+    CHECK_THROWS_AS(write(), WriteFailed);
+  }
+  CHECK(contents(path) == "old");
+  CHECK(files_in(scratch.path()) == 1);
+}
+
+TEST_CASE("a device is written directly and its errors are seen") {
+  CHECK_NOTHROW(core::write_file("/dev/null", "anything"));
+  CHECK_THROWS_WITH(core::write_file("/dev/full", "anything"),
+                    Catch::Contains("/dev/full") && Catch::Contains("No space left on device"));
+  CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("places where no file can be are refused with a reason") {
+  const Scratch scratch;
+  CHECK_THROWS_WITH(FileWriter(scratch.path()), Catch::Contains("Is a directory"));
+  CHECK_THROWS_AS(FileWriter(""), WriteFailed);
+  CHECK_THROWS_AS(FileWriter(scratch.path() / ""), WriteFailed);
+  CHECK_THROWS_WITH(FileWriter(scratch / "missing" / "a.txt"), Catch::Contains("No such file or directory"));
+  core::write_file(scratch / "file", "");
+  CHECK_THROWS_WITH(FileWriter(scratch / "file" / "a.txt"), Catch::Contains("Not a directory"));
+  if (::geteuid() != 0) {
+    fs::create_directory(scratch / "locked");
+    fs::permissions(scratch / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+    CHECK_THROWS_WITH(FileWriter(scratch / "locked" / "a.txt"), Catch::Contains("Permission denied"));
+    fs::permissions(scratch / "file", fs::perms::owner_read);
+    CHECK_THROWS_WITH(FileWriter(scratch / "file"), Catch::Contains("Permission denied"));
+  }
+}
+
+TEST_CASE("a target folder that disappears makes the commit fail") {
+  const Scratch scratch;
+  fs::create_directory(scratch / "folder");
+  FileWriter writer(scratch / "folder" / "a.txt");
+  writer.write("a");
+  fs::remove_all(scratch / "folder");
+  CHECK_THROWS_AS(writer.commit(), WriteFailed);
+}
+
+TEST_CASE("permissions and links of the target are kept") {
+  const Scratch scratch;
+  core::write_file(scratch / "new", "");
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  struct stat status {};
+  ::stat((scratch / "new").c_str(), &status);
+  CHECK((status.st_mode & 0777) == (0666 & ~mask));
+
+  core::write_file(scratch / "real", "old");
+  fs::permissions(scratch / "real", fs::perms(0640));
+  fs::create_symlink("real", scratch / "link");
+  fs::create_symlink("not-yet", scratch / "dangling");
+  core::write_file(scratch / "link", "new");
+  core::write_file(scratch / "dangling", "made");
+  CHECK(fs::is_symlink(scratch / "link"));
+  CHECK(contents(scratch / "real") == "new");
+  CHECK(fs::status(scratch / "real").permissions() == fs::perms(0640));
+  CHECK(contents(scratch / "not-yet") == "made");
+}
+
+TEST_CASE("numbers are written so that they read back the same") {
+  const Scratch scratch;
+  const std::vector<double> values = {0.1, -0.0, 1e300, 5e-324, 1.0 / 3, std::numeric_limits<double>::max()};
+  FileWriter writer(scratch / "numbers");
+  for (const double value : values) {
+    writer.write_number(value);
+    writer.write("\n");
+  }
+  writer.commit();
+  std::ifstream file(scratch / "numbers");
+  std::string line;
+  for (const double value : values) {
+    std::getline(file, line);
+    const double back = std::strtod(line.c_str(), nullptr);
+    CHECK(back == value);
+    CHECK(std::signbit(back) == std::signbit(value));
+  }
+}
