@@ -148,7 +148,7 @@ class Triangulation {
         break;
       case PolygonState::degenerate:
         for (const Index v : polygon) triangles.push_back({v, v, v});
-        if (polygon.empty()) triangles.push_back({0, 0, 0});
+        if (polygon.empty() && !soup_.positions.empty()) triangles.push_back({0, 0, 0});
         break;
       case PolygonState::duplicate:
         first_triangle_[p] = first_triangle_[twin_of_[p]];

@@ -14,29 +14,31 @@ struct Words {
   std::string_view name;
   std::string_view singular;
   std::string_view plural;
-  std::string_view repair;
-  int width;  // numbers per element
+  std::string_view repair;   // what repair does, or empty and
+  std::string_view lasting;  // what no repair mends
+  int width;                 // numbers per element
 };
 
 const Words& words(DefectKind kind) {
   static constexpr std::array<Words, 10> kTable = {{
-      {"empty", "no triangle", "no triangle", "", 1},
+      {"empty", "no triangle", "no triangle", "", "", 1},
       {"non_finite_position", "vertex with a non-finite coordinate", "vertices with a non-finite coordinate",
-       "", 1},
+       "", "non-finite coordinates of vertices in use", 1},
       {"index_out_of_range", "face that names a vertex that does not exist",
-       "faces that name a vertex that does not exist", "", 1},
+       "faces that name a vertex that does not exist", "", "faces that name missing vertices", 1},
       {"degenerate_face", "degenerate face", "degenerate faces",
-       "removing degenerate faces and repeated corners", 1},
-      {"duplicate_face", "duplicate face", "duplicate faces", "removing duplicate faces", 1},
+       "removing degenerate faces and repeated corners", "", 1},
+      {"duplicate_face", "duplicate face", "duplicate faces", "removing duplicate faces", "", 1},
       {"unreferenced_vertex", "vertex that no face uses", "vertices that no face uses",
-       "removing vertices that no face uses", 1},
-      {"non_manifold_edge", "non-manifold edge", "non-manifold edges", "splitting non-manifold edges", 2},
+       "removing vertices that no face uses", "", 1},
+      {"non_manifold_edge", "non-manifold edge", "non-manifold edges", "splitting non-manifold edges", "", 2},
       {"inconsistent_orientation", "edge between faces of opposite orientation",
-       "edges between faces of opposite orientation", "orienting faces consistently", 2},
-      {"non_orientable", "face in a component that cannot be oriented (as a Möbius band cannot)",
-       "faces in components that cannot be oriented (as a Möbius band cannot)", "", 1},
+       "edges between faces of opposite orientation", "orienting faces consistently", "", 2},
+      {"non_orientable", "face of a component that cannot be oriented, as a Möbius band cannot",
+       "faces of components that cannot be oriented, as a Möbius band cannot", "",
+       "components that cannot be oriented", 1},
       {"non_manifold_vertex", "non-manifold vertex", "non-manifold vertices",
-       "splitting non-manifold vertices", 1},
+       "splitting non-manifold vertices", "", 1},
   }};
   return kTable[static_cast<std::size_t>(kind)];
 }
@@ -248,30 +250,31 @@ std::string listed(const std::vector<std::string>& items, std::string_view last_
 }
 
 std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std::string_view subject) {
+  const auto has = [&](DefectKind kind) {
+    return std::any_of(defects.begin(), defects.end(), [&](const Defect& d) { return d.kind == kind; });
+  };
   std::vector<std::string> found;
   std::vector<std::string> mends;
-  std::vector<std::string> hopeless;
-  bool is_empty = false;
+  std::vector<std::string> lasting;
   for (const Defect& d : defects) {
     found.push_back(describe(d));
-    is_empty = is_empty || d.kind == DefectKind::empty;
-    const std::string_view repair = repair_of(d.kind);
-    if (repair.empty())
-      hopeless.emplace_back(words(d.kind).plural);
-    else
-      mends.emplace_back(repair);
+    if (!words(d.kind).lasting.empty()) lasting.emplace_back(words(d.kind).lasting);
+    // Orienting what can be oriented is no use as long as something cannot.
+    if (d.kind == DefectKind::inconsistent_orientation && has(DefectKind::non_orientable)) continue;
+    if (!repair_of(d.kind).empty()) mends.emplace_back(repair_of(d.kind));
   }
-  std::string text = std::string(subject) + " is not a surface that can be worked on: ";
-  text += repair_tried ? "even repaired it has " : "it has ";
+  std::string text = std::string(subject) + " cannot be used: " + (repair_tried ? "after repair it " : "it ");
+  text += repair_tried && !has(DefectKind::empty) ? "still has " : "has ";
   text += listed(found, " and ");
-  if (repair_tried || is_empty) return text;
-  if (!mends.empty()) {
-    text +=
-        hopeless.empty() ? "; repair (--repair) would mend this by " : "; repair (--repair) would help by ";
-    text += listed(mends, " and ");
+  if (repair_tried || has(DefectKind::empty)) return text;
+  // A vertex with a bad coordinate goes away with repair if no face uses it, which is not known here.
+  const bool may_go = has(DefectKind::unreferenced_vertex) && has(DefectKind::non_finite_position);
+  if (lasting.empty() || (may_go && lasting.size() == 1)) {
+    text += "; repair (--repair) would mend this by " + listed(mends, " and ");
+    if (may_go) text += ", if no face uses the vertices with non-finite coordinates";
+  } else {
+    text += "; repair cannot mend " + listed(lasting, " and ");
   }
-  if (!hopeless.empty())
-    text += (mends.empty() ? "; no repair mends " : ", but none mends ") + listed(hopeless, " or ");
   return text;
 }
 

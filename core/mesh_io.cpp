@@ -94,6 +94,8 @@ LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& opti
             {std::move(built.numbering), std::move(loaded.properties), std::move(built.repairs)}};
   } catch (const MeshError& error) {
     throw error.about("\"" + path.string() + "\"");
+  } catch (const BadInput& error) {
+    throw BadInput("cannot use \"" + path.string() + "\": " + error.what());
   }
 }
 

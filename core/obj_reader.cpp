@@ -21,7 +21,8 @@ bool is_skipped(std::string_view keyword) {
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& file, const Progress& progress)
-      : scanner_(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, progress) {}
+      : file_(file),
+        scanner_(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, progress) {}
 
   LoadedSoup read() {
     while (scanner_.next_line()) {
@@ -36,10 +37,10 @@ class Reader {
         scanner_.fail("an OBJ file has no statement " + shown(keyword));
     }
     const std::size_t vertices = result_.soup.positions.size();
-    if (!result_.soup.corners.empty() && highest_ >= vertices) {
-      scanner_.fail_at_end("but its line " + std::to_string(highest_line_) + " names vertex " +
-                           std::to_string(highest_ + 1) + " of only " + std::to_string(vertices));
-    }
+    if (!result_.soup.corners.empty() && highest_ >= vertices)
+      fail_reading(file_, "line " + std::to_string(highest_line_) + ": the face names vertex " +
+                              std::to_string(std::size_t{highest_} + 1) + ", but the file has only " +
+                              std::to_string(vertices) + " vertices, numbered from 1");
     return std::move(result_);
   }
 
@@ -92,6 +93,7 @@ class Reader {
     }
   }
 
+  const std::string& file_;
   TextScanner scanner_;
   LoadedSoup result_;
   Index highest_ = 0;
@@ -101,6 +103,7 @@ class Reader {
 }  // namespace
 
 LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress) {
+  if (bytes.empty()) fail_reading(file, "it is empty");
   return Reader(bytes, file, progress).read();
 }
 

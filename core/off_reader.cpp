@@ -38,7 +38,8 @@ class Reader {
  private:
   void read_header() {
     if (!scanner_.next_line()) fail_reading(file_, "it is empty");
-    if (!is_digit(scanner_.peek())) {  // Geomview lets the word be missing
+    const std::string_view first = scanner_.peek_word();
+    if (!std::all_of(first.begin(), first.end(), is_digit)) {  // Geomview lets the keyword be missing
       read_keyword();
       if (scanner_.at_line_end() && !scanner_.next_line())
         scanner_.fail_at_end("before the numbers of vertices and faces");
@@ -114,7 +115,7 @@ class Reader {
       const bool right = color == 3 || color == 4 ? header_.color || plain : color == 0 && !header_.color;
       if (!right)
         scanner_.fail("vertex " + std::to_string(v) + " has " + std::to_string(3 + more) +
-                      " numbers, which this kind of OFF file has not");
+                      " numbers, which is not what this kind of OFF file has on the line of a vertex");
     }
   }
 

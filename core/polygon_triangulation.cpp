@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
 constexpr std::size_t kSmallPolygon = 64;
-constexpr std::uint64_t kMostTests = 2'000'000'000;  // some ten seconds
+constexpr std::uint64_t kTestsPerCorner = 1000;
 
 std::uint64_t key_of(Index a, Index b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::uint64_t{std::max(a, b)};
@@ -51,6 +51,7 @@ void PolygonTriangulator::triangulate(std::span<const Index> polygon, std::size_
     return;
   }
   face_ = face;
+  tests_left_ += kTestsPerCorner * polygon.size();
   place(polygon);
   if (polygon.size() == 4)
     cut_quad(polygon, triangles);
@@ -112,7 +113,7 @@ bool PolygonTriangulator::is_empty(std::size_t a, std::size_t b, std::size_t c) 
   const auto side = [&](std::size_t from, std::size_t to, const Point& p) {
     return normal_.dot((local_[to] - local_[from]).cross(p - local_[from]));
   };
-  tests_ += reflex_.size();
+  tests_left_ -= std::min<std::uint64_t>(tests_left_, reflex_.size());
   for (const std::size_t i : reflex_) {
     if (i == a || i == b || i == c || is_gone(i)) continue;
     const Point& p = local_[i];
@@ -129,7 +130,7 @@ PolygonTriangulator::Ear PolygonTriangulator::find_ear(std::span<const Index> po
   Ear best;
   std::size_t b = start;
   do {
-    if (++tests_ > kMostTests)
+    if (tests_left_-- <= 1)
       throw BadInput("face " + std::to_string(face_) + " is a polygon of " + std::to_string(polygon.size()) +
                      " corners, too intricate to be cut into triangles");
     const std::size_t a = previous_[b];

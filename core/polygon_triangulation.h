@@ -35,12 +35,14 @@ class EdgeSet {
 /// Deterministic. O(n) to O(n²) tests a polygon of n corners, more than that only if it is very intricate.
 class PolygonTriangulator {
  public:
-  /// `edges` holds the sides of all polygons and receives the diagonals; both must outlive this.
-  PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges)
-      : positions_(positions), edges_(edges) {}
+  /// `edges` holds the sides of all polygons and receives the diagonals; both must outlive this. Work ends
+  /// with an error after `most_tests` tests and a thousand for each corner: some seconds.
+  PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges,
+                      std::uint64_t most_tests = 300'000'000)
+      : positions_(positions), edges_(edges), tests_left_(most_tests) {}
 
   /// Appends the n − 2 triangles of a polygon of n ≥ 3 corners, all vertices of which exist and none of which
-  /// follows itself. Throws BadInput (`face` is for the message) where the polygons would take minutes.
+  /// follows itself. Throws BadInput (`face` is for the message) where polygons would take minutes.
   void triangulate(std::span<const Index> polygon, std::size_t face, std::vector<Triangle>& triangles);
 
  private:
@@ -68,7 +70,7 @@ class PolygonTriangulator {
   std::vector<std::size_t> previous_, next_;  // the ring of corners not clipped yet
   std::vector<std::size_t> reflex_;           // those that may lie in an ear
   std::size_t face_ = 0;
-  std::uint64_t tests_ = 0;  // of corners so far, in all polygons
+  std::uint64_t tests_left_;
 };
 
 }  // namespace morsel::core

@@ -173,7 +173,8 @@ LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progr
   std::string_view text = bytes;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte-order mark
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n\v\f"), text.size()));
-  if (is_keyword(text.substr(0, 5), "solid")) return TextReader(bytes, file, progress).read();
+  const bool is_text = text.substr(0, 512).find('\0') == std::string_view::npos;
+  if (is_text && is_keyword(text.substr(0, 5), "solid")) return TextReader(bytes, file, progress).read();
   if (!has_header)
     fail_reading(file, "it is neither an ASCII STL file (solid …) nor long enough for a binary one");
   fail_reading(file, "as a binary STL file it announces " + std::to_string(announced) +

@@ -106,7 +106,7 @@ bool TextScanner::at_line_end() {
   }
 }
 
-std::string_view TextScanner::current_word() const {
+std::string_view TextScanner::peek_word() const {
   const char* end = cursor_;
   while (end < line_end_ && !is_blank(*end) && (*end != syntax_.comment || syntax_.comment == 0)) ++end;
   return {cursor_, static_cast<std::size_t>(end - cursor_)};
@@ -114,7 +114,7 @@ std::string_view TextScanner::current_word() const {
 
 std::string_view TextScanner::word() {
   if (at_line_end()) return {};
-  const std::string_view result = current_word();
+  const std::string_view result = peek_word();
   cursor_ += result.size();
   return result;
 }
@@ -133,10 +133,10 @@ double TextScanner::parse(std::string_view what) {
   const auto [stop, error] = std::from_chars(start, line_end_, value);
   const bool whole_word = stop == line_end_ || is_blank(*stop) || (*stop == syntax_.comment && *stop != '\0');
   if (error == std::errc::invalid_argument || !whole_word)
-    fail("expected " + std::string(what) + ", found " + shown(current_word()));
+    fail("expected " + std::string(what) + ", found " + shown(peek_word()));
   if (error == std::errc::result_out_of_range) {
     if (!is_tiny({start, static_cast<std::size_t>(stop - start)}))
-      fail(std::string(what) + " is too large a number: " + shown(current_word()));
+      fail(std::string(what) + " is too large a number: " + shown(peek_word()));
     value = *start == '-' ? -Float{0} : Float{0};
   }
   cursor_ = stop;
@@ -154,9 +154,9 @@ std::int64_t TextScanner::leading_integer(std::string_view what) {
   std::int64_t value = 0;
   const auto [stop, error] = std::from_chars(start, line_end_, value);
   if (error == std::errc::invalid_argument)
-    fail("expected " + std::string(what) + ", found " + shown(current_word()));
+    fail("expected " + std::string(what) + ", found " + shown(peek_word()));
   if (error == std::errc::result_out_of_range)
-    fail(std::string(what) + " is too large a number: " + shown(current_word()));
+    fail(std::string(what) + " is too large a number: " + shown(peek_word()));
   cursor_ = stop;
   return value;
 }
@@ -168,7 +168,7 @@ std::int64_t TextScanner::integer(std::string_view what) {
   if (cursor_ == line_end_ || is_blank(*cursor_) || (*cursor_ == syntax_.comment && *cursor_ != '\0'))
     return value;
   cursor_ = start;
-  fail("expected " + std::string(what) + ", found " + shown(current_word()));
+  fail("expected " + std::string(what) + ", found " + shown(peek_word()));
 }
 
 void TextScanner::fail(const std::string& what) const {

@@ -49,6 +49,8 @@ class TextScanner {
   std::int64_t integer(std::string_view what);
   /// The whole number that this line goes on with, up to whatever is not a digit, without going past it.
   std::int64_t leading_integer(std::string_view what);
+  /// The word at which this stands, without going past it.
+  std::string_view peek_word() const;
   /// The next character of this line (0 at its end), and stepping over it.
   char peek() const { return cursor_ < line_end_ ? *cursor_ : '\0'; }
   void skip() { ++cursor_; }
@@ -66,8 +68,6 @@ class TextScanner {
  private:
   template <class Float>
   double parse(std::string_view what);
-  /// The word at the cursor, for errors; does not move.
-  std::string_view current_word() const;
 
   const char* begin_;
   const char* end_;

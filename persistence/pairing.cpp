@@ -8,7 +8,6 @@
 
 namespace morsel::persistence {
 
-using core::kNone;
 
 namespace detail {
 namespace {

@@ -66,7 +66,7 @@ Found walk_links(const core::TriangleMesh& mesh, std::span<const Index> rank, st
         }
         return part;
       },
-      [](Found sum, Found part) {
+      [](Found sum, const Found& part) {
         append(sum.extrema, part.extrema);
         append(sum.merges, part.merges);
         append(sum.saddles, part.saddles);

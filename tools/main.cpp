@@ -35,12 +35,14 @@ int fail(int code, const std::string& message) {
 }
 
 int run(int argc, char** argv, std::stop_token stop) {
-  CLI::App app("Critical points of scalar fields on triangle meshes, by several methods held against each other.",
-               "morsel");
+  CLI::App app(
+      "Critical points of scalar fields on triangle meshes, by several methods held against each other.",
+      "morsel");
   app.set_version_flag("--version", std::string("morsel ") + kVersion);
   app.require_subcommand(1);
-  app.footer("morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences,\n"
-             "2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and 143 interrupted.");
+  app.footer(
+      "morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences,\n"
+      "2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and 143 interrupted.");
   Invocation invocation;
   add_compare(app, invocation);
   add_field(app, invocation);

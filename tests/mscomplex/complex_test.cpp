@@ -1,25 +1,20 @@
 #include "morsel/mscomplex/complex.h"
 
 #include <algorithm>
-#include <boost/graph/connected_components.hpp>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/critical_points.h"
-#include "morsel/mscomplex/graph.h"
-#include "support/complex_oracle.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 
 using namespace morsel;
 using namespace morsel::test;
-using core::kNone;
 using core::ScalarField;
-using mscomplex::ArcKind;
 using mscomplex::MorseSmaleComplex;
 using mscomplex::Node;
 using mscomplex::NodeKind;
@@ -27,92 +22,13 @@ using mscomplex::Quad;
 
 namespace {
 
-Cell sorted_cell(Cell cell) {
-  std::sort(cell.begin(), cell.end());
-  return cell;
-}
-
-Cell triangle_cell(const TriangleMesh& mesh, Index t) {
-  return sorted_cell({mesh.triangle(t)[0], mesh.triangle(t)[1], mesh.triangle(t)[2]});
-}
-
-/// The node's cell in the oracle's words; a cap is its loop's smallest vertex.
-Cell node_cell(const MorseSmaleComplex& complex, Index n) {
-  const Node node = complex.node(n);
-  if (node.kind == NodeKind::maximum) return triangle_cell(complex.mesh(), node.cell);
-  if (node.kind != NodeKind::saddle) return {node.vertex};
-  const auto [a, b] = complex.mesh().edge_vertices(node.cell);
-  return sorted_cell({a, b});
-}
-
-ComplexOracle::ArcName arc_name(const MorseSmaleComplex& complex, Index arc) {
-  const TriangleMesh& mesh = complex.mesh();
-  const Cell edge = node_cell(complex, complex.arc_saddle(arc));
-  const Index h = mesh.edge_halfedge(complex.node(complex.arc_saddle(arc)).cell);
-  const auto beside = [&](Index side) {
-    return side == kNone ? node_cell(complex, complex.arc_end(arc))
-                         : triangle_cell(mesh, TriangleMesh::triangle_of(side));
-  };
-  switch (arc % 4) {
-    case 0:
-      return {edge, Cell{mesh.origin(h)}};
-    case 1:
-      return {edge, beside(mesh.twin(h))};
-    case 2:
-      return {edge, Cell{mesh.target(h)}};
-    default:
-      return {edge, beside(h)};
-  }
-}
-
-/// Ends, ways and cyclic orders against the oracle's.
-void check_against_oracle(const MorseSmaleComplex& complex, const ComplexOracle& oracle) {
-  const TriangleMesh& mesh = complex.mesh();
-  std::vector<Index> cells;
-  for (Index a = 0; a < complex.arc_count(); ++a) {
-    const auto [edge, start] = arc_name(complex, a);
-    complex.trace_cells(a, cells);
-    const Cell end = node_cell(complex, complex.arc_end(a));
-    if (MorseSmaleComplex::arc_kind(a) == ArcKind::descending) {
-      std::vector<Index> way = oracle.way_down(start.front());
-      const Index vertex = complex.node(complex.arc_saddle(a)).vertex;
-      if (start.front() != vertex) way.insert(way.begin(), vertex);
-      REQUIRE(cells == way);
-      REQUIRE(end == Cell{way.back()});
-    } else if (start.size() == 3) {
-      std::vector<Cell> way;
-      for (const Index t : cells) way.push_back(triangle_cell(mesh, t));
-      REQUIRE(way == oracle.way_up(start));
-      REQUIRE(end == oracle.top(start));
-    } else {
-      REQUIRE(cells.empty());
-      REQUIRE(oracle.triangles_at(edge).size() == 1);
-      REQUIRE(end == oracle.cap_at(edge));
-    }
-  }
-  for (Index n = 0; n < complex.node_count(); ++n) {
-    const Node node = complex.node(n);
-    if (node.kind == NodeKind::saddle) continue;
-    std::vector<ComplexOracle::ArcName> found;
-    for (const Index a : complex.arcs_ending_at(n)) found.push_back(arc_name(complex, a));
-    std::vector<ComplexOracle::ArcName> expected =
-        node.kind == NodeKind::minimum   ? oracle.around_minimum(node.vertex)
-        : node.kind == NodeKind::maximum ? oracle.around_maximum(node.cell)
-                                         : oracle.around_cap(node.cell);
-    REQUIRE(found.size() == expected.size());
-    if (found.empty()) continue;
-    const auto first = std::find(expected.begin(), expected.end(), found.front());
-    REQUIRE(first != expected.end());
-    std::rotate(expected.begin(), first, expected.end());
-    REQUIRE(found == expected);
-  }
-}
-
 std::vector<Index> ends_of(const MorseSmaleComplex& complex, Index saddle) {
   std::vector<Index> ends;
   for (Index k = 0; k < 4; ++k) ends.push_back(complex.arc_end(4 * saddle + k));
   return ends;
 }
+
+bool is_at(const Point& a, const Point& b) { return a == b; }
 
 bool same_bits(const MorseSmaleComplex& a, const MorseSmaleComplex& b) {
   if (a.node_count() != b.node_count() || a.arc_count() != b.arc_count()) return false;
@@ -212,18 +128,18 @@ TEST_CASE("a dome in a disc") {
   CHECK(complex.node(1).vertex == 6);
   CHECK(complex.node(2).vertex == 0);
   CHECK(complex.node(3).kind == NodeKind::cap);
-  CHECK(node_cell(complex, 1) == Cell{5, 6});
+  CHECK(mesh.edge_vertices(complex.node(1).cell) == std::array<Index, 2>{5, 6});
   // Edge 5-6 runs along the boundary: its inner triangle is on the left and leads to the maximum.
   CHECK(ends_of(complex, 0) == std::vector<Index>{0, 3, 0, 2});
   CHECK(complex.quad_count() == 2);
   std::vector<Point> points;
   complex.trace(1, points);
   REQUIRE(points.size() == 2);
-  CHECK(points[0] == mesh.position(6));
-  CHECK(points[1] == (mesh.position(5) + mesh.position(6)) / 2);
+  CHECK(is_at(points[0], mesh.position(6)));
+  CHECK(is_at(points[1], (mesh.position(5) + mesh.position(6)) / 2));
   complex.trace(3, points);
-  CHECK(points.front() == mesh.position(6));
-  CHECK(points.back() == mesh.position(0));
+  CHECK(is_at(points.front(), mesh.position(6)));
+  CHECK(is_at(points.back(), mesh.position(0)));
   for (Index q = 0; q < 2; ++q) {
     const Quad quad = complex.quad(q);
     CHECK(quad.nodes[0] == 0);
@@ -262,69 +178,6 @@ TEST_CASE("the complex keeps every invariant on every mesh and field") {
       }
 }
 
-TEST_CASE("arcs and cyclic orders are those of plain tracing") {
-  for (const NamedMesh& entry : mesh_zoo())
-    for (const unsigned seed : {31u, 32u})
-      for (const NamedField& f : field_zoo(entry.mesh, seed)) {
-        INFO(entry.name << " | " << f.name << " | seed " << seed);
-        check_against_oracle(MorseSmaleComplex(f.field), ComplexOracle(f.field));
-      }
-}
-
-TEST_CASE("an arc is a chain of neighbours from its saddle to its end") {
-  for (const NamedMesh& entry : mesh_zoo())
-    for (const NamedField& f : field_zoo(entry.mesh, 41)) {
-      INFO(entry.name << " | " << f.name);
-      const MorseSmaleComplex complex(f.field);
-      const TriangleMesh& mesh = entry.mesh;
-      const auto corners = [&](Index t) {
-        const auto& [a, b, c] = mesh.triangle(t);
-        return std::array{mesh.position(a), mesh.position(b), mesh.position(c)};
-      };
-      std::vector<Index> cells;
-      std::vector<Point> points;
-      for (Index a = 0; a < complex.arc_count(); ++a) {
-        complex.trace_cells(a, cells);
-        complex.trace(a, points);
-        const Node saddle = complex.node(complex.arc_saddle(a));
-        const Node end = complex.node(complex.arc_end(a));
-        REQUIRE(points.size() >= 2);
-        REQUIRE(points.front() == mesh.position(saddle.vertex));
-        if (end.kind != NodeKind::cap) REQUIRE(points.back() == mesh.position(end.vertex));
-        if (MorseSmaleComplex::arc_kind(a) == ArcKind::descending) {
-          REQUIRE(points.size() == cells.size());
-          std::vector<Index> ring;
-          for (std::size_t i = 0; i < cells.size(); ++i) {
-            REQUIRE(points[i] == mesh.position(cells[i]));
-            if (i == 0) continue;
-            mesh.neighbors(cells[i], ring);
-            REQUIRE(std::find(ring.begin(), ring.end(), cells[i - 1]) != ring.end());
-            REQUIRE(f.field.is_lower(cells[i], cells[i - 1]));
-          }
-          continue;
-        }
-        // Saddle, then a barycentre and the midpoint of a side for each triangle, the last side's place taken
-        // by the maximum.
-        REQUIRE(points.size() == (cells.empty() ? 2 : 1 + 2 * cells.size()));
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-          const auto here = corners(cells[i]);
-          REQUIRE((points[2 * i + 1] - (here[0] + here[1] + here[2]) / 3).norm() < 1e-12);
-          const bool last = i + 1 == cells.size();
-          if (last && end.kind == NodeKind::maximum) continue;
-          bool on_side = false;
-          for (int k = 0; k < 3; ++k) {
-            const Index h = 3 * cells[i] + static_cast<Index>(k);
-            if (((here[k] + here[(k + 1) % 3]) / 2 - points[2 * i + 2]).norm() > 1e-12) continue;
-            const Index across = mesh.twin(h);
-            on_side =
-                last ? across == kNone : across != kNone && TriangleMesh::triangle_of(across) == cells[i + 1];
-          }
-          REQUIRE(on_side);
-        }
-      }
-    }
-}
-
 TEST_CASE("the complex at vertices of degree ten thousand") {
   for (const TriangleMesh& mesh : {wheel(10000).mesh(), shuffled(bipyramid(10000), 2).mesh()})
     for (const unsigned seed : {1u, 2u})
@@ -356,34 +209,6 @@ TEST_CASE("the complex is the same for every number of threads") {
     const MorseSmaleComplex one = complex_with(1);
     CHECK(same_bits(one, complex_with(2)));
     CHECK(same_bits(one, complex_with(7)));
-  }
-}
-
-TEST_CASE("the graph of the complex") {
-  for (const NamedMesh& entry : mesh_zoo()) {
-    INFO(entry.name);
-    const MorseSmaleComplex complex(ScalarField(entry.mesh, random_values(entry.mesh.vertex_count(), 61)));
-    const mscomplex::MorseSmaleGraph graph = mscomplex::graph(complex);
-    REQUIRE(boost::num_vertices(graph) == complex.node_count());
-    REQUIRE(boost::num_edges(graph) == complex.arc_count());
-    Index arc = 0;
-    for (auto [edge, end] = boost::edges(graph); edge != end; ++edge, ++arc) {
-      CHECK(graph[*edge].arc == arc);
-      CHECK(graph[*edge].kind == MorseSmaleComplex::arc_kind(arc));
-      CHECK(boost::source(*edge, graph) == complex.arc_saddle(arc));
-      CHECK(boost::target(*edge, graph) == complex.arc_end(arc));
-    }
-    for (Index n = 0; n < complex.node_count(); ++n) {
-      Index degree = 0;
-      complex.for_each_arc_around(n, [&](Index) { ++degree; });
-      CHECK(boost::out_degree(n, graph) == degree);
-      CHECK(graph[n].vertex == complex.node(n).vertex);
-    }
-    // A component of the surface with saddles is one of the graph; one without falls into minimum and top.
-    std::vector<int> component(complex.node_count());
-    const auto components = static_cast<Index>(boost::connected_components(graph, component.data()));
-    CHECK(components >= entry.mesh.component_count());
-    CHECK(components <= 2 * entry.mesh.component_count());
   }
 }
 

@@ -55,10 +55,11 @@ void check_invariants(const core::ScalarField& field) {
 
 TEST_CASE("invariants hold for every field that a method returns") {
   std::vector<tools::MethodChain> chains;
-  for (const char* text : {"conventional", "salient:iterations=2,sigma=0.6", "salient:iterations=3,sigma=0.6,range=local",
-                           "salient:iterations=2,sigma=0.6,classify=saliency", "tps:threshold=10%", "tps:threshold=0",
-                           "tps:threshold=1000%", "tps:count=6", "salient:iterations=1,sigma=0.6+tps:threshold=5%",
-                           "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
+  for (const char* text :
+       {"conventional", "salient:iterations=2,sigma=0.6", "salient:iterations=3,sigma=0.6,range=local",
+        "salient:iterations=2,sigma=0.6,classify=saliency", "tps:threshold=10%", "tps:threshold=0",
+        "tps:threshold=1000%", "tps:count=6", "salient:iterations=1,sigma=0.6+tps:threshold=5%",
+        "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
     chains.push_back(tools::make_method(text));
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& f : field_zoo(entry.mesh, 23))

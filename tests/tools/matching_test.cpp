@@ -64,7 +64,8 @@ std::size_t moved_by_brute_force(const TriangleMesh& mesh, const CriticalPoints&
 }  // namespace
 
 TEST_CASE("a point is kept if the first has the same type at the same vertex") {
-  const Matching m = match_critical_points(strip(), points({{1, kMin}, {5, kMax}}), points({{1, kMin}, {5, kMin}}), 0);
+  const Matching m =
+      match_critical_points(strip(), points({{1, kMin}, {5, kMax}}), points({{1, kMin}, {5, kMin}}), 0);
   CHECK(m.kept.size() == 1);
   CHECK(m.moved.empty());
   CHECK(m.added == 1);
@@ -84,7 +85,8 @@ TEST_CASE("matching is one to one and the nearest pair goes first") {
   CHECK(m.moved[0].reference == 1);
   CHECK(m.removed == 1);
   // 3 takes 4, so 2 has to be content with 0.
-  const Matching chain = match_critical_points(strip(), points({{2, kMin}, {3, kMin}}), points({{0, kMin}, {4, kMin}}), 3);
+  const Matching chain =
+      match_critical_points(strip(), points({{2, kMin}, {3, kMin}}), points({{0, kMin}, {4, kMin}}), 3);
   CHECK(chain.moved.size() == 2);
 }
 

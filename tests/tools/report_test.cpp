@@ -29,9 +29,12 @@ TEST_CASE("a document written piece by piece is the document") {
   stream.member("deep", true);
   stream.end_object();
   stream.end_object();
-  const Json expected = {{"text", "quote \" and \\ and ü"}, {"number", 0.1},
-                         {"nested", {{"a", {1, 2}}, {"b", nullptr}}}, {"empty", Json::array()},
-                         {"items", {{{"x", 1}}, 2}}, {"inner", {{"deep", true}}}};
+  const Json expected = {{"text", "quote \" and \\ and ü"},
+                         {"number", 0.1},
+                         {"nested", {{"a", {1, 2}}, {"b", nullptr}}},
+                         {"empty", Json::array()},
+                         {"items", {{{"x", 1}}, 2}},
+                         {"inner", {{"deep", true}}}};
   CHECK(Json::parse(out.str()) == expected);
 }
 

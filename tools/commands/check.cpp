@@ -38,7 +38,8 @@ void print_differences(const std::vector<Difference>& differences, bool all) {
   constexpr std::size_t kShown = 20;
   const std::size_t shown = all ? differences.size() : std::min(kShown, differences.size());
   for (std::size_t i = 0; i < shown; ++i)
-    std::cout << "  " << differences[i].where << ": " << differences[i].before << " -> " << differences[i].after << '\n';
+    std::cout << "  " << differences[i].where << ": " << differences[i].before << " -> "
+              << differences[i].after << '\n';
   if (shown < differences.size())
     std::cout << "  … and " << differences.size() - shown << " more (--all shows them)\n";
 }
@@ -62,8 +63,8 @@ int check(const Options& options, Console& console) {
               << (report.request.methods.size() == 1 ? "" : "s") << " on " << report.mesh_path << ")\n";
     return kDone;
   }
-  std::cout << options.report << ": " << differences.size() << " difference" << (differences.size() == 1 ? "" : "s")
-            << " (report -> now)\n";
+  std::cout << options.report << ": " << differences.size() << " difference"
+            << (differences.size() == 1 ? "" : "s") << " (report -> now)\n";
   print_differences(differences, options.all);
   return kDifferences;
 }
@@ -77,7 +78,8 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command.add_flag("--all", options->all, "Show every difference, not only the first 20");
   add_common_options(command, invocation.common, false);
   command.footer(
-      "The mesh is looked for from the working folder, then from the report's folder. Timings and the program's\n"
+      "The mesh is looked for from the working folder, then from the report's folder. Timings and the "
+      "program's\n"
       "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.");
   command.callback([options, &invocation] {
     invocation.action = [options](Console& console) { return check(*options, console); };

@@ -46,7 +46,8 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
 
   const Stopwatch load_watch;
-  const core::LoadedMesh loaded = core::read_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  const core::LoadedMesh loaded =
+      core::read_mesh(options.mesh, {.repair = common.repair}, console.progress());
   ReportInput input{options.mesh, "", common.repair, load_watch.seconds()};
 
   Announcer announcer(console);
@@ -78,10 +79,13 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
 void add_compare(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<Options>();
   CLI::App& command =
-      *app.add_subcommand("compare", "Run methods on a field and hold their critical points, diagrams and complexes\n"
-                                     "against each other");
+      *app.add_subcommand("compare",
+                          "Run methods on a field and hold their critical points, diagrams and complexes\n"
+                          "against each other");
   command.add_option("MESH", options->mesh, kMeshHelp)->required();
-  command.add_option("--field", options->request.field, "Morse function (below)")->type_name("F")->capture_default_str();
+  command.add_option("--field", options->request.field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
   command
       .add_option("--method", options->request.methods,
                   "A method or chain of methods (below); may be given several times\n"

@@ -24,8 +24,9 @@ int write(const Options& options, const CommonOptions& common, Console& console)
   const core::Progress progress = console.progress();
   core::LoadedSoup file = core::read_polygon_soup(options.mesh, progress);
   core::BuiltMesh built = core::build_mesh(file.soup, {.repair = common.repair});
-  const core::LoadedMesh loaded{std::move(built.mesh),
-                                {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
+  const core::LoadedMesh loaded{
+      std::move(built.mesh),
+      {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
   const FieldOutcome input = evaluate_field(loaded, function, progress);
   const core::ScalarField field = apply_chain(chain, loaded, function, input.field, progress);
   write_field(options.output, field, loaded.source.numbering, file.soup.positions, function.name);
@@ -39,13 +40,16 @@ void add_field(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("field", "Write one scalar field, as it is or after a method");
   command.add_option("MESH", options->mesh, kMeshHelp)->required();
-  command.add_option("--field", options->field, "Morse function (below)")->type_name("F")->capture_default_str();
+  command.add_option("--field", options->field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
   command.add_option("--method", options->method, "A method or chain of methods (below)")
       ->type_name("M")
       ->capture_default_str();
   command
-      .add_option("-o,--output", options->output,
-                  ".txt (a value a line), .ply or .vtp (the surface with the values), in the input's vertex numbers")
+      .add_option(
+          "-o,--output", options->output,
+          ".txt (a value a line), .ply or .vtp (the surface with the values), in the input's vertex numbers")
       ->type_name("OUT")
       ->required();
   add_common_options(command, invocation.common);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "morsel/core/mesh_io.h"
+#include "morsel/core/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/sha256.h"
@@ -98,12 +99,14 @@ void print_text(const std::string& path, const Findings& findings, bool repair_t
     line("bounding box", point(box.min) + " to " + point(box.max));
     line("its diagonal", core::shortest(box.diagonal()));
     line("eps (0.3 % of it)", core::shortest(mesh.epsilon()));
-    for (const core::Repair& repair : findings.built->repairs) line("repair", repair.action + ": " + grouped(repair.count));
+    for (const core::Repair& repair : findings.built->repairs)
+      line("repair", repair.action + ": " + grouped(repair.count));
   } else {
     line("vertices", grouped(findings.file.soup.positions.size()));
     line("polygons", grouped(findings.file.soup.polygon_count()));
   }
-  for (const core::VertexProperty& property : findings.file.properties) line("vertex property", property.name);
+  for (const core::VertexProperty& property : findings.file.properties)
+    line("vertex property", property.name);
   if (findings.defects.empty()) line("defects", "none");
   for (const core::Defect& defect : findings.defects) {
     const std::string_view repair = core::repair_of(defect.kind);

@@ -7,8 +7,8 @@
 namespace morsel::tools {
 
 /// While it lives, the first SIGINT or SIGTERM requests a stop, so that the computation unwinds and leaves no
-/// half-written file; a second one ends the program at once. Made before any other thread, which then inherits the
-/// signal mask.
+/// half-written file; a second one ends the program at once. Made before any other thread, which then
+/// inherits the signal mask.
 class SignalWatch {
  public:
   SignalWatch();

@@ -11,9 +11,9 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
   return {function.name, std::move(result.field), std::move(result.parameters), watch.seconds()};
 }
 
-core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded, const NamedFunction& function,
-                              const core::ScalarField& field, const core::Progress& progress,
-                              std::vector<StepOutcome>* steps) {
+core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
+                              const NamedFunction& function, const core::ScalarField& field,
+                              const core::Progress& progress, std::vector<StepOutcome>* steps) {
   const core::MethodContext context{
       [&](const core::TriangleMesh& mesh) {
         return function.function->evaluate(mesh, {&loaded.source, progress}).field;
@@ -23,7 +23,8 @@ core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& 
   for (const MethodStep& step : chain.steps) {
     core::MethodResult result = step.method->apply(current, context);
     current = std::move(result.field);
-    if (steps != nullptr) steps->push_back({step.name, std::move(result.parameters), std::move(result.details)});
+    if (steps != nullptr)
+      steps->push_back({step.name, std::move(result.parameters), std::move(result.details)});
   }
   return current;
 }
@@ -40,7 +41,8 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
   auto gradient = timed("gradient", [&] { return mscomplex::DiscreteGradient(field, progress); });
   auto complex =
       timed("complex", [&] { return mscomplex::MorseSmaleComplex(field, std::move(gradient), progress); });
-  auto segments = timed("segmentation", [&] { return mscomplex::segment(field, complex.gradient(), progress); });
+  auto segments =
+      timed("segmentation", [&] { return mscomplex::segment(field, complex.gradient(), progress); });
   return {std::move(points), std::move(diagram), std::move(complex), std::move(segments)};
 }
 
@@ -60,8 +62,9 @@ void run_comparison(const core::LoadedMesh& loaded, const NamedFunction& functio
     if (!first) first = measurement.critical_points;
     Matching matching =
         match_critical_points(loaded.mesh, *first, measurement.critical_points, matching_radius(loaded.mesh));
-    const MethodOutcome outcome{chain.name,           std::move(steps),   std::move(field), std::move(measurement),
-                                std::move(matching), std::move(timings)};
+    const MethodOutcome outcome{
+        chain.specification,    chain.name,          std::move(steps),  std::move(field),
+        std::move(measurement), std::move(matching), std::move(timings)};
     for (ComparisonSink* sink : sinks) sink->method(outcome);
   }
 }

@@ -44,6 +44,7 @@ struct Measurement {
 
 /// A method's field and its measurement.
 struct MethodOutcome {
+  std::string specification;  ///< as given
   std::string name;
   std::vector<StepOutcome> steps;
   core::ScalarField field;
@@ -65,11 +66,12 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
                             const core::Progress& progress = {});
 
 /// Applies a chain of methods. `steps`, if given, receives what each step resolved and told.
-core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded, const NamedFunction& function,
-                              const core::ScalarField& field, const core::Progress& progress = {},
-                              std::vector<StepOutcome>* steps = nullptr);
+core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
+                              const NamedFunction& function, const core::ScalarField& field,
+                              const core::Progress& progress = {}, std::vector<StepOutcome>* steps = nullptr);
 
-/// Critical points, diagram, complex and segments of one field; each step's seconds are appended to `timings`.
+/// Critical points, diagram, complex and segments of one field; each step's seconds are appended to
+/// `timings`.
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress = {});
 
 /// Receives a comparison as it is made, so that no more than one method's results need be in memory.
@@ -81,7 +83,8 @@ class ComparisonSink {
   virtual void method(const MethodOutcome& outcome) = 0;
 };
 
-/// Runs `function` and then each chain in turn, telling every sink. Throws what functions, methods and sinks throw.
+/// Runs `function` and then each chain in turn, telling every sink. Throws what functions, methods and sinks
+/// throw.
 void run_comparison(const core::LoadedMesh& loaded, const NamedFunction& function,
                     const std::vector<MethodChain>& chains, const std::vector<ComparisonSink*>& sinks,
                     const core::Progress& progress = {});
@@ -89,7 +92,9 @@ void run_comparison(const core::LoadedMesh& loaded, const NamedFunction& functio
 /// Seconds since it was made.
 class Stopwatch {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -13,22 +13,25 @@ using core::Index;
 using morse::CriticalPoint;
 using morse::CriticalType;
 
-/// Matches what is left of one type: the nearest pair first. Each reference point has one candidate in the queue, its
-/// nearest free counterpart; where that was taken meanwhile, the next one is looked up. So memory stays linear.
+/// Matches what is left of one type: the nearest pair first. Each reference point has one candidate in the
+/// queue, its nearest free counterpart; where that was taken meanwhile, the next one is looked up. So memory
+/// stays linear.
 class NearestFirst {
  public:
   NearestFirst(const core::TriangleMesh& mesh, const std::vector<CriticalPoint>& reference,
                const std::vector<CriticalPoint>& other, double radius)
       : mesh_(mesh), reference_(reference), other_(other), radius_(radius) {}
 
-  void match(const std::vector<std::size_t>& lost, const std::vector<std::size_t>& found, std::vector<Match>& moved) {
+  void match(const std::vector<std::size_t>& lost, const std::vector<std::size_t>& found,
+             std::vector<Match>& moved) {
     if (lost.empty() || found.empty()) return;
     std::vector<core::Point> positions;
     for (const std::size_t j : found) positions.push_back(mesh_.position(other_[j].vertex));
     const core::PointSearch search(positions);
     std::vector<bool> taken(found.size(), false);
     std::vector<Index> near;
-    using Candidate = std::tuple<double, std::size_t, Index>;  // distance, reference point, position in `found`
+    using Candidate =
+        std::tuple<double, std::size_t, Index>;  // distance, reference point, position in `found`
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
     const auto propose = [&](std::size_t i) {
       const core::Point& center = mesh_.position(reference_[i].vertex);

@@ -22,13 +22,15 @@ struct Matching {
   std::size_t removed = 0;   ///< points of `reference` without one
 };
 
-/// Matches the points one to one: first those of the same type at the same vertex, then, type by type, always the
-/// nearest pair that is left within `radius` (Euclidean; ties by the vertices' numbers). Both lists ascend by vertex.
-/// O(m log m + m k), m points with k others in reach; memory O(m).
+/// Matches the points one to one: first those of the same type at the same vertex, then, type by type, always
+/// the nearest pair that is left within `radius` (Euclidean; ties by the vertices' numbers). Both lists
+/// ascend by vertex. O(m log m + m k), m points with k others in reach; memory O(m).
 Matching match_critical_points(const core::TriangleMesh& mesh, const morse::CriticalPoints& reference,
                                const morse::CriticalPoints& other, double radius);
 
 /// The radius that reports use: 2 % of the bounding box's diagonal.
-inline double matching_radius(const core::TriangleMesh& mesh) { return 0.02 * mesh.bounding_box().diagonal(); }
+inline double matching_radius(const core::TriangleMesh& mesh) {
+  return 0.02 * mesh.bounding_box().diagonal();
+}
 
 }  // namespace morsel::tools

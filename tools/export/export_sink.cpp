@@ -18,8 +18,8 @@ std::vector<std::int32_t> input_numbers(const core::LoadedMesh& loaded) {
   return numbers;
 }
 
-void write_surface(const std::filesystem::path& path, const core::LoadedMesh& loaded, const std::string& field_name,
-                   const MethodOutcome& outcome) {
+void write_surface(const std::filesystem::path& path, const core::LoadedMesh& loaded,
+                   const std::string& field_name, const MethodOutcome& outcome) {
   const Measurement& m = outcome.measurement;
   const std::vector<std::int32_t> numbers = input_numbers(loaded);
   std::vector<std::uint8_t> types(numbers.size(), 0);
@@ -60,13 +60,16 @@ core::Point loop_center(const core::TriangleMesh& mesh, core::Index loop) {
   return sum / static_cast<double>(mesh.boundary_loop(loop).size());
 }
 
-void write_complex(const std::filesystem::path& path, const core::LoadedMesh& loaded, const MethodOutcome& outcome) {
+void write_complex(const std::filesystem::path& path, const core::LoadedMesh& loaded,
+                   const MethodOutcome& outcome) {
   using mscomplex::NodeKind;
   const mscomplex::MorseSmaleComplex& complex = outcome.measurement.complex;
   std::vector<core::Point> points;
-  std::vector<std::uint8_t> kinds;        // 0 minimum, 1 saddle, 2 maximum, 3 cap; 4 descending arc, 5 ascending arc
-  std::vector<std::int32_t> vertices;     // a node's critical vertex, an arc's saddle, in the input's numbers
-  std::vector<std::int32_t> end_vertices; // where an arc ends, in the input's numbers; −1 for nodes and at caps
+  std::vector<std::uint8_t>
+      kinds;  // 0 minimum, 1 saddle, 2 maximum, 3 cap; 4 descending arc, 5 ascending arc
+  std::vector<std::int32_t> vertices;  // a node's critical vertex, an arc's saddle, in the input's numbers
+  std::vector<std::int32_t>
+      end_vertices;  // where an arc ends, in the input's numbers; −1 for nodes and at caps
   VtpDocument document;
   std::vector<std::int64_t> cell;
   for (core::Index n = 0; n < complex.node_count(); ++n) {
@@ -103,9 +106,11 @@ void write_complex(const std::filesystem::path& path, const core::LoadedMesh& lo
   write_vtp(path, document);
 }
 
-void write_points(const std::filesystem::path& path, const core::LoadedMesh& loaded, const MethodOutcome& outcome) {
+void write_points(const std::filesystem::path& path, const core::LoadedMesh& loaded,
+                  const MethodOutcome& outcome) {
   const Measurement& m = outcome.measurement;
-  const std::vector<double> persistence = persistence::vertex_persistence(m.diagram, loaded.mesh.vertex_count());
+  const std::vector<double> persistence =
+      persistence::vertex_persistence(m.diagram, loaded.mesh.vertex_count());
   core::FileWriter file(path);
   file.write("vertex,x,y,z,type,multiplicity,value,persistence\n");
   for (const morse::CriticalPoint& point : m.critical_points.points) {

@@ -5,6 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
+#include "morsel/core/mesh_writer.h"
 #include "morsel/tools/export/vtp_writer.h"
 
 namespace morsel::tools {
@@ -61,7 +62,8 @@ void write_field(const std::filesystem::path& path, const core::ScalarField& fie
     document.point_arrays = {{name, std::span<const double>(values)}};
     write_vtp(path, document);
   } else {
-    core::write_ply(path, input_positions, triangles, {{name, values}});
+    const core::VertexProperty property{name, values};
+    core::write_ply(path, input_positions, triangles, {&property, 1});
   }
 }
 

@@ -17,7 +17,11 @@ VtpArray::VtpArray(std::string array_name, std::span<const std::int64_t> values)
 VtpArray::VtpArray(std::string array_name, std::span<const std::uint8_t> values)
     : name(std::move(array_name)), type("UInt8"), data(values.data()), bytes(values.size_bytes()) {}
 VtpArray::VtpArray(std::string array_name, std::span<const core::Point> points)
-    : name(std::move(array_name)), type("Float64"), data(points.data()), bytes(points.size_bytes()), components(3) {}
+    : name(std::move(array_name)),
+      type("Float64"),
+      data(points.data()),
+      bytes(points.size_bytes()),
+      components(3) {}
 
 void VtpCells::add(std::span<const std::int64_t> points) {
   connectivity.insert(connectivity.end(), points.begin(), points.end());
@@ -37,7 +41,8 @@ namespace {
 /// Writes the XML head with each array's place in the appended block, then the block itself.
 class VtpWriter {
  public:
-  VtpWriter(const std::filesystem::path& path, const VtpDocument& document) : file_(path), document_(document) {}
+  VtpWriter(const std::filesystem::path& path, const VtpDocument& document)
+      : file_(path), document_(document) {}
 
   void write() {
     const auto count = [](const VtpCells& cells) { return std::to_string(cells.offsets.size()); };
@@ -69,8 +74,8 @@ class VtpWriter {
     file_.write("<" + name + ">\n");
     for (const VtpArray& array : arrays) {
       file_.write("<DataArray type=\"" + std::string(array.type) + "\" Name=\"" + array.name +
-                  "\" NumberOfComponents=\"" + std::to_string(array.components) + "\" format=\"appended\" offset=\"" +
-                  std::to_string(offset_) + "\"/>\n");
+                  "\" NumberOfComponents=\"" + std::to_string(array.components) +
+                  "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n");
       offset_ += sizeof(std::uint64_t) + array.bytes;
       appended_.push_back(array);
     }
@@ -90,6 +95,8 @@ class VtpWriter {
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document) { VtpWriter(path, document).write(); }
+void write_vtp(const std::filesystem::path& path, const VtpDocument& document) {
+  VtpWriter(path, document).write();
+}
 
 }  // namespace morsel::tools

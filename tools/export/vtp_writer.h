@@ -26,7 +26,8 @@ struct VtpArray {
   VtpArray(std::string array_name, std::span<const core::Point> points);
 };
 
-/// Cells as VTK stores them: cell i has the points connectivity[offsets[i − 1]] … connectivity[offsets[i] − 1].
+/// Cells as VTK stores them: cell i has the points connectivity[offsets[i − 1]] … connectivity[offsets[i] −
+/// 1].
 struct VtpCells {
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> offsets;

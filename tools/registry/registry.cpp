@@ -4,8 +4,8 @@
 #include <array>
 
 #include "morsel/core/error.h"
-#include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/salient.h"
@@ -16,20 +16,24 @@ namespace {
 
 constexpr std::array kFunctions = {
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
-    FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere", morse::make_mean_curvature},
+    FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
+                  morse::make_mean_curvature},
     FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
                   morse::make_vertex_scalar},
 };
 
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
-    MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field", morse::make_salient},
-    MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)", persistence::make_tps},
+    MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
+                morse::make_salient},
+    MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
+                persistence::make_tps},
 };
 
 template <class Entries>
 const auto& find_entry(const Entries& entries, const std::string& name, std::string_view kind) {
-  const auto entry = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == name; });
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == name; });
   if (entry != entries.end()) return *entry;
   std::string valid;
   for (const auto& e : entries) valid += (valid.empty() ? "" : ", ") + std::string(e.name);

@@ -1,6 +1,6 @@
 #pragma once
-/// The one list of Morse functions and the one list of methods. A new one is a header and source pair in its module
-/// and one line in registry.cpp.
+/// The one list of Morse functions and the one list of methods. A new one is a header and source pair in its
+/// module and one line in registry.cpp.
 
 #include <memory>
 #include <span>
@@ -48,7 +48,8 @@ struct MethodChain {
   std::vector<MethodStep> steps;
 };
 
-/// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch no file.
+/// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch no
+/// file.
 NamedFunction make_function(std::string_view specification);
 MethodChain make_method(std::string_view specification);
 

@@ -6,7 +6,8 @@
 namespace morsel::tools {
 namespace {
 
-/// Largest magnitude of the field's values and the mesh's positions in the report, the scale of its real numbers.
+/// Largest magnitude of the field's values and the mesh's positions in the report, the scale of its real
+/// numbers.
 double scale_of(const Json& report) {
   double scale = 0;
   const auto consider = [&](const char* section, const char* key) {
@@ -63,7 +64,8 @@ class Comparer {
       }
     }
     for (const auto& [key, value] : after.items())
-      if (!before.contains(key) && !(where.empty() && key == "timings")) add(prefix + key, "absent", summary(value));
+      if (!before.contains(key) && !(where.empty() && key == "timings"))
+        add(prefix + key, "absent", summary(value));
   }
 
   void compare_arrays(const Json& before, const Json& after, const std::string& where) {

@@ -4,12 +4,13 @@ namespace morsel::tools {
 
 Json repairs_section(const std::vector<core::Repair>& repairs) {
   Json list = Json::array();
-  for (const core::Repair& repair : repairs) list.push_back({{"action", repair.action}, {"count", repair.count}});
+  for (const core::Repair& repair : repairs)
+    list.push_back({{"action", repair.action}, {"count", repair.count}});
   return list;
 }
 
-Json mesh_section(const std::filesystem::path& path, const std::string& sha256, const core::TriangleMesh& mesh,
-                  const std::vector<core::Repair>& repairs) {
+Json mesh_section(const std::filesystem::path& path, const std::string& sha256,
+                  const core::TriangleMesh& mesh, const std::vector<core::Repair>& repairs) {
   return {{"path", path.string()},
           {"sha256", sha256},
           {"vertices", mesh.vertex_count()},

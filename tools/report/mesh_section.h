@@ -10,9 +10,10 @@
 
 namespace morsel::tools {
 
-/// The report's "mesh": path as given, hash, counts, topology, size and what repair did. Lengths in the mesh's unit.
-Json mesh_section(const std::filesystem::path& path, const std::string& sha256, const core::TriangleMesh& mesh,
-                  const std::vector<core::Repair>& repairs);
+/// The report's "mesh": path as given, hash, counts, topology, size and what repair did. Lengths in the
+/// mesh's unit.
+Json mesh_section(const std::filesystem::path& path, const std::string& sha256,
+                  const core::TriangleMesh& mesh, const std::vector<core::Repair>& repairs);
 
 /// [{"action": …, "count": …}, …]
 Json repairs_section(const std::vector<core::Repair>& repairs);

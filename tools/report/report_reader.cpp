@@ -8,17 +8,18 @@ namespace morsel::tools {
 
 LoadedReport read_report(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) throw core::BadInput("cannot read the report " + path.string());
+  if (!in || std::filesystem::is_directory(path))
+    throw core::BadInput("cannot read the report " + path.string());
   LoadedReport report;
   try {
     report.document = Json::parse(in);
   } catch (const Json::parse_error& error) {
     throw core::BadInput(path.string() + " is not JSON: " + error.what());
   }
-  const std::string schema =
-      report.document.is_object() && report.document.contains("schema") && report.document["schema"].is_string()
-          ? report.document["schema"].get<std::string>()
-          : "none";
+  const std::string schema = report.document.is_object() && report.document.contains("schema") &&
+                                     report.document["schema"].is_string()
+                                 ? report.document["schema"].get<std::string>()
+                                 : "none";
   if (schema != "morsel.comparison/1")
     throw core::BadInput(path.string() + " is not a comparison report: its schema is \"" + schema +
                          "\", not \"morsel.comparison/1\"");
@@ -32,7 +33,8 @@ LoadedReport read_report(const std::filesystem::path& path) {
   } catch (const Json::exception& error) {
     throw core::BadInput(path.string() + " is a damaged report: " + error.what());
   }
-  if (report.request.methods.empty()) throw core::BadInput(path.string() + " is a damaged report: it has no method");
+  if (report.request.methods.empty())
+    throw core::BadInput(path.string() + " is a damaged report: it has no method");
   return report;
 }
 

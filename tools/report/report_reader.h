@@ -20,8 +20,8 @@ struct LoadedReport {
 /// Throws BadInput if the file is missing, is not JSON, or is not a report of this schema.
 LoadedReport read_report(const std::filesystem::path& path);
 
-/// Where the report's mesh lies now: its path from the working folder, or else from the report's own folder. Empty if
-/// it is in neither place.
+/// Where the report's mesh lies now: its path from the working folder, or else from the report's own folder.
+/// Empty if it is in neither place.
 std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path);
 
 }  // namespace morsel::tools

@@ -20,7 +20,8 @@ Json timings_json(const Timings& timings) {
 Json by_step(const std::vector<StepOutcome>& steps, core::Parameters StepOutcome::*values) {
   if (steps.size() == 1) return to_json(steps.front().*values);
   Json list = Json::array();
-  for (const StepOutcome& step : steps) list.push_back({{"name", step.name}, {"values", to_json(step.*values)}});
+  for (const StepOutcome& step : steps)
+    list.push_back({{"name", step.name}, {"values", to_json(step.*values)}});
   return {{"steps", std::move(list)}};
 }
 
@@ -111,13 +112,16 @@ void ReportWriter::write_persistence(const MethodOutcome& outcome) {
   json_.member("max", diagram.finite_count == 0 ? Json() : Json(diagram.largest()));
   Json above = Json::array();
   for (const double percent : {0.1, 1.0, 5.0})
-    above.push_back(
-        {{"percent", percent},
-         {"pairs", diagram.count_above(percent / 100 * outcome.field.extent()) + diagram.cap_pairs().size()}});
+    above.push_back({{"percent", percent},
+                     {"pairs", diagram.count_above(percent / 100 * outcome.field.extent()) +
+                                   diagram.cap_pairs().size()}});
   json_.member("above", above);
   json_.begin_array("diagram");
-  const auto entry = [&](std::string_view kind, double birth, double death, core::Index born, core::Index dead) {
-    const auto number = [&](core::Index v) { return v == core::kNone ? Json() : Json(numbering.input_vertex(v)); };
+  const auto entry = [&](std::string_view kind, double birth, double death, core::Index born,
+                         core::Index dead) {
+    const auto number = [&](core::Index v) {
+      return v == core::kNone ? Json() : Json(numbering.input_vertex(v));
+    };
     json_.element({{"kind", kind},
                    {"birth", birth},
                    {"death", finite_or_null(death)},
@@ -128,7 +132,8 @@ void ReportWriter::write_persistence(const MethodOutcome& outcome) {
   for (const auto& pair : diagram.pairs) {
     const bool rising = pair.kind == PairKind::minimum_saddle;
     const core::Index other = pair.kind == PairKind::saddle_cap ? core::kNone : pair.extremum;
-    entry(to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle, rising ? pair.saddle : other);
+    entry(to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle,
+          rising ? pair.saddle : other);
   }
   const auto essential = [&](std::string_view kind, core::Index v) {
     entry(kind, outcome.field.value(v), persistence::kInfinite, v, core::kNone);

@@ -12,7 +12,7 @@ namespace morsel::tools {
 
 /// What the report says of its input besides the mesh itself.
 struct ReportInput {
-  std::string mesh_path;    ///< as the user gave it
+  std::string mesh_path;  ///< as the user gave it
   std::string mesh_sha256;
   bool repair = false;
   double load_seconds = 0;

@@ -32,7 +32,8 @@ std::string text_table(const std::vector<std::vector<std::string>>& rows) {
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
     if (r > 0) continue;
-    for (std::size_t i = 0; i < widths.size(); ++i) text += (i == 0 ? "" : "  ") + std::string(widths[i], '-');
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      text += (i == 0 ? "" : "  ") + std::string(widths[i], '-');
     text += "\n";
   }
   return text;
