@@ -9,7 +9,7 @@ set(needs "")
 foreach(module IN LISTS modules)
   install(TARGETS morsel_${module} EXPORT morselTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel
-          FILES_MATCHING PATTERN "*.h")
+          FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE)  # those of the program, not of a library
   get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
   set(packages ${linked})
   list(FILTER packages EXCLUDE REGEX "^morsel::")

@@ -1,4 +1,5 @@
-# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -P run.cmake: installs BUILD and uses what was installed.
+# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs BUILD and uses
+# what was installed.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -30,10 +31,25 @@ endforeach()
 
 configure_project(package)
 
+run(${CMAKE_COMMAND} --build ${WORK}/package)
+
 configure_project(example)
 run(${CMAKE_COMMAND} --build ${WORK}/example)
-run(${WORK}/example/example)
-if(NOT output MATCHES "maximum")
-  message(FATAL_ERROR "the example printed:\n${output}")
-endif()
+run(${WORK}/example/example ${MESH})
 message(STATUS "the example printed:\n${output}")
+if(NOT output MATCHES "^1895 critical points.*\n97 critical points")
+  message(FATAL_ERROR "the example is to print 1895 and 97 critical points")
+endif()
+
+# The program works from where it was installed, too.
+if(EXISTS ${WORK}/moved/bin/morsel)
+  run(${WORK}/moved/bin/morsel info ${MESH})
+endif()
+
+# The README shows this very example.
+file(READ ${SOURCE}/tests/consumer/example/main.cpp example)
+file(READ ${SOURCE}/README.md readme)
+string(FIND "${readme}" "```cpp\n${example}```" place)
+if(place EQUAL -1)
+  message(FATAL_ERROR "README.md does not show tests/consumer/example/main.cpp as it is")
+endif()

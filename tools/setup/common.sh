@@ -8,25 +8,24 @@ run=()  # a command that builds and tests run under
 note() { printf -- '-- %s\n' "$*" >&2; }
 
 fail() {
-  printf '%s: %s\n' "${0##*/}" "$*" >&2
+  printf 'tools/%s: %s\n' "${0##*tools/}" "$*" >&2
   exit 1
 }
 
-# as_root COMMAND…: runs it as root, through sudo if need be.
-as_root() {
-  if [[ $EUID -eq 0 ]]; then
-    "$@" >&2
-  elif command -v sudo > /dev/null; then
-    sudo -- "$@" >&2
-  else
-    fail "this needs root or sudo: $*"
-  fi
-}
-
-# apt_get ARGUMENTS…: as root, without questions, waiting for a package manager that is busy.
+# apt_get ARGUMENTS…: as root, through sudo if need be, without questions, waiting for a package manager that is busy.
+# What it says goes to build/apt.log and is shown if it fails.
 apt_get() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300 \
-    -o Acquire::Retries=3 "$@"
+  local command=(env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300
+    -o Acquire::Retries=3 "$@")
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo > /dev/null || fail "this needs root or sudo: apt-get $*"
+    command=(sudo -- "${command[@]}")
+  fi
+  mkdir -p "$root/build"
+  "${command[@]}" > "$root/build/apt.log" 2>&1 || {
+    tail -n 30 "$root/build/apt.log" >&2
+    return 1
+  }
 }
 
 # A repository that cannot be reached, perhaps one that has nothing to do with us, is no reason to stop: what follows

@@ -1,19 +1,23 @@
 #include <cstdio>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/mesh_io.h"
 #include "morsel/morse/critical_points.h"
+#include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/smoothing/salient.h"
+#include "morsel/mscomplex/complex.h"
+#include "morsel/persistence/pairing.h"
 
 using namespace morsel;
 
-int main() {
-  // An octahedron, its height along z.
-  const core::TriangleMesh mesh(
-      {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
-      {{0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 2}, {1, 3, 2}, {1, 4, 3}, {1, 5, 4}, {1, 2, 5}});
-  std::vector<double> height;
-  for (const core::Point& p : mesh.positions()) height.push_back(p.z());
-  const core::ScalarField field(mesh, height);
-  for (const morse::CriticalPoint& p : morse::classify(field).points)
-    std::printf("vertex %u: %s\n", p.vertex, std::string(to_string(p.type)).c_str());
+int main(int, char** arguments) {
+  const core::TriangleMesh mesh = core::read_mesh(arguments[1]).mesh;
+  const core::ScalarField curvature = morse::mean_curvature(mesh);
+  const core::ScalarField smoothed = morse::salient(curvature, {.iterations = 10}).field;
+  for (const core::ScalarField& field : {curvature, smoothed}) {
+    const morse::CriticalPoints points = morse::classify(field);
+    const persistence::Diagram diagram = persistence::pair_extrema(field);
+    const mscomplex::MorseSmaleComplex complex(field);
+    std::printf("%zu critical points, largest finite persistence %.3g, %u arcs\n", points.total(),
+                diagram.largest(), complex.arc_count());
+  }
 }
