@@ -1,15 +1,29 @@
 # Installation and the CMake package: find_package(morsel) gives morsel::core, morsel::morse, …
 include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/morsel)
 get_property(modules GLOBAL PROPERTY MORSEL_MODULES)
+
+# What find_package(morsel) must find first, module by module: the packages of all that consumers are linked with. The
+# targets are named PACKAGE::TARGET, or morsel::MODULE.
+set(needs "")
 foreach(module IN LISTS modules)
   install(TARGETS morsel_${module} EXPORT morselTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel
-          FILES_MATCHING PATTERN "*.h")
+          FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE)  # those of the program, not of a library
+  get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
+  set(packages ${linked})
+  list(FILTER packages EXCLUDE REGEX "^morsel::")
+  list(TRANSFORM packages REPLACE "::.*" "")
+  list(REMOVE_DUPLICATES packages)
+  list(FILTER linked INCLUDE REGEX "^morsel::")
+  list(TRANSFORM linked REPLACE "^morsel::" "")
+  string(APPEND needs "set(_morsel_${module}_packages ${packages})\nset(_morsel_${module}_modules ${linked})\n")
 endforeach()
-install(EXPORT morselTargets NAMESPACE morsel:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/morsel)
+
+install(EXPORT morselTargets NAMESPACE morsel:: DESTINATION ${package_folder})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/morselConfig.cmake.in ${PROJECT_BINARY_DIR}/morselConfig.cmake
-                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/morsel)
+                              INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/morselConfigVersion.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/morsel)
+        DESTINATION ${package_folder})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

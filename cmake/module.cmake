@@ -1,5 +1,7 @@
 # morsel_add_module(NAME SOURCES … DEPENDS … PRIVATE_DEPENDS …): the library target morsel_NAME, alias morsel::NAME,
 # whose headers are included as "morsel/NAME/….h" in the build tree and after installation alike.
+#   DEPENDS          what its headers include or what it is linked with: consumers of the installed package get these too
+#   PRIVATE_DEPENDS  what only its sources include; of these, consumers need those that are more than headers
 function(morsel_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
   set(target morsel_${name})
@@ -15,8 +17,19 @@ function(morsel_add_module name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # The same expression gives the same bits with every compiler and processor: no fused multiply-adds of its choosing.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                         -Wno-restrict  # g++ 12 reports string concatenation
+                         $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 reports string concatenation
                          -ffp-contract=off)
-  target_link_libraries(${target} PUBLIC ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
+  target_link_libraries(${target} PUBLIC ${arg_DEPENDS})
+  set(linked ${arg_DEPENDS})
+  foreach(dependency IN LISTS arg_PRIVATE_DEPENDS)
+    get_target_property(type ${dependency} TYPE)
+    if(type STREQUAL INTERFACE_LIBRARY)  # headers: nothing of it is left in the library
+      target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${dependency}>)
+    else()
+      target_link_libraries(${target} PRIVATE ${dependency})
+      list(APPEND linked ${dependency})
+    endif()
+  endforeach()
   set_property(GLOBAL APPEND PROPERTY MORSEL_MODULES ${name})
+  set_property(GLOBAL PROPERTY MORSEL_LINKED_${name} ${linked})
 endfunction()

@@ -142,7 +142,18 @@ std::string ParameterReader::text(std::string_view key, const char* default_valu
   const bool required = default_value == nullptr;
   const std::string fallback = required ? "" : default_value;
   const std::string* text = declare(key, fallback, description, required);
-  return text == nullptr ? fallback : *text;
+  return text == nullptr ? fallback : unescape(*text);
+}
+
+std::vector<std::string> ParameterReader::list(std::string_view key, const char* default_value,
+                                               std::string_view description) {
+  const bool required = default_value == nullptr;
+  const std::string fallback = required ? "" : default_value;
+  const std::string* given_text = declare(key, fallback, description, required);
+  std::vector<std::string> items;
+  for (const std::string_view item : split_unescaped(given_text == nullptr ? fallback : *given_text, '/'))
+    items.push_back(unescape(item));
+  return items;
 }
 
 void ParameterReader::finish() const {

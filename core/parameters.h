@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "morsel/core/length.h"
+#include "morsel/core/specification.h"
 
 namespace morsel::core {
 
@@ -25,12 +26,6 @@ struct ParameterInfo {
   std::string key;
   std::string default_value;  ///< as text; empty if the key must be given
   std::string description;
-};
-
-/// A name and its keys as the user gave them: "salient" and {iterations: "10", …}.
-struct Specification {
-  std::string name;
-  std::vector<std::pair<std::string, std::string>> given;
 };
 
 /// Inclusive or exclusive lower bound and inclusive upper bound of a number.
@@ -59,6 +54,10 @@ class ParameterReader {
                      const std::vector<std::string_view>& choices, std::string_view description);
   /// Free text; a null default makes the key one that must be given.
   std::string text(std::string_view key, const char* default_value, std::string_view description);
+  /// Texts separated by "/"; the default is given in the same form, null makes the key one that must be
+  /// given.
+  std::vector<std::string> list(std::string_view key, const char* default_value,
+                                std::string_view description);
   /// Whether the key was given; declares nothing.
   bool given(std::string_view key) const;
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
 
 namespace morsel::morse {
@@ -15,41 +16,14 @@ std::string_view to_string(CriticalType type) {
 }
 
 CriticalPoint classify_vertex(const core::ScalarField& field, Index v) {
-  const core::TriangleMesh& mesh = field.mesh();
   const auto rank = field.ranks();
   const Index center = rank[v];
-  const Index start = mesh.vertex_halfedge(v);
-  const bool boundary = mesh.twin(start) == core::kNone;
-  // Walk the link once and count where it turns from upper to lower; the cap closes a boundary fan as an
-  // upper one.
-  bool previous_lower = boundary ? false : rank[mesh.target(start)] < center;
-  const bool first_lower = previous_lower;
-  bool any_lower = previous_lower;
-  bool any_upper = boundary || !previous_lower;
-  Index lower_runs = 0;
-  const auto visit = [&](Index u) {
-    const bool lower = rank[u] < center;
-    lower_runs += static_cast<Index>(lower && !previous_lower);
-    any_lower |= lower;
-    any_upper |= !lower;
-    previous_lower = lower;
-  };
-  Index h = boundary ? start : mesh.next_around(start);
-  if (boundary) {
-    Index last = h;
-    for (; h != core::kNone; h = mesh.next_around(h)) {
-      visit(mesh.target(h));
-      last = h;
-    }
-    visit(mesh.apex(last));
-  } else {
-    for (; h != start; h = mesh.next_around(h)) visit(mesh.target(h));
-    lower_runs += static_cast<Index>(first_lower && !previous_lower);
-  }
-  if (!any_lower) return {v, CriticalType::minimum, 1};
-  if (!any_upper) return {v, CriticalType::maximum, 1};
-  if (lower_runs <= 1) return {v, CriticalType::regular, 1};
-  return {v, CriticalType::saddle, lower_runs - 1};
+  const core::LinkPart lower = core::link_part(
+      field.mesh(), v, /*cap_inside=*/false, [&](Index u) { return rank[u] < center; }, [](Index) {});
+  if (lower.empty) return {v, CriticalType::minimum, 1};
+  if (lower.whole) return {v, CriticalType::maximum, 1};
+  if (lower.runs <= 1) return {v, CriticalType::regular, 1};
+  return {v, CriticalType::saddle, lower.runs - 1};
 }
 
 CriticalPoints classify(const core::ScalarField& field, const core::Progress& progress) {

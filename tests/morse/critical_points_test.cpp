@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "morsel/core/parallel.h"
 #include "support/fields.h"
+#include "support/link_oracle.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -39,7 +41,7 @@ TEST_CASE("a boundary vertex is never a maximum") {
   CHECK(down.saddle_multiplicity == 1);
 }
 
-TEST_CASE("Euler identity, component by component, for every field on every mesh") {
+TEST_CASE("Euler identity component by component for every field on every mesh") {
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& f : field_zoo(entry.mesh, 11)) {
       INFO(entry.name << ", " << f.name);
@@ -51,4 +53,59 @@ TEST_CASE("Euler identity, component by component, for every field on every mesh
       for (Index c = 0; c < entry.mesh.component_count(); ++c)
         CHECK(sum[c] == entry.mesh.euler_characteristic(c));
     }
+}
+
+TEST_CASE("types and multiplicities are those of the links for every field on every mesh") {
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const NamedField& f : field_zoo(entry.mesh, 12)) {
+      INFO(entry.name << ", " << f.name);
+      const auto links = link_components(entry.mesh, {f.field.values().begin(), f.field.values().end()});
+      std::vector<morse::CriticalPoint> expected;
+      for (Index v = 0; v < entry.mesh.vertex_count(); ++v) {
+        const auto [lower, upper] = links[v];
+        if (lower == 0)
+          expected.push_back({v, CriticalType::minimum, 1});
+        else if (upper == 0)
+          expected.push_back({v, CriticalType::maximum, 1});
+        else if (lower > 1)
+          expected.push_back({v, CriticalType::saddle, static_cast<Index>(lower - 1)});
+        if (lower > 0 && upper > 0) CHECK(lower == upper);
+      }
+      CHECK(morse::classify(f.field).points == expected);
+    }
+}
+
+TEST_CASE("negating a field swaps minima and maxima on closed meshes") {
+  for (const NamedMesh& entry : mesh_zoo()) {
+    if (!entry.mesh.is_closed()) continue;
+    for (const NamedField& f : field_zoo(entry.mesh, 13)) {
+      INFO(entry.name << ", " << f.name);
+      std::vector<morse::CriticalPoint> swapped = morse::classify(f.field.negated()).points;
+      for (morse::CriticalPoint& p : swapped)
+        if (p.type != CriticalType::saddle)
+          p.type = p.type == CriticalType::minimum ? CriticalType::maximum : CriticalType::minimum;
+      CHECK(swapped == morse::classify(f.field).points);
+    }
+  }
+}
+
+TEST_CASE("classification gives the same for every number of threads") {
+  const TriangleMesh mesh = shuffled(sphere(5), 3).mesh();
+  const ScalarField field(mesh, random_values(mesh.vertex_count(), 5));
+  const CriticalPoints serial = [&] {
+    const core::ThreadLimit one(1);
+    return morse::classify(field);
+  }();
+  CHECK(serial.total() == serial.points.size());
+  for (const int threads : {2, 7}) {
+    const core::ThreadLimit limit(threads);
+    CHECK(morse::classify(field).points == serial.points);
+  }
+}
+
+TEST_CASE("classification can be cancelled") {
+  std::stop_source stop;
+  stop.request_stop();
+  const ScalarField field(octahedron().mesh(), {1, -1, 0, 0.1, 0.2, 0.3});
+  CHECK_THROWS_AS(morse::classify(field, core::Progress({}, stop.get_token())), core::Cancelled);
 }

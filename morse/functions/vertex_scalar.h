@@ -1,0 +1,38 @@
+#pragma once
+/// Values that come with the mesh: from a text file, or from a property of the mesh's own file.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/core/method.h"
+#include "morsel/core/scalar_field.h"
+
+namespace morsel::morse {
+
+/// Exactly one of the two.
+struct VertexScalarOptions {
+  /// One value a line for each vertex of the mesh's file, in its order. Blank lines and what follows a # do
+  /// not count.
+  std::filesystem::path file;
+  /// Name of a scalar that the mesh's file gives for its vertices (PLY).
+  std::string property;
+};
+
+/// The field with the given values. They are numbered as the vertices of the mesh's *file*, so `source` tells
+/// where each went (null: a mesh made in memory, with the numbers of its own vertices). Where several of the
+/// file's vertices became one, the one that names it (VertexNumbering::to_input) gives its value; values of
+/// vertices that were dropped are not used and may be nan.
+///
+/// Throws InvalidArgument unless one of file and property is set; BadInput, naming file, line and value, if
+/// the file is missing or unreadable, a line is not one number, there are too few or too many values, a
+/// vertex of the mesh has a non-finite one, or the property does not exist (listing those that do). O(n log
+/// n).
+core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::MeshSource* source,
+                                const VertexScalarOptions& options, const core::Progress& progress = {});
+
+/// Keys: file=PATH or property=NAME. The file is read when the function is evaluated.
+std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& reader);
+
+}  // namespace morsel::morse

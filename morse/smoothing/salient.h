@@ -1,0 +1,86 @@
+#pragma once
+/// Salient smoothing: the paper's iterated bilateral filter of a scalar field.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "morsel/core/length.h"
+#include "morsel/core/method.h"
+#include "morsel/core/progress.h"
+#include "morsel/core/scalar_field.h"
+
+namespace morsel::morse {
+
+/// How σ_s, the standard deviation of the weight of values, is chosen.
+struct ValueRange {
+  enum class Kind : std::uint8_t {
+    deviations,  ///< `value` standard deviations (population's, over vertices) of the input, fixed once
+    local,       ///< the largest abs(f(x) − f(v)) in v's neighbourhood, anew in each iteration
+    literal,     ///< σ, a length: the paper's text as it stands
+    fixed        ///< `value`, in the field's unit
+  };
+  Kind kind = Kind::deviations;
+  double value = 1;  ///< finite and above 0; only for deviations and fixed
+
+  friend bool operator==(const ValueRange&, const ValueRange&) = default;
+};
+
+/// "1std", "0.5std", "local", "literal" or a number; throws InvalidArgument, naming `what`, on anything else.
+ValueRange parse_value_range(std::string_view text, std::string_view what);
+/// The text that reads back as the same.
+std::string to_string(const ValueRange& range);
+
+/// What one iteration made.
+struct SalientIteration {
+  int number;                        ///< 1, 2, …
+  std::span<const double> values;    ///< f after it, per vertex
+  std::span<const double> saliency;  ///< the S that it added
+};
+
+struct SalientOptions {
+  int iterations = 10;                             ///< 0 returns the input as it is
+  core::Length sigma = core::Length::epsilons(8);  ///< σ, above 0
+  ValueRange range = {};                           ///< σ_s
+  double support = 2;                              ///< the neighbourhood's radius in σ, above 0
+  bool return_saliency = false;                    ///< return the last S instead of f
+  /// Called after each iteration, by the calling thread; the spans live as long as the call. Observing costs
+  /// no second run: a run of 20 iterations passes through the results of 1 … 19.
+  std::function<void(const SalientIteration&)> on_iteration = {};
+  /// Most bytes for storing neighbours between iterations; without enough of it they are searched for in
+  /// every iteration, which takes longer and gives the same bits.
+  std::size_t memory = std::size_t{1} << 30;
+};
+
+struct SalientResult {
+  core::ScalarField field;
+  double sigma;                   ///< σ in the mesh's unit
+  std::optional<double> sigma_s;  ///< σ_s in the field's unit where it is fixed, that is unless local
+  std::uint64_t pairs = 0;        ///< pairs (v, x) that an iteration visits, v itself included
+};
+
+/// Iterates f(v) ← f(v) + S(v), for all v at once, with
+///
+///   S(v) = Σ_x (f(x) − f(v)) W_c W_s / Σ_x W_c W_s over the vertices x with ‖x − v‖ ≤ support · σ,
+///   W_c = exp(−‖x − v‖² / 2σ²), W_s = exp(−(f(x) − f(v))² / 2σ_s²)
+///
+/// (the paper's equations 3 and 4 and Listing 1, with f taken from the Morse function once, not in every
+/// iteration). Distances are Euclidean; what is in reach is decided in double precision. S is 0 where σ_s is
+/// 0. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
+/// that nothing overflows or vanishes on the way.
+///
+/// O(iterations · n · neighbours), parallel, the same bits for every number of threads. Throws
+/// InvalidArgument on options out of range, and if the saliency of no iteration is asked for; BadInput if σ
+/// comes to nothing on a mesh whose vertices all coincide.
+SalientResult salient(const core::ScalarField& input, const SalientOptions& options = {},
+                      const core::Progress& progress = {});
+
+/// Keys: iterations, sigma, range, support, classify=smoothed|saliency.
+std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
+
+}  // namespace morsel::morse

@@ -1,0 +1,49 @@
+#pragma once
+/// How many pairs to cancel for a wanted number of critical points. For the module's own use.
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/core/scalar_field.h"
+#include "morsel/persistence/canceller.h"
+
+namespace morsel::persistence::detail {
+
+/// Each pair takes an extremum and one of a saddle's multiplicity away; whether a saddle vertex goes with it
+/// depends on where the multiple saddles of the cancelled field come to lie, which is seen only by
+/// cancelling. So an estimate leads to the neighbourhood, and numbers of pairs around are tried there.
+class CountSearch {
+ public:
+  /// `wanted` critical points. Runs the search: 2²² / n tries, but at least 12, of O(n) each.
+  CountSearch(const Canceller& canceller, std::size_t wanted, const core::Progress& progress);
+
+  /// The number of pairs whose cancelling comes closest, of two equally near results the lower; of several
+  /// numbers with one result the smallest that was tried.
+  std::size_t cancelled_pairs() const { return best_; }
+  std::size_t reached() const { return static_cast<std::size_t>(totals_.at(best_)); }
+  const core::ScalarField& field() const { return *field_; }
+  /// Why another number than the wanted one was reached; empty if it was reached.
+  std::string note() const;
+
+ private:
+  std::size_t nearest_estimate(long off) const;
+  long measure(std::size_t cancelled);
+  bool is_nearer(std::size_t a, std::size_t b) const;
+  bool is_done() const;
+
+  const Canceller& canceller_;
+  long wanted_;
+  std::vector<long> estimate_;          // per number of cancelled pairs, strictly falling
+  std::map<std::size_t, long> totals_;  // what was measured
+  long smallest_off_ = 0;               // of measured less estimated totals
+  long largest_off_ = 0;
+  std::size_t best_ = 0;
+  std::optional<core::ScalarField> field_;  // of best_
+  std::size_t tries_left_;
+};
+
+}  // namespace morsel::persistence::detail

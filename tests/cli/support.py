@@ -1,0 +1,72 @@
+"""Helpers of the command-line tests: running the program and making tiny meshes."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["MORSEL_PROGRAM"]
+SCHEMA = pathlib.Path(os.environ["MORSEL_SCHEMA"])
+SAMPLES = pathlib.Path(os.environ["MORSEL_SAMPLES"])
+
+OCTAHEDRON = """OFF
+6 8 0
+0 0 1
+0 0 -1
+1 0 0
+0 1 0
+-1 0 0
+0 -1 0
+3 0 2 3
+3 0 3 4
+3 0 4 5
+3 0 5 2
+3 1 3 2
+3 1 4 3
+3 1 5 4
+3 1 2 5
+"""
+
+# Vertex 1 is used by no face, face 2 is degenerate: repair drops both.
+DAMAGED = """OFF
+5 3 0
+0 0 0
+9 9 9
+1 0 0
+1 1 0
+0 1 0
+3 0 2 3
+3 0 3 4
+3 0 3 3
+"""
+
+
+class ProgramTest(unittest.TestCase):
+    """A test in a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def file(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def morsel(self, *arguments, code=0, cwd=None, **options):
+        """Runs the program; its exit code must be `code`, and an error must be one clear line on standard error."""
+        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=240,
+                                cwd=cwd or self.folder, check=False, **options)
+        self.assertEqual(result.returncode, code, f"{arguments}\n{result.stdout}\n{result.stderr}")
+        if code in (2, 3, 4, 5):
+            self.assertTrue(result.stderr.startswith("morsel: "), result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+            self.assertEqual(result.stdout, "")
+        return result
+
+    def report(self, *arguments, name="report.json"):
+        self.morsel("compare", *arguments, "-o", name)
+        return json.loads((self.folder / name).read_text())

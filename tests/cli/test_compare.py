@@ -1,0 +1,111 @@
+"""morsel compare: the table, the report, its schema and its numbers."""
+
+import json
+import unittest
+
+import jsonschema
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+
+
+class Compare(ProgramTest):
+    def test_report_of_a_drawn_mesh_has_the_right_numbers(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        report = self.report(mesh, "--field", "height:axis=z", "--method", "conventional")
+        self.assertEqual(report["mesh"]["vertices"], 6)
+        self.assertEqual(report["mesh"]["edges"], 12)
+        self.assertEqual(report["mesh"]["faces"], 8)
+        self.assertEqual(report["mesh"]["euler_characteristic"], 2)
+        self.assertEqual(report["mesh"]["path"], str(mesh))
+        self.assertEqual((report["field"]["min"], report["field"]["max"]), (-1, 1))
+        method, = report["methods"]
+        self.assertEqual(method["critical_points"],
+                         {"minima": 1, "saddles": 0, "saddle_multiplicity": 0, "maxima": 1, "total": 2})
+        self.assertEqual([(i["vertex"], i["type"], i["persistence"]) for i in method["items"]],
+                         [(0, "maximum", None), (1, "minimum", None)])
+        self.assertEqual(method["persistence"]["pairs"], 0)
+        self.assertIsNone(method["persistence"]["max"])
+        self.assertEqual(method["ms_complex"]["arcs"], 0)
+        self.assertEqual(method["compared_to_first"], {"kept": 2, "moved": 0, "added": 0, "removed": 0})
+
+    def test_reports_follow_the_schema(self):
+        schema = json.loads(SCHEMA.read_text())
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        chain = "salient:iterations=2,sigma=0.5,range=local+tps:threshold=1%"
+        for arguments in ([mesh], [mesh, "--field", "height:axis=x", "--method", chain], [SAMPLES / "lion-head.off"],
+                          [self.file("damaged.off", DAMAGED), "--repair"]):
+            jsonschema.validate(self.report(*arguments), schema)
+
+    def test_the_schema_refuses_what_it_should(self):
+        schema = json.loads(SCHEMA.read_text())
+        report = self.report(self.file("octahedron.off", OCTAHEDRON))
+        for spoil in (lambda r: r["mesh"].pop("sha256"), lambda r: r["methods"][0]["critical_points"].pop("total"),
+                      lambda r: r.update(schema="morsel.comparison/2"), lambda r: r.update(methods=[])):
+            spoiled = json.loads(json.dumps(report))
+            spoil(spoiled)
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate(spoiled, schema)
+
+    def test_the_lion_has_the_reference_counts(self):
+        report = self.report(SAMPLES / "lion-head.off")
+        names = [method["name"] for method in report["methods"]]
+        self.assertEqual(names, ["conventional", "salient", "tps"])
+        conventional, salient, tps = report["methods"]
+        self.assertEqual(conventional["critical_points"],
+                         {"minima": 462, "saddles": 934, "saddle_multiplicity": 960, "maxima": 499, "total": 1895})
+        self.assertAlmostEqual(salient["critical_points"]["total"], 97, delta=2)
+        self.assertEqual(conventional["persistence"]["pairs"], 960)
+        self.assertEqual([entry["pairs"] for entry in conventional["persistence"]["above"]], [734, 295, 98])
+        self.assertEqual(tps["persistence"]["above"][0]["pairs"], 734)
+        for method in report["methods"]:
+            counts, complex_ = method["critical_points"], method["ms_complex"]
+            self.assertEqual(counts["minima"] - counts["saddle_multiplicity"] + counts["maxima"], 1)
+            self.assertEqual(counts["total"], len(method["items"]))
+            self.assertEqual(complex_["saddles"], counts["saddle_multiplicity"])
+            self.assertEqual(complex_["arcs"], 4 * counts["saddle_multiplicity"])
+            self.assertEqual(complex_["quads"], 2 * counts["saddle_multiplicity"])
+            self.assertEqual(complex_["caps"], 1)
+            compared = method["compared_to_first"]
+            self.assertEqual(compared["kept"] + compared["moved"] + compared["added"], counts["total"])
+            self.assertEqual(compared["kept"] + compared["moved"] + compared["removed"], 1895)
+        self.assertEqual(salient["parameters"]["iterations"], 10)
+        self.assertAlmostEqual(salient["parameters"]["sigma"], 0.024 * report["mesh"]["bbox_diagonal"])
+
+    def test_vertex_numbers_are_those_of_the_input(self):
+        report = self.report(self.file("damaged.off", DAMAGED), "--repair", "--field", "height:axis=x",
+                             "--method", "conventional")
+        repairs = {entry["action"]: entry["count"] for entry in report["mesh"]["repairs"]}
+        self.assertEqual(repairs, {"removed_degenerate_faces": 1, "removed_unreferenced_vertices": 1})
+        items = report["methods"][0]["items"]
+        self.assertEqual([item["vertex"] for item in items], [0])
+        self.assertEqual(items[0]["position"], [0, 0, 0])
+
+    def test_runs_differ_in_timings_only_at_any_number_of_threads(self):
+        reports = []
+        for threads in (1, 2, 5):
+            report = self.report(SAMPLES / "lion-head.off", "--threads", threads)
+            del report["timings"]
+            reports.append(json.dumps(report))
+        self.assertEqual(reports[0], reports[1])
+        self.assertEqual(reports[0], reports[2])
+
+    def test_a_chain_reports_each_step(self):
+        report = self.report(self.file("octahedron.off", OCTAHEDRON), "--field", "height", "--method",
+                             "salient:iterations=1,sigma=2+tps:threshold=0")
+        method, = report["methods"]
+        self.assertEqual(method["name"], "salient+tps")
+        self.assertEqual([step["name"] for step in method["parameters"]["steps"]], ["salient", "tps"])
+
+    def test_the_report_goes_to_standard_output(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        result = self.morsel("compare", mesh, "--method", "conventional", "-o", "-")
+        self.assertEqual(json.loads(result.stdout)["schema"], "morsel.comparison/1")
+
+    def test_the_table_names_each_method(self):
+        result = self.morsel("compare", self.file("octahedron.off", OCTAHEDRON))
+        for name in ("conventional", "salient", "tps"):
+            self.assertIn(name, result.stdout)
+        self.assertNotIn("\r", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,75 @@
+"""The files of --export and morsel field, opened with ParaView's own reader (VTK)."""
+
+import csv
+import unittest
+
+from support import OCTAHEDRON, SAMPLES, ProgramTest
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+
+def read(path):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(path))
+    reader.Update()
+    assert not errors, errors
+    return reader.GetOutput()
+
+
+def arrays(data):
+    return {data.GetArrayName(i): data.GetArray(i) for i in range(data.GetNumberOfArrays())}
+
+
+class Export(ProgramTest):
+    def test_the_lions_files_hold_what_the_report_says(self):
+        report = self.report(SAMPLES / "lion-head.off", "--export", "out")
+        for method in report["methods"]:
+            name, counts, complex_ = method["name"], method["critical_points"], method["ms_complex"]
+            surface = read(self.folder / "out" / f"{name}.surface.vtp")
+            self.assertEqual(surface.GetNumberOfPoints(), report["mesh"]["vertices"])
+            self.assertEqual(surface.GetNumberOfPolys(), report["mesh"]["faces"])
+            points, cells = arrays(surface.GetPointData()), arrays(surface.GetCellData())
+            field = points["mean-curvature"]
+            self.assertEqual(field.GetRange(), (method["field"]["min"], method["field"]["max"]))
+            types = [points["critical_type"].GetValue(v) for v in range(surface.GetNumberOfPoints())]
+            self.assertEqual([types.count(k) for k in (1, 2, 3)],
+                             [counts["minima"], counts["saddles"], counts["maxima"]])
+            for item in method["items"]:
+                self.assertEqual(tuple(item["position"]), surface.GetPoint(item["vertex"]))
+                self.assertEqual(item["value"], field.GetValue(item["vertex"]))
+            for label, count in complex_["segments"].items():
+                values = {cells[label].GetValue(t) for t in range(surface.GetNumberOfPolys())}
+                self.assertEqual(len(values), count, label)
+                self.assertIn(label, points)
+            lines = read(self.folder / "out" / f"{name}.complex.vtp")
+            self.assertEqual(lines.GetNumberOfLines(), complex_["arcs"])
+            self.assertEqual(lines.GetNumberOfVerts(), sum(complex_[k] for k in ("minima", "saddles", "maxima", "caps")))
+            bounds, outer = lines.GetBounds(), surface.GetBounds()
+            for axis in range(3):
+                self.assertGreaterEqual(bounds[2 * axis], outer[2 * axis] - 1e-12)
+                self.assertLessEqual(bounds[2 * axis + 1], outer[2 * axis + 1] + 1e-12)
+            with open(self.folder / "out" / f"{name}.points.csv", newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(len(rows), counts["total"])
+            for row, item in zip(rows, method["items"]):
+                self.assertEqual((int(row["vertex"]), row["type"], float(row["value"])),
+                                 (item["vertex"], item["type"], item["value"]))
+                self.assertEqual(row["persistence"] == "inf", item["persistence"] is None)
+
+    def test_methods_of_one_name_get_files_of_their_own(self):
+        mesh = self.file("o.off", OCTAHEDRON)
+        self.morsel("compare", mesh, "--method", "tps", "--method", "tps:threshold=1%", "--export", "out")
+        names = sorted(p.name for p in (self.folder / "out").iterdir())
+        self.assertEqual(names, [f"{m}.{kind}" for m in ("tps-2", "tps")
+                                 for kind in ("complex.vtp", "points.csv", "surface.vtp")])
+
+    def test_a_field_as_vtp(self):
+        self.morsel("field", self.file("o.off", OCTAHEDRON), "--field", "height", "-o", "z.vtp")
+        surface = read(self.folder / "z.vtp")
+        self.assertEqual(surface.GetNumberOfPolys(), 8)
+        self.assertEqual(arrays(surface.GetPointData())["height"].GetRange(), (-1, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()

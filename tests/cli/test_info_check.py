@@ -1,0 +1,95 @@
+"""morsel info and morsel check."""
+
+import json
+import unittest
+
+from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest
+
+
+class Info(ProgramTest):
+    def test_text(self):
+        result = self.morsel("info", SAMPLES / "lion-head.off")
+        self.assertIn("8,356", result.stdout)
+        self.assertRegex(result.stdout, r"Euler characteristic +1\n")
+        self.assertRegex(result.stdout, r"boundary loops +1\n")
+
+    def test_json(self):
+        info = json.loads(self.morsel("info", "--json", self.file("o.off", OCTAHEDRON)).stdout)
+        self.assertTrue(info["valid"])
+        self.assertEqual(info["mesh"]["genus"], 0)
+        self.assertEqual(info["components"], [{"euler_characteristic": 2, "genus": 0, "boundary_loops": 0}])
+        self.assertEqual(info["defects"], [])
+
+    def test_a_bad_mesh_is_described_and_is_no_error(self):
+        mesh = self.file("d.off", DAMAGED)
+        info = json.loads(self.morsel("info", "--json", mesh).stdout)
+        self.assertFalse(info["valid"])
+        self.assertEqual([(d["kind"], d["count"], d["first"]) for d in info["defects"]],
+                         [("degenerate_face", 1, [2]), ("unreferenced_vertex", 1, [1])])
+        self.assertIn("--repair mends this", self.morsel("info", mesh).stdout)
+        self.assertTrue(json.loads(self.morsel("info", "--json", "--repair", mesh).stdout)["valid"])
+
+    def test_a_missing_file_is_an_error(self):
+        self.assertIn("absent.off", self.morsel("info", "absent.off", code=3).stderr)
+
+
+class Check(ProgramTest):
+    def edited(self, edit):
+        report = json.loads((self.folder / "report.json").read_text())
+        edit(report)
+        self.file("edited.json", json.dumps(report))
+        return "edited.json"
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = self.file("octahedron.off", OCTAHEDRON)
+        self.morsel("compare", self.mesh, "--field", "height:axis=x", "-o", "report.json")
+
+    def test_a_fresh_report_is_unchanged_and_says_so_in_one_line(self):
+        result = self.morsel("check", "report.json")
+        self.assertEqual(result.stdout.count("\n"), 1)
+        self.assertIn("unchanged", result.stdout)
+
+    def test_a_report_of_a_real_mesh_is_unchanged(self):
+        self.morsel("compare", SAMPLES / "lion-head.off", "-o", "lion.json")
+        self.morsel("check", "lion.json", "--threads", "3")
+
+    def test_an_edited_count_is_shown(self):
+        def edit(report):
+            report["methods"][1]["critical_points"]["total"] = 77
+        result = self.morsel("check", self.edited(edit), code=1)
+        self.assertIn("methods[1] (salient): critical_points.total: 77 -> 2", result.stdout)
+
+    def test_timings_and_version_may_differ(self):
+        def edit(report):
+            report["timings"] = {"total": 1e9}
+            report["tool"]["version"] = "0.0.0"
+        self.morsel("check", self.edited(edit))
+
+    def test_an_item_that_is_gone_is_a_difference(self):
+        result = self.morsel("check", self.edited(lambda r: r["methods"][0]["items"].pop()), code=1)
+        self.assertIn("1 entries -> 2 entries", result.stdout)
+
+    def test_a_changed_mesh_is_a_difference(self):
+        self.file("octahedron.off", OCTAHEDRON.replace("0 0 1\n", "0 0 2\n", 1))
+        self.assertIn("mesh.sha256", self.morsel("check", "report.json", code=1).stdout)
+
+    def test_a_missing_mesh_is_a_difference(self):
+        self.mesh.unlink()
+        self.assertIn("missing", self.morsel("check", "report.json", code=1).stdout)
+
+    def test_a_relative_mesh_is_found_from_the_reports_folder(self):
+        (self.folder / "sub").mkdir()
+        self.morsel("compare", "octahedron.off", "-o", "relative.json")
+        self.morsel("check", self.folder / "relative.json", cwd=self.folder / "sub")
+
+    def test_what_is_no_report_is_bad_input(self):
+        self.morsel("check", "absent.json", code=3)
+        self.morsel("check", self.file("x.json", "{"), code=3)
+        self.morsel("check", self.file("y.json", '{"schema": "other"}'), code=3)
+        self.morsel("check", self.edited(lambda r: r["request"].pop("methods")), code=3)
+        self.morsel("check", self.edited(lambda r: r["request"].update(methods=["nonsense"])), code=3)
+
+
+if __name__ == "__main__":
+    unittest.main()

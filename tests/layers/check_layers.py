@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Fails when a source breaks the table of modules, or when a library module prints or exits.
+
+    check_layers.py ROOT
+
+Each module may include itself and what MAY_INCLUDE lists; third-party headers are free, but for those of tests, reports
+and the command line. A library module throws and returns; only the program prints and exits.
+"""
+
+import pathlib
+import re
+import sys
+
+LIBRARY = ("core", "morse", "persistence", "mscomplex")
+MAY_INCLUDE = {
+    "core": {"core"},
+    "morse": {"core", "morse"},
+    "persistence": {"core", "persistence"},
+    "mscomplex": {"core", "mscomplex"},
+    "tools": {*LIBRARY, "tools"},
+}
+NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
+NOT_IN_HEADERS = ("nanoflann", "CGAL/")  # what only sources include, a user of the installed library need not have
+NOT_IN_TOOLS = ("catch2/", "phat/", "vtk")
+PRINTS_OR_EXITS = re.compile(
+    r"(?<![\w.])(?:cout|cerr|clog|stdout|stderr|STDOUT_FILENO|STDERR_FILENO)\b"
+    r"|(?<![\w.>])(?:printf|vprintf|puts|putchar|perror|exit|_exit|_Exit|quick_exit|abort|terminate)\s*\(")
+
+TOKEN = re.compile(
+    r'R"(?P<tag>[^()\\\s]{0,16})\(.*?\)(?P=tag)"'
+    r'|"(?:\\.|[^"\\\n])*"'
+    r"|(?<!\w)'(?:\\.|[^'\\\n])+'"
+    r"|//[^\n]*|/\*.*?\*/", re.DOTALL)
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULTILINE)
+LINKS = re.compile(r"\bmorsel(?:::|_)(core|morse|persistence|mscomplex|tools|test_support)\b")
+
+
+def without(text, drops):
+    """`text` with the comments and literals that begin with one of `drops` emptied, line breaks kept."""
+    def blank(match):
+        token = match.group()
+        return re.sub(r"[^\n]", " ", token) if token.startswith(drops) else token
+    return TOKEN.sub(blank, text)
+
+
+def line_of(text, position):
+    return text.count("\n", 0, position) + 1
+
+
+def check_source(module, text, is_header):
+    """Yields (line, complaint) for one header or source of `module`."""
+    code = without(text, ("//", "/*", "R"))
+    foreign = NOT_IN_TOOLS if module == "tools" else NOT_IN_LIBRARY
+    for match in INCLUDE.finditer(code):
+        quote, path = match.groups()
+        line = line_of(code, match.start())
+        parts = path.split("/")
+        if parts[0] == "morsel":
+            if len(parts) < 3 or parts[1] not in MAY_INCLUDE[module]:
+                yield line, f'{module} may not include "{path}"'
+        elif quote == '"':
+            yield line, f'"{path}": the headers of the project are included as "morsel/MODULE/…"'
+        elif path.startswith(foreign):
+            yield line, f"{module} may not include <{path}>"
+        elif is_header and path.startswith(NOT_IN_HEADERS):
+            yield line, f"a header may not include <{path}>, which users of the library need not have"
+    if module in LIBRARY:
+        for match in PRINTS_OR_EXITS.finditer(without(text, ("//", "/*", "R", '"', "'"))):
+            yield line_of(text, match.start()), f'{module} may not print nor exit: "{match.group().strip("( ")}"'
+
+
+def check_cmake(module, text):
+    """Yields (line, complaint) for one CMakeLists.txt of `module`: it may be linked with what it may include."""
+    code = re.sub(r"#[^\n]*", "", text)
+    for match in LINKS.finditer(code):
+        if match.group(1) not in MAY_INCLUDE[module]:
+            yield line_of(code, match.start()), f"{module} may not be linked with {match.group()}"
+
+
+def check(root):
+    """The complaints about the tree at `root`, as "file:line: text", and the number of files that were read."""
+    complaints, files = [], 0
+    for module in MAY_INCLUDE:
+        for path in sorted((root / module).rglob("*")):
+            if path.suffix in (".h", ".hpp", ".cpp", ".inl"):
+                found = check_source(module, path.read_text(encoding="utf-8"), path.suffix != ".cpp")
+            elif path.name == "CMakeLists.txt":
+                found = check_cmake(module, path.read_text(encoding="utf-8"))
+            else:
+                continue
+            files += 1
+            complaints += [f"{path.relative_to(root)}:{line}: {text}" for line, text in found]
+    return complaints, files
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    complaints, files = check(pathlib.Path(sys.argv[1]))
+    for complaint in complaints:
+        print(complaint)
+    if files < len(LIBRARY):
+        sys.exit(f"only {files} files were found in {sys.argv[1]}")
+    print(f"{files} files, {len(complaints)} complaints")
+    sys.exit(1 if complaints else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""check_layers.py finds planted violations, and nothing else."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import check_layers
+
+CLEAN = {
+    "core/CMakeLists.txt": "morsel_add_module(core SOURCES a.cpp DEPENDS Eigen3::Eigen)\n",
+    "core/a.h": "#pragma once\n#include <Eigen/Core>\n#include <vector>\n",
+    "core/a.cpp": '#include "morsel/core/a.h"\n',
+    "morse/functions/height.cpp": '#include "morsel/core/a.h"\n#include "morsel/morse/functions/height.h"\n',
+    "persistence/pairing.h": '#include "morsel/core/a.h"\n',
+    "mscomplex/complex.h": '#include <boost/graph/adjacency_list.hpp>\n#include "morsel/core/a.h"\n',
+    "tools/main.cpp": '#include <iostream>\n#include "morsel/mscomplex/complex.h"\nint main() { std::cout << 1; }\n',
+}
+
+
+def complaints(changes):
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in {**CLEAN, **changes}.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        return check_layers.check(root)[0]
+
+
+class CheckLayers(unittest.TestCase):
+    def test_clean_tree(self):
+        self.assertEqual(complaints({}), [])
+
+    def test_what_is_allowed(self):
+        for code in ("// std::cout << exit(1)\n", "/* #include \"morsel/morse/x.h\"\n abort() */\n",
+                     'const char* text = "exit(1) // std::cerr";\n', "auto c = '\"'; auto n = 1'000'000;\n",
+                     'auto r = R"(printf("x"))";\n', "std::snprintf(buffer, 8, format);\n", "loop.exit();\n",
+                     "#  include <algorithm>\n", "#include <nanoflann.hpp>\n", "int on_exit(int);\n", "std::size_t inputs (0);\n"):
+            with self.subTest(code=code):
+                self.assertEqual(complaints({"core/b.cpp": code}), [])
+
+    def test_includes(self):
+        for name, code in (("core/b.h", '#include "morsel/morse/critical_points.h"'),
+                           ("core/b.h", "#include <morsel/tools/registry.h>"),
+                           ("morse/b.h", '#include "morsel/persistence/pairing.h"'),
+                           ("morse/deep/er/b.cpp", '  #  include "morsel/mscomplex/complex.h"'),
+                           ("persistence/b.cpp", '#include "morsel/morse/critical_points.h"'),
+                           ("mscomplex/b.h", '#include "morsel/persistence/pairing.h"'),
+                           ("core/b.h", '#include "support/meshes.h"'),
+                           ("morse/b.h", '#include "../core/a.h"'),
+                           ("morse/b.h", '#include "morsel/tests/support/meshes.h"'),
+                           ("core/b.h", "#include <catch2/catch.hpp>"),
+                           ("mscomplex/b.h", "#include <nlohmann/json.hpp>"),
+                           ("core/b.cpp", "#include <iostream>"),
+                           ("core/b.h", "#include <nanoflann.hpp>"),
+                           ("core/b.h", "#include <CGAL/IO/polygon_soup_io.h>"),
+                           ("tools/b.cpp", '#include "tests/support/meshes.h"'),
+                           ("tools/b.cpp", "#include <phat/boundary_matrix.h>")):
+            with self.subTest(name=name, code=code):
+                found = complaints({name: f"#pragma once\n{code}\n"})
+                self.assertEqual(len(found), 1)
+                self.assertTrue(found[0].startswith(f"{name}:2: "), found)
+
+    def test_printing_and_exiting(self):
+        for code in ("std::cout << 1;", "std::cerr << 1;", 'printf("x");', 'std::printf ("x");', "std::exit(1);",
+                     "exit(1);", "std::abort();", "std::terminate();", 'fprintf(stderr, "x");', 'puts("x");',
+                     "if (bad) quick_exit(3);", "auto n = 1'000; abort();"):
+            with self.subTest(code=code):
+                found = complaints({"morse/b.cpp": f"void f() {{\n  {code}\n}}\n"})
+                self.assertEqual(len(found), 1)
+                self.assertTrue(found[0].startswith("morse/b.cpp:2: "), found)
+
+    def test_links(self):
+        found = complaints({"morse/CMakeLists.txt": "# morsel::persistence\nx(\nDEPENDS morsel::core morsel::mscomplex)\n"})
+        self.assertEqual(len(found), 1)
+        self.assertTrue(found[0].startswith("morse/CMakeLists.txt:3: "), found)
+
+    def test_exit_codes(self):
+        script = pathlib.Path(check_layers.__file__)
+        with tempfile.TemporaryDirectory() as folder:
+            empty = subprocess.run([sys.executable, script, folder], capture_output=True, check=False)
+            self.assertEqual(empty.returncode, 1)
+            for name, text in {**CLEAN, "core/b.h": '#include "morsel/morse/b.h"\n'}.items():
+                path = pathlib.Path(folder, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text, encoding="utf-8")
+            bad = subprocess.run([sys.executable, script, folder], capture_output=True, check=False)
+            self.assertEqual(bad.returncode, 1)
+            pathlib.Path(folder, "core/b.h").unlink()
+            good = subprocess.run([sys.executable, script, folder], capture_output=True, check=False)
+            self.assertEqual(good.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

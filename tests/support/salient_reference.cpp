@@ -1,0 +1,64 @@
+#include "support/salient_reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+#include <utility>
+
+namespace morsel::test {
+namespace {
+
+struct Cloud {
+  std::span<const core::Point> points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, core::Index>;
+
+}  // namespace
+
+std::vector<double> salient_reference(std::span<const core::Point> positions, std::vector<double> values,
+                                      const SalientReferenceOptions& options, std::vector<double>* saliency) {
+  const Cloud cloud{positions};
+  const Tree tree(3, cloud);
+  const double radius = options.support * options.sigma;
+  const double two_sigma_squared = 2 * options.sigma * options.sigma;
+  std::vector<double> s(values.size(), 0.0);
+  std::vector<std::pair<core::Index, double>> found;
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      // The search is strict, the neighbourhood is not: look a little further, then compare distances.
+      tree.radiusSearch(positions[v].data(), radius * radius * (1 + 1e-9), found,
+                        nanoflann::SearchParams(32, 0, false));
+      std::erase_if(found,
+                    [&](const auto& x) { return (positions[x.first] - positions[v]).norm() > radius; });
+      std::sort(found.begin(), found.end());
+      double sigma_s = options.sigma_s.value_or(0);
+      if (!options.sigma_s)
+        for (const auto& [x, squared] : found) sigma_s = std::max(sigma_s, std::abs(values[x] - values[v]));
+      s[v] = 0;
+      if (sigma_s == 0) continue;
+      double numerator = 0;
+      double denominator = 0;
+      for (const auto& [x, squared] : found) {
+        const double difference = values[x] - values[v];
+        const double t = difference / sigma_s;
+        const double weight = std::exp(-squared / two_sigma_squared) * std::exp(-t * t / 2);
+        numerator += difference * weight;
+        denominator += weight;
+      }
+      s[v] = numerator / denominator;
+    }
+    for (std::size_t v = 0; v < values.size(); ++v) values[v] += s[v];
+  }
+  if (saliency != nullptr) *saliency = std::move(s);
+  return values;
+}
+
+}  // namespace morsel::test

@@ -1,0 +1,90 @@
+#include "morsel/tools/comparison/comparison.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "morsel/core/parallel.h"
+
+#include "support/fields.h"
+#include "support/meshes.h"
+
+using namespace morsel;
+using namespace morsel::test;
+
+namespace {
+
+/// What design section 5 demands of any field that any method returns.
+void check_invariants(const core::ScalarField& field) {
+  const TriangleMesh& mesh = field.mesh();
+  tools::Timings timings;
+  const tools::Measurement m = tools::measure(field, timings);
+  const auto& points = m.critical_points;
+
+  // Euler, component by component.
+  std::vector<long> sum(mesh.component_count(), 0);
+  std::vector<long> multiplicity(mesh.component_count(), 0);
+  std::set<Index> minima;
+  for (const auto& p : points.points) {
+    const Index c = mesh.component_of_vertex(p.vertex);
+    const bool saddle = p.type == morse::CriticalType::saddle;
+    sum[c] += saddle ? -long{p.multiplicity} : 1;
+    if (saddle) multiplicity[c] += p.multiplicity;
+    if (p.type == morse::CriticalType::minimum) minima.insert(p.vertex);
+  }
+  for (Index c = 0; c < mesh.component_count(); ++c) CHECK(sum[c] == mesh.euler_characteristic(c));
+
+  // Every saddle's multiplicity is paired or essential.
+  std::size_t essential = 0;
+  for (const auto& saddle : m.diagram.essential_saddles) essential += saddle.count;
+  CHECK(m.diagram.pairs.size() + essential == points.saddle_multiplicity);
+  CHECK(essential == 2 * std::size_t{mesh.genus()});
+  // Every extremum is paired or essential.
+  std::size_t tops = 0;
+  for (const auto& extrema : m.diagram.essential_extrema) tops += extrema.top_is_cap ? 0 : 1;
+  CHECK(m.diagram.finite_count + m.diagram.essential_extrema.size() + tops == points.minima + points.maxima);
+
+  // The complex has the same critical points.
+  CHECK(m.complex.minimum_count() == points.minima);
+  CHECK(m.complex.saddle_count() == points.saddle_multiplicity);
+  CHECK(m.complex.maximum_count() == points.maxima);
+  CHECK(m.complex.arc_count() == 4 * points.saddle_multiplicity);
+  CHECK(m.complex.quad_count() == 2 * points.saddle_multiplicity);
+}
+
+}  // namespace
+
+TEST_CASE("invariants hold for every field that a method returns") {
+  std::vector<tools::MethodChain> chains;
+  for (const char* text :
+       {"conventional", "salient:iterations=2,sigma=0.6", "salient:iterations=3,sigma=0.6,range=local",
+        "salient:iterations=2,sigma=0.6,classify=saliency", "tps:threshold=10%", "tps:threshold=0",
+        "tps:threshold=1000%", "tps:count=6", "salient:iterations=1,sigma=0.6+tps:threshold=5%",
+        "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
+    chains.push_back(tools::make_method(text));
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const NamedField& f : field_zoo(entry.mesh, 23))
+      for (const tools::MethodChain& chain : chains) {
+        INFO(entry.name << ", " << f.name << ", " << chain.specification);
+        core::ScalarField field = f.field;
+        for (const auto& step : chain.steps) field = step.method->apply(field, {}).field;
+        check_invariants(field);
+      }
+}
+
+TEST_CASE("every method gives the same bits at any number of threads") {
+  const TriangleMesh mesh = torus(90, 80).mesh();
+  const core::ScalarField input(mesh, smooth_values(mesh, 1, 3));
+  for (const auto& entry : tools::methods()) {
+    INFO(entry.name);
+    const tools::MethodChain chain = tools::make_method(entry.name);
+    const auto run = [&](int threads) {
+      const core::ThreadLimit limit(threads);
+      const core::ScalarField field = chain.steps[0].method->apply(input, {}).field;
+      return std::pair{std::vector<double>(field.values().begin(), field.values().end()),
+                       std::vector<Index>(field.ranks().begin(), field.ranks().end())};
+    };
+    const auto one = run(1);
+    CHECK(run(2) == one);
+    CHECK(run(7) == one);
+  }
+}

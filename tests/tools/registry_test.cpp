@@ -1,0 +1,49 @@
+#include "morsel/tools/registry/registry.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "morsel/core/error.h"
+
+using namespace morsel;
+using Catch::Contains;
+
+TEST_CASE("every entry can be made with its defaults or says what it needs") {
+  for (const auto& entry : tools::morse_functions()) {
+    core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
+    CHECK(entry.make(reader) != nullptr);
+    CHECK_FALSE(entry.summary.empty());
+  }
+  for (const auto& entry : tools::methods()) CHECK(tools::make_method(entry.name).steps.size() == 1);
+}
+
+TEST_CASE("names are unique") {
+  std::set<std::string_view> names;
+  for (const auto& entry : tools::morse_functions()) CHECK(names.insert(entry.name).second);
+  names.clear();
+  for (const auto& entry : tools::methods()) CHECK(names.insert(entry.name).second);
+}
+
+TEST_CASE("a chain keeps its steps in order") {
+  const tools::MethodChain chain = tools::make_method("salient:iterations=5+tps:count=150+conventional");
+  CHECK(chain.name == "salient+tps+conventional");
+  REQUIRE(chain.steps.size() == 3);
+  CHECK(chain.steps[1].name == "tps");
+}
+
+TEST_CASE("unknown names and keys list the valid ones") {
+  CHECK_THROWS_WITH(tools::make_method("foo"), Contains("foo") && Contains("conventional, salient, tps"));
+  CHECK_THROWS_WITH(tools::make_function("foo"), Contains("height, mean-curvature, vertex-scalar"));
+  CHECK_THROWS_WITH(tools::make_method("salient:foo=1"),
+                    Contains("\"foo\"") && Contains("iterations, sigma"));
+  CHECK_THROWS_WITH(tools::make_method("salient:sigma=1,sigma=2"), Contains("twice"));
+  CHECK_THROWS_AS(tools::make_method("salient+"), core::InvalidArgument);
+  CHECK_THROWS_AS(tools::make_function("height+height"), core::InvalidArgument);
+}
+
+TEST_CASE("help names every key with its default") {
+  const std::string text = tools::describe_methods();
+  for (const char* key : {"iterations=10", "sigma=8eps", "range=1std", "support=2", "threshold=0.1%"})
+    CHECK_THAT(text, Contains(key));
+  CHECK_THAT(tools::describe_functions(), Contains("axis=z"));
+}

@@ -1,0 +1,52 @@
+#pragma once
+/// The commands of the program: each adds itself to the parser and says what to run.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "morsel/core/parallel.h"
+#include "morsel/tools/commands/console.h"
+
+namespace morsel::tools {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kDone = 0,
+  kDifferences = 1,
+  kWrongUsage = 2,
+  kBadInput = 3,
+  kWriteFailed = 4,
+  kOutOfMemory = 5,
+  kInternalError = 70  // a defect of the program itself (EX_SOFTWARE)
+};
+
+/// Options that every command takes.
+struct CommonOptions {
+  int threads = 0;  ///< 0: as many as the machine has
+  bool repair = false;
+  bool quiet = false;
+};
+
+/// What a chosen command runs; returns the exit code.
+using Action = std::function<int(Console&)>;
+
+/// The command that the arguments chose.
+struct Invocation {
+  CommonOptions common;
+  Action action;
+};
+
+void add_common_options(CLI::App& command, CommonOptions& common, bool with_repair = true);
+
+void add_compare(CLI::App& app, Invocation& invocation);
+void add_field(CLI::App& app, Invocation& invocation);
+void add_info(CLI::App& app, Invocation& invocation);
+void add_check(CLI::App& app, Invocation& invocation);
+
+/// Help texts that more than one command shows.
+std::string specification_help();
+inline constexpr const char* kMeshHelp = "Triangle mesh: .off, .obj, .ply or .stl";
+
+}  // namespace morsel::tools

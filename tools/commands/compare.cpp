@@ -1,0 +1,110 @@
+// morsel compare: the main job.
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/report/comparison_table.h"
+#include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/report/sha256.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  ComparisonRequest request;
+  std::string report;
+  std::string export_folder;
+};
+
+/// Shows on the console which method is running.
+class Announcer : public ComparisonSink {
+ public:
+  explicit Announcer(Console& console) : console_(console) {}
+  void begin_method(const std::string& name) override { console_.enter(name); }
+  void field(const FieldOutcome&) override {}
+  void method(const MethodOutcome&) override {}
+
+ private:
+  Console& console_;
+};
+
+int compare(const Options& options, const CommonOptions& common, Console& console) {
+  // Wrong names and unwritable targets are told before the work, not after it.
+  const NamedFunction function = make_function(options.request.field);
+  std::vector<MethodChain> chains;
+  for (const std::string& method : options.request.methods) chains.push_back(make_method(method));
+  const bool report_to_stdout = options.report == "-";
+  std::optional<core::FileWriter> file;
+  if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
+
+  const Stopwatch load_watch;
+  const core::LoadedMesh loaded =
+      core::read_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  ReportInput input{options.mesh, "", common.repair, load_watch.seconds()};
+
+  Announcer announcer(console);
+  ComparisonTable table;
+  std::vector<ComparisonSink*> sinks = {&announcer, &table};
+  std::optional<ReportWriter> report;
+  if (file || report_to_stdout) {
+    input.mesh_sha256 = sha256_of_file(options.mesh);
+    report.emplace(report_to_stdout ? std::cout : file->stream(), loaded, input, options.request);
+    sinks.push_back(&*report);
+  }
+  std::optional<ExportSink> exports;
+  if (!options.export_folder.empty()) {
+    exports.emplace(options.export_folder, loaded);
+    sinks.push_back(&*exports);
+  }
+  run_comparison(loaded, function, chains, sinks, console.progress());
+  if (report) report->finish();
+  if (file) file->commit();
+
+  if (!report_to_stdout) std::cout << table.text();
+  if (file) console.message("report: " + options.report);
+  if (exports) console.message("files for ParaView: " + options.export_folder);
+  return kDone;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command =
+      *app.add_subcommand("compare",
+                          "Run methods on a field and hold their critical points, diagrams and complexes\n"
+                          "against each other");
+  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_option("--field", options->request.field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
+  command
+      .add_option("--method", options->request.methods,
+                  "A method or chain of methods (below); may be given several times\n"
+                  "(default: conventional, salient and tps)")
+      ->type_name("M")
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
+      ->type_name("REPORT.json");
+  command
+      .add_option("--export", options->export_folder,
+                  "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
+      ->type_name("DIR");
+  add_common_options(command, invocation.common);
+  command.footer(specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return compare(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,39 @@
+#pragma once
+/// What a person sees on standard error while a command runs.
+
+#include <chrono>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "morsel/core/progress.h"
+
+namespace morsel::tools {
+
+/// Progress as a bar (on a terminal only) and messages, both on standard error and both silenced by `quiet`.
+class Console {
+ public:
+  Console(bool quiet, std::stop_token stop);
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  /// A hook that draws the bar and carries the stop token; refers to this console.
+  core::Progress progress();
+  void message(std::string_view text);
+  /// Names what the steps are part of ("salient"), shown before the step.
+  void enter(std::string_view context) { context_ = context; }
+
+ private:
+  void draw(std::string_view step, double fraction);
+  void clear();
+
+  bool quiet_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::stop_token stop_;
+  std::string context_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace morsel::tools

@@ -1,0 +1,140 @@
+// morsel info: what a mesh is, or what is wrong with it.
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/core/parameters.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/sha256.h"
+#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/report/version.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  bool json = false;
+};
+
+/// The file as it is: a mesh, or polygons with defects.
+struct Findings {
+  core::LoadedSoup file;
+  std::optional<core::BuiltMesh> built;
+  std::vector<core::Defect> defects;
+};
+
+Findings inspect(const std::string& path, bool repair, const core::Progress& progress) {
+  Findings findings{core::read_polygon_soup(path, progress), std::nullopt, {}};
+  try {
+    findings.built = core::build_mesh(findings.file.soup, {.repair = repair});
+  } catch (const core::MeshError& error) {
+    findings.defects = error.defects();
+  }
+  return findings;
+}
+
+Json properties_section(const Findings& findings) {
+  Json names = Json::array();
+  for (const core::VertexProperty& property : findings.file.properties) names.push_back(property.name);
+  return names;
+}
+
+Json as_json(const std::string& path, const Findings& findings) {
+  Json document = {{"schema", "morsel.info/1"}, {"tool", {{"name", "morsel"}, {"version", kVersion}}}};
+  document["valid"] = findings.built.has_value();
+  if (findings.built) {
+    const core::TriangleMesh& mesh = findings.built->mesh;
+    document["mesh"] = mesh_section(path, sha256_of_file(path), mesh, findings.built->repairs);
+    document["mesh"]["bbox_min"] = {mesh.bounding_box().min.x(), mesh.bounding_box().min.y(),
+                                    mesh.bounding_box().min.z()};
+    document["mesh"]["bbox_max"] = {mesh.bounding_box().max.x(), mesh.bounding_box().max.y(),
+                                    mesh.bounding_box().max.z()};
+    Json components = Json::array();
+    for (core::Index c = 0; c < mesh.component_count(); ++c)
+      components.push_back({{"euler_characteristic", mesh.euler_characteristic(c)},
+                            {"genus", mesh.genus(c)},
+                            {"boundary_loops", mesh.boundary_loop_count(c)}});
+    document["components"] = std::move(components);
+  } else {
+    document["mesh"] = {{"path", path},
+                        {"sha256", sha256_of_file(path)},
+                        {"vertices", findings.file.soup.positions.size()},
+                        {"polygons", findings.file.soup.polygon_count()}};
+  }
+  document["vertex_properties"] = properties_section(findings);
+  Json defects = Json::array();
+  for (const core::Defect& defect : findings.defects)
+    defects.push_back({{"kind", core::defect_name(defect.kind)},
+                       {"count", defect.count},
+                       {"first", defect.first},
+                       {"repair", core::repair_of(defect.kind)}});
+  document["defects"] = std::move(defects);
+  return document;
+}
+
+void print_text(const std::string& path, const Findings& findings, bool repair_tried) {
+  const auto line = [](std::string_view name, const std::string& value) {
+    std::string label(name);
+    label.resize(24, ' ');
+    std::cout << "  " << label << value << '\n';
+  };
+  std::cout << path << '\n';
+  if (findings.built) {
+    const core::TriangleMesh& mesh = findings.built->mesh;
+    line("vertices", grouped(mesh.vertex_count()));
+    line("edges", grouped(mesh.edge_count()));
+    line("faces", grouped(mesh.triangle_count()));
+    line("components", grouped(mesh.component_count()));
+    line("boundary loops", grouped(mesh.boundary_loop_count()));
+    line("Euler characteristic", std::to_string(mesh.euler_characteristic()));
+    line("genus", grouped(mesh.genus()));
+    const core::BoundingBox& box = mesh.bounding_box();
+    const auto point = [](const core::Point& p) {
+      return "(" + core::shortest(p.x()) + ", " + core::shortest(p.y()) + ", " + core::shortest(p.z()) + ")";
+    };
+    line("bounding box", point(box.min) + " to " + point(box.max));
+    line("its diagonal", core::shortest(box.diagonal()));
+    line("eps (0.3 % of it)", core::shortest(mesh.epsilon()));
+    for (const core::Repair& repair : findings.built->repairs)
+      line("repair", repair.action + ": " + grouped(repair.count));
+  } else {
+    line("vertices", grouped(findings.file.soup.positions.size()));
+    line("polygons", grouped(findings.file.soup.polygon_count()));
+  }
+  for (const core::VertexProperty& property : findings.file.properties)
+    line("vertex property", property.name);
+  if (findings.defects.empty()) line("defects", "none");
+  for (const core::Defect& defect : findings.defects) {
+    const std::string_view repair = core::repair_of(defect.kind);
+    std::string remedy = "; no repair mends this";
+    if (!repair.empty() && !repair_tried) remedy = "; --repair mends this by " + std::string(repair);
+    line("defect", core::describe(defect) + remedy);
+  }
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("info", "What a mesh is: counts, topology, components, defects");
+  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_flag("--json", options->json, "As JSON instead of text");
+  add_common_options(command, invocation.common);
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      const Findings findings = inspect(options->mesh, invocation.common.repair, console.progress());
+      if (options->json) {
+        std::cout << as_json(options->mesh, findings).dump(2) << '\n';
+      } else {
+        print_text(options->mesh, findings, invocation.common.repair);
+      }
+      return static_cast<int>(kDone);
+    };
+  });
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,103 @@
+#pragma once
+/// The main job: several methods on one field of one mesh, each measured by the same code.
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/core/method.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/mscomplex/complex.h"
+#include "morsel/mscomplex/segmentation.h"
+#include "morsel/persistence/pairing.h"
+#include "morsel/tools/comparison/matching.h"
+#include "morsel/tools/registry/registry.h"
+
+namespace morsel::tools {
+
+/// What is to be compared, in the words of the command line.
+struct ComparisonRequest {
+  std::string field = "mean-curvature";
+  std::vector<std::string> methods = {"conventional", "salient", "tps"};
+};
+
+/// Seconds by step, in the order in which the steps ran.
+using Timings = std::vector<std::pair<std::string, double>>;
+
+/// One step of a chain, as it came out on this mesh.
+struct StepOutcome {
+  std::string name;
+  core::Parameters parameters;
+  core::Parameters details;
+};
+
+/// Everything that is measured on one field. It never knows which method made the field.
+struct Measurement {
+  morse::CriticalPoints critical_points;
+  persistence::Diagram diagram;
+  mscomplex::MorseSmaleComplex complex;
+  mscomplex::Segmentation segmentation;
+};
+
+/// A method's field and its measurement.
+struct MethodOutcome {
+  std::string specification;  ///< as given
+  std::string name;
+  std::vector<StepOutcome> steps;
+  core::ScalarField field;
+  Measurement measurement;
+  Matching compared_to_first;
+  Timings timings;
+};
+
+/// The field before any method.
+struct FieldOutcome {
+  std::string name;
+  core::ScalarField field;
+  core::Parameters parameters;
+  double seconds = 0;
+};
+
+/// Takes a Morse function on a loaded mesh.
+FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
+                            const core::Progress& progress = {});
+
+/// Applies a chain of methods. `steps`, if given, receives what each step resolved and told.
+core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
+                              const NamedFunction& function, const core::ScalarField& field,
+                              const core::Progress& progress = {}, std::vector<StepOutcome>* steps = nullptr);
+
+/// Critical points, diagram, complex and segments of one field; each step's seconds are appended to
+/// `timings`.
+Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress = {});
+
+/// Receives a comparison as it is made, so that no more than one method's results need be in memory.
+class ComparisonSink {
+ public:
+  virtual ~ComparisonSink() = default;
+  virtual void begin_method(const std::string& name) { static_cast<void>(name); }
+  virtual void field(const FieldOutcome& outcome) = 0;
+  virtual void method(const MethodOutcome& outcome) = 0;
+};
+
+/// Runs `function` and then each chain in turn, telling every sink. Throws what functions, methods and sinks
+/// throw.
+void run_comparison(const core::LoadedMesh& loaded, const NamedFunction& function,
+                    const std::vector<MethodChain>& chains, const std::vector<ComparisonSink*>& sinks,
+                    const core::Progress& progress = {});
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace morsel::tools

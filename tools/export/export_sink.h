@@ -1,0 +1,31 @@
+#pragma once
+/// The files of `morsel compare --export`.
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "morsel/tools/comparison/comparison.h"
+
+namespace morsel::tools {
+
+/// Writes, per method, into one folder (made if it is not there):
+///   NAME.surface.vtp  the surface with the field, critical types and segment labels as arrays
+///   NAME.complex.vtp  the nodes and arcs of the Morse-Smale complex
+///   NAME.points.csv   the critical points
+/// NAME is the method's; a second method of the same name gets "-2", and so on.
+class ExportSink : public ComparisonSink {
+ public:
+  /// Throws WriteFailed if the folder cannot be made. Refers to `loaded`.
+  ExportSink(std::filesystem::path folder, const core::LoadedMesh& loaded);
+  void field(const FieldOutcome& outcome) override;
+  void method(const MethodOutcome& outcome) override;
+
+ private:
+  std::filesystem::path folder_;
+  const core::LoadedMesh& loaded_;
+  std::string field_name_;
+  std::map<std::string, int> uses_;
+};
+
+}  // namespace morsel::tools

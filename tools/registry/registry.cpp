@@ -1,0 +1,92 @@
+#include "morsel/tools/registry/registry.h"
+
+#include <algorithm>
+#include <array>
+
+#include "morsel/core/error.h"
+#include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/height.h"
+#include "morsel/morse/functions/vertex_scalar.h"
+#include "morsel/morse/smoothing/conventional.h"
+#include "morsel/morse/smoothing/salient.h"
+#include "morsel/persistence/cancellation.h"
+
+namespace morsel::tools {
+namespace {
+
+constexpr std::array kFunctions = {
+    FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
+    FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
+                  morse::make_mean_curvature},
+    FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
+                  morse::make_vertex_scalar},
+};
+
+constexpr std::array kMethods = {
+    MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
+    MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
+                morse::make_salient},
+    MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
+                persistence::make_tps},
+};
+
+template <class Entries>
+const auto& find_entry(const Entries& entries, const std::string& name, std::string_view kind) {
+  const auto entry =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == name; });
+  if (entry != entries.end()) return *entry;
+  std::string valid;
+  for (const auto& e : entries) valid += (valid.empty() ? "" : ", ") + std::string(e.name);
+  throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"; there are: " + valid);
+}
+
+/// Makes the entry and refuses keys that it did not ask for.
+template <class Entry>
+auto make_entry(const Entry& entry, core::Specification specification) {
+  core::ParameterReader reader(std::move(specification));
+  auto made = entry.make(reader);
+  reader.finish();
+  return made;
+}
+
+template <class Entries>
+std::string describe(const Entries& entries) {
+  std::string text;
+  for (const auto& entry : entries) {
+    text += "  " + std::string(entry.name) + "  " + std::string(entry.summary) + "\n";
+    core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
+    entry.make(reader);
+    for (const core::ParameterInfo& info : reader.declared()) {
+      std::string key = "      " + info.key + "=" + (info.default_value.empty() ? "…" : info.default_value);
+      key.resize(std::max<std::size_t>(key.size() + 2, 30), ' ');
+      text += key + info.description + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::span<const FunctionEntry> morse_functions() { return kFunctions; }
+std::span<const MethodEntry> methods() { return kMethods; }
+
+NamedFunction make_function(std::string_view specification) {
+  core::Specification parsed = core::parse_specification(specification, "--field");
+  const FunctionEntry& entry = find_entry(kFunctions, parsed.name, "Morse function");
+  return {std::string(specification), std::string(entry.name), make_entry(entry, std::move(parsed))};
+}
+
+MethodChain make_method(std::string_view specification) {
+  MethodChain chain{std::string(specification), "", {}};
+  for (core::Specification& link : core::parse_chain(specification, "--method")) {
+    const MethodEntry& entry = find_entry(kMethods, link.name, "method");
+    chain.name += (chain.name.empty() ? "" : "+") + link.name;
+    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link))});
+  }
+  return chain;
+}
+
+std::string describe_functions() { return describe(kFunctions); }
+std::string describe_methods() { return describe(kMethods); }
+
+}  // namespace morsel::tools

@@ -1,0 +1,60 @@
+#pragma once
+/// The one list of Morse functions and the one list of methods. A new one is a header and source pair in its
+/// module and one line in registry.cpp.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morsel/core/method.h"
+#include "morsel/core/parameters.h"
+
+namespace morsel::tools {
+
+struct FunctionEntry {
+  std::string_view name;
+  std::string_view summary;  ///< one line for help
+  std::unique_ptr<core::MorseFunction> (*make)(core::ParameterReader&);
+};
+
+struct MethodEntry {
+  std::string_view name;
+  std::string_view summary;
+  std::unique_ptr<core::Method> (*make)(core::ParameterReader&);
+};
+
+std::span<const FunctionEntry> morse_functions();
+std::span<const MethodEntry> methods();
+
+/// A Morse function by its text ("height:axis=z").
+struct NamedFunction {
+  std::string specification;  ///< as given
+  std::string name;
+  std::unique_ptr<core::MorseFunction> function;
+};
+
+/// One step of a chain of methods.
+struct MethodStep {
+  std::string name;
+  std::unique_ptr<core::Method> method;
+};
+
+/// A method by its text, a chain ("salient:iterations=5+tps:count=150") or a single step.
+struct MethodChain {
+  std::string specification;  ///< as given
+  std::string name;           ///< "salient+tps"
+  std::vector<MethodStep> steps;
+};
+
+/// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch no
+/// file.
+NamedFunction make_function(std::string_view specification);
+MethodChain make_method(std::string_view specification);
+
+/// All entries with their keys, defaults and descriptions, as help shows them.
+std::string describe_functions();
+std::string describe_methods();
+
+}  // namespace morsel::tools

@@ -1,0 +1,44 @@
+#include "morsel/tools/report/comparison_table.h"
+
+#include <cstdio>
+
+#include "morsel/core/parameters.h"
+#include "morsel/tools/report/text_table.h"
+
+namespace morsel::tools {
+namespace {
+
+std::string fixed(double value, const char* format) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+}  // namespace
+
+void ComparisonTable::field(const FieldOutcome& outcome) {
+  headline_ = outcome.name + ": " + fixed(outcome.field.min(), "%.6g") + " to " +
+              fixed(outcome.field.max(), "%.6g") + " on " + grouped(outcome.field.mesh().vertex_count()) +
+              " vertices\n";
+  rows_ = {{"method", "minima", "saddles", "(mult.)", "maxima", "total", "pairs", ">1 %", "arcs", "cells",
+            "kept", "moved", "added", "seconds"}};
+}
+
+void ComparisonTable::method(const MethodOutcome& outcome) {
+  const Measurement& m = outcome.measurement;
+  double seconds = 0;
+  for (const auto& [step, time] : outcome.timings) seconds += time;
+  const Matching& matching = outcome.compared_to_first;
+  rows_.push_back(
+      {outcome.specification, grouped(m.critical_points.minima), grouped(m.critical_points.saddles),
+       grouped(m.critical_points.saddle_multiplicity), grouped(m.critical_points.maxima),
+       grouped(m.critical_points.total()), grouped(m.diagram.pairs.size()),
+       grouped(m.diagram.count_above(0.01 * outcome.field.extent()) + m.diagram.cap_pairs().size()),
+       grouped(m.complex.arc_count()), grouped(m.segmentation.morse_smale.count),
+       grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
+       fixed(seconds, "%.2f")});
+}
+
+std::string ComparisonTable::text() const { return headline_ + text_table(rows_); }
+
+}  // namespace morsel::tools

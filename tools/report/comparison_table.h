@@ -1,0 +1,24 @@
+#pragma once
+/// The comparison as a short table for people.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/comparison/comparison.h"
+
+namespace morsel::tools {
+
+/// Collects a row a method.
+class ComparisonTable : public ComparisonSink {
+ public:
+  void field(const FieldOutcome& outcome) override;
+  void method(const MethodOutcome& outcome) override;
+  /// The table, with a line on the field above it.
+  std::string text() const;
+
+ private:
+  std::string headline_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace morsel::tools

@@ -1,0 +1,99 @@
+#include "morsel/tools/report/difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace morsel::tools {
+namespace {
+
+/// Largest magnitude of the field's values and the mesh's positions in the report, the scale of its real
+/// numbers.
+double scale_of(const Json& report) {
+  double scale = 0;
+  const auto consider = [&](const char* section, const char* key) {
+    const auto part = report.find(section);
+    if (part == report.end() || !part->is_object()) return;
+    const auto value = part->find(key);
+    if (value != part->end() && value->is_number()) scale = std::max(scale, std::abs(value->get<double>()));
+  };
+  consider("field", "min");
+  consider("field", "max");
+  consider("mesh", "bbox_diagonal");
+  return scale;
+}
+
+class Comparer {
+ public:
+  explicit Comparer(double scale) : scale_(scale) {}
+
+  void compare(const Json& before, const Json& after, const std::string& where) {
+    if (before.is_object() && after.is_object()) {
+      compare_objects(before, after, where);
+    } else if (before.is_array() && after.is_array()) {
+      compare_arrays(before, after, where);
+    } else if (!same_value(before, after)) {
+      add(where, before.dump(), after.dump());
+    }
+  }
+
+  std::vector<Difference> take() { return std::move(differences_); }
+
+ private:
+  void add(const std::string& where, std::string before, std::string after) {
+    differences_.push_back({where, std::move(before), std::move(after)});
+  }
+
+  bool same_value(const Json& a, const Json& b) const {
+    if (!a.is_number() || !b.is_number()) return a == b;
+    if (!a.is_number_float() && !b.is_number_float()) return a == b;
+    const double x = a.get<double>();
+    const double y = b.get<double>();
+    return std::abs(x - y) <= std::max(1e-9 * std::max(std::abs(x), std::abs(y)), 1e-12 * scale_);
+  }
+
+  void compare_objects(const Json& before, const Json& after, const std::string& where) {
+    const std::string prefix = where.empty() || where.ends_with(": ") ? where : where + ".";
+    for (const auto& [key, value] : before.items()) {
+      if (where.empty() && key == "timings") continue;
+      if (where == "tool" && key == "version") continue;
+      const auto other = after.find(key);
+      if (other == after.end()) {
+        add(prefix + key, summary(value), "absent");
+      } else {
+        compare(value, *other, prefix + key);
+      }
+    }
+    for (const auto& [key, value] : after.items())
+      if (!before.contains(key) && !(where.empty() && key == "timings"))
+        add(prefix + key, "absent", summary(value));
+  }
+
+  void compare_arrays(const Json& before, const Json& after, const std::string& where) {
+    if (before.size() != after.size())
+      add(where, std::to_string(before.size()) + " entries", std::to_string(after.size()) + " entries");
+    for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+      std::string place = where + "[" + std::to_string(i) + "]";
+      if (where == "methods" && before[i].is_object()) place += " (" + before[i].value("name", "?") + "): ";
+      compare(before[i], after[i], place);
+    }
+  }
+
+  static std::string summary(const Json& value) {
+    if (value.is_object()) return "{" + std::to_string(value.size()) + " members}";
+    if (value.is_array()) return "[" + std::to_string(value.size()) + " entries]";
+    return value.dump();
+  }
+
+  double scale_;
+  std::vector<Difference> differences_;
+};
+
+}  // namespace
+
+std::vector<Difference> report_differences(const Json& before, const Json& after) {
+  Comparer comparer(std::max(scale_of(before), scale_of(after)));
+  comparer.compare(before, after, "");
+  return comparer.take();
+}
+
+}  // namespace morsel::tools

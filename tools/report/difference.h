@@ -1,0 +1,23 @@
+#pragma once
+/// What differs between two reports.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/report/json_stream.h"
+
+namespace morsel::tools {
+
+struct Difference {
+  std::string where;   ///< "methods[1] (salient): critical_points.total"
+  std::string before;  ///< as JSON text; "absent" where it was not there
+  std::string after;
+};
+
+/// All differences between two comparison reports but those in `timings` and the program's version. Whole
+/// numbers, texts and structure must be equal. Real numbers may differ by 1e-9 of themselves or 1e-12 of the
+/// report's largest field value (the last digits depend on the processor's exp), a bound far below anything
+/// that would move a critical point.
+std::vector<Difference> report_differences(const Json& before, const Json& after);
+
+}  // namespace morsel::tools

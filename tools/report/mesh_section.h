@@ -1,0 +1,21 @@
+#pragma once
+/// What reports and `morsel info` say about a mesh.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/report/json_stream.h"
+
+namespace morsel::tools {
+
+/// The report's "mesh": path as given, hash, counts, topology, size and what repair did. Lengths in the
+/// mesh's unit.
+Json mesh_section(const std::filesystem::path& path, const std::string& sha256,
+                  const core::TriangleMesh& mesh, const std::vector<core::Repair>& repairs);
+
+/// [{"action": …, "count": …}, …]
+Json repairs_section(const std::vector<core::Repair>& repairs);
+
+}  // namespace morsel::tools

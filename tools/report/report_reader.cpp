@@ -1,0 +1,48 @@
+#include "morsel/tools/report/report_reader.h"
+
+#include <fstream>
+
+#include "morsel/core/error.h"
+
+namespace morsel::tools {
+
+LoadedReport read_report(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path))
+    throw core::BadInput("cannot read the report " + path.string());
+  LoadedReport report;
+  try {
+    report.document = Json::parse(in);
+  } catch (const Json::parse_error& error) {
+    throw core::BadInput(path.string() + " is not JSON: " + error.what());
+  }
+  const std::string schema = report.document.is_object() && report.document.contains("schema") &&
+                                     report.document["schema"].is_string()
+                                 ? report.document["schema"].get<std::string>()
+                                 : "none";
+  if (schema != "morsel.comparison/1")
+    throw core::BadInput(path.string() + " is not a comparison report: its schema is \"" + schema +
+                         "\", not \"morsel.comparison/1\"");
+  try {
+    const Json& request = report.document.at("request");
+    report.request.field = request.at("field").get<std::string>();
+    report.request.methods = request.at("methods").get<std::vector<std::string>>();
+    report.repair = request.at("repair").get<bool>();
+    report.mesh_path = report.document.at("mesh").at("path").get<std::string>();
+    report.mesh_sha256 = report.document.at("mesh").at("sha256").get<std::string>();
+  } catch (const Json::exception& error) {
+    throw core::BadInput(path.string() + " is a damaged report: " + error.what());
+  }
+  if (report.request.methods.empty())
+    throw core::BadInput(path.string() + " is a damaged report: it has no method");
+  return report;
+}
+
+std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path) {
+  const std::filesystem::path path = report.mesh_path;
+  if (std::filesystem::is_regular_file(path)) return path;
+  const std::filesystem::path beside = report_path.parent_path() / path;
+  return std::filesystem::is_regular_file(beside) ? beside : std::filesystem::path();
+}
+
+}  // namespace morsel::tools

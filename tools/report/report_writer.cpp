@@ -1,0 +1,173 @@
+#include "morsel/tools/report/report_writer.h"
+
+#include <array>
+#include <cmath>
+
+#include "morsel/persistence/diagram.h"
+#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/version.h"
+
+namespace morsel::tools {
+namespace {
+
+Json timings_json(const Timings& timings) {
+  Json json = Json::object();
+  for (const auto& [step, seconds] : timings) json[step] = seconds;
+  return json;
+}
+
+/// One step's values as they are, a chain's by step.
+Json by_step(const std::vector<StepOutcome>& steps, core::Parameters StepOutcome::*values) {
+  if (steps.size() == 1) return to_json(steps.front().*values);
+  Json list = Json::array();
+  for (const StepOutcome& step : steps)
+    list.push_back({{"name", step.name}, {"values", to_json(step.*values)}});
+  return {{"steps", std::move(list)}};
+}
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+}  // namespace
+
+Json to_json(const core::ParameterValue& value) {
+  return std::visit(
+      [](const auto& held) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>) return finite_or_null(held);
+        return held;
+      },
+      value);
+}
+
+Json to_json(const core::Parameters& parameters) {
+  Json json = Json::object();
+  for (const auto& [name, value] : parameters) json[name] = to_json(value);
+  return json;
+}
+
+ReportWriter::ReportWriter(std::ostream& out, const core::LoadedMesh& loaded, const ReportInput& input,
+                           const ComparisonRequest& request)
+    : json_(out), loaded_(loaded), timings_({{"load", input.load_seconds}}) {
+  json_.begin_object();
+  json_.member("schema", "morsel.comparison/1");
+  json_.member("tool", {{"name", "morsel"}, {"version", kVersion}});
+  json_.member("request", {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}});
+  json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
+}
+
+void ReportWriter::field(const FieldOutcome& outcome) {
+  json_.member("field", {{"name", outcome.name},
+                         {"parameters", to_json(outcome.parameters)},
+                         {"min", outcome.field.min()},
+                         {"max", outcome.field.max()}});
+  timings_["field"] = outcome.seconds;
+  timings_["methods"] = Json::array();
+  json_.begin_array("methods");
+}
+
+void ReportWriter::method(const MethodOutcome& outcome) {
+  const Measurement& m = outcome.measurement;
+  json_.begin_object();
+  json_.member("name", outcome.name);
+  json_.member("parameters", by_step(outcome.steps, &StepOutcome::parameters));
+  json_.member("details", by_step(outcome.steps, &StepOutcome::details));
+  json_.member("field", {{"min", outcome.field.min()}, {"max", outcome.field.max()}});
+  json_.member("critical_points", {{"minima", m.critical_points.minima},
+                                   {"saddles", m.critical_points.saddles},
+                                   {"saddle_multiplicity", m.critical_points.saddle_multiplicity},
+                                   {"maxima", m.critical_points.maxima},
+                                   {"total", m.critical_points.total()}});
+  json_.member("ms_complex", {{"minima", m.complex.minimum_count()},
+                              {"saddles", m.complex.saddle_count()},
+                              {"maxima", m.complex.maximum_count()},
+                              {"caps", m.complex.cap_count()},
+                              {"arcs", m.complex.arc_count()},
+                              {"quads", m.complex.quad_count()},
+                              {"segments",
+                               {{"descending", m.segmentation.descending.count},
+                                {"ascending", m.segmentation.ascending.count},
+                                {"morse_smale", m.segmentation.morse_smale.count}}}});
+  json_.member("compared_to_first", {{"kept", outcome.compared_to_first.kept.size()},
+                                     {"moved", outcome.compared_to_first.moved.size()},
+                                     {"added", outcome.compared_to_first.added},
+                                     {"removed", outcome.compared_to_first.removed}});
+  write_persistence(outcome);
+  write_items(outcome);
+  json_.end_object();
+  Json seconds = {{"name", outcome.name}};
+  seconds.update(timings_json(outcome.timings));
+  timings_["methods"].push_back(std::move(seconds));
+}
+
+void ReportWriter::write_persistence(const MethodOutcome& outcome) {
+  using persistence::PairKind;
+  const persistence::Diagram& diagram = outcome.measurement.diagram;
+  const core::VertexNumbering& numbering = loaded_.source.numbering;
+  std::size_t essential_saddles = 0;
+  for (const auto& saddle : diagram.essential_saddles) essential_saddles += saddle.count;
+
+  json_.begin_object("persistence");
+  json_.member("pairs", diagram.pairs.size());
+  json_.member("infinite_pairs", diagram.cap_pairs().size());
+  json_.member("essential_saddles", essential_saddles);
+  json_.member("max", diagram.finite_count == 0 ? Json() : Json(diagram.largest()));
+  Json above = Json::array();
+  for (const double percent : {0.1, 1.0, 5.0})
+    above.push_back({{"percent", percent},
+                     {"pairs", diagram.count_above(percent / 100 * outcome.field.extent()) +
+                                   diagram.cap_pairs().size()}});
+  json_.member("above", above);
+  json_.begin_array("diagram");
+  const auto entry = [&](std::string_view kind, double birth, double death, core::Index born,
+                         core::Index dead) {
+    const auto number = [&](core::Index v) {
+      return v == core::kNone ? Json() : Json(numbering.input_vertex(v));
+    };
+    json_.element({{"kind", kind},
+                   {"birth", birth},
+                   {"death", finite_or_null(death)},
+                   {"persistence", finite_or_null(death - birth)},
+                   {"birth_vertex", number(born)},
+                   {"death_vertex", number(dead)}});
+  };
+  for (const auto& pair : diagram.pairs) {
+    const bool rising = pair.kind == PairKind::minimum_saddle;
+    const core::Index other = pair.kind == PairKind::saddle_cap ? core::kNone : pair.extremum;
+    entry(to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle,
+          rising ? pair.saddle : other);
+  }
+  const auto essential = [&](std::string_view kind, core::Index v) {
+    entry(kind, outcome.field.value(v), persistence::kInfinite, v, core::kNone);
+  };
+  for (const auto& extrema : diagram.essential_extrema) essential("essential-minimum", extrema.minimum);
+  for (const auto& saddle : diagram.essential_saddles)
+    for (core::Index i = 0; i < saddle.count; ++i) essential("essential-saddle", saddle.vertex);
+  for (const auto& extrema : diagram.essential_extrema)
+    if (!extrema.top_is_cap) essential("essential-maximum", extrema.top);
+  json_.end_array();
+  json_.end_object();
+}
+
+void ReportWriter::write_items(const MethodOutcome& outcome) {
+  const std::vector<double> persistence =
+      persistence::vertex_persistence(outcome.measurement.diagram, loaded_.mesh.vertex_count());
+  json_.begin_array("items");
+  for (const morse::CriticalPoint& point : outcome.measurement.critical_points.points) {
+    const core::Point& p = loaded_.mesh.position(point.vertex);
+    json_.element({{"vertex", loaded_.source.numbering.input_vertex(point.vertex)},
+                   {"position", {p.x(), p.y(), p.z()}},
+                   {"type", to_string(point.type)},
+                   {"multiplicity", point.multiplicity},
+                   {"value", outcome.field.value(point.vertex)},
+                   {"persistence", finite_or_null(persistence[point.vertex])}});
+  }
+  json_.end_array();
+}
+
+void ReportWriter::finish() {
+  json_.end_array();
+  timings_["total"] = watch_.seconds() + timings_["load"].get<double>();
+  json_.member("timings", timings_);
+  json_.end_object();
+}
+
+}  // namespace morsel::tools

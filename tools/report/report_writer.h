@@ -1,0 +1,46 @@
+#pragma once
+/// The JSON report of a comparison ("morsel.comparison/1", see comparison.schema.json).
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/report/json_stream.h"
+
+namespace morsel::tools {
+
+/// What the report says of its input besides the mesh itself.
+struct ReportInput {
+  std::string mesh_path;  ///< as the user gave it
+  std::string mesh_sha256;
+  bool repair = false;
+  double load_seconds = 0;
+};
+
+/// Writes a report while the comparison runs, method by method.
+class ReportWriter : public ComparisonSink {
+ public:
+  /// Refers to `out` and `loaded`, which must outlive the writer.
+  ReportWriter(std::ostream& out, const core::LoadedMesh& loaded, const ReportInput& input,
+               const ComparisonRequest& request);
+  void field(const FieldOutcome& outcome) override;
+  void method(const MethodOutcome& outcome) override;
+  /// Closes the document; nothing may follow.
+  void finish();
+
+ private:
+  void write_persistence(const MethodOutcome& outcome);
+  void write_items(const MethodOutcome& outcome);
+
+  JsonStream json_;
+  const core::LoadedMesh& loaded_;
+  Json timings_;
+  Stopwatch watch_;
+};
+
+/// A parameter's value as JSON; non-finite numbers become null.
+Json to_json(const core::ParameterValue& value);
+Json to_json(const core::Parameters& parameters);
+
+}  // namespace morsel::tools

@@ -1,0 +1,19 @@
+#pragma once
+/// Plain-text tables and numbers for people.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace morsel::tools {
+
+/// 1234567 → "1,234,567".
+std::string grouped(std::uint64_t number);
+
+/// Rows of cells, the first row a header, aligned: the first column to the left, the others to the right.
+std::string text_table(const std::vector<std::vector<std::string>>& rows);
+
+/// Number of characters a terminal shows for UTF-8 text.
+std::size_t display_width(const std::string& text);
+
+}  // namespace morsel::tools
