@@ -74,9 +74,9 @@ struct BuildOptions {
 /// | removed_degenerate_faces | faces with fewer than three different vertices |
 /// | removed_duplicate_faces | faces on the same vertices as an earlier one, which is kept |
 /// | split_non_manifold_edges | edges of three or more faces: the faces are parted there |
-/// | split_non_manifold_vertices | vertices whose faces form several fans: each fan gets a vertex of its own
-/// | | reoriented_faces | faces turned round so that all in a component agree | |
-/// removed_unreferenced_vertices | vertices that no face (any more) uses |
+/// | split_non_manifold_vertices | vertices whose faces form several fans: each gets a vertex of its own |
+/// | reoriented_faces | faces turned round so that all in a component agree |
+/// | removed_unreferenced_vertices | vertices that no face (any more) uses |
 ///
 /// Where a vertex is split, the fan of the first face keeps its number and the others get new vertices at the
 /// same position after all others. Faces that meet in a split edge stay joined where both its ends got the

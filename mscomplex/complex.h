@@ -52,7 +52,7 @@ struct Quad {
 /// surface. A component with one minimum and one maximum (or cap) and no saddle has no arc and no quad. An
 /// Index counts all of them: saddles never outnumber half the triangles.
 ///
-/// Immutable; safe to read from any number of threads. Memory: 48 bytes a saddle and 20 a node besides the
+/// Immutable; safe to read from any number of threads. Memory: 48 bytes a saddle and 12 a node besides the
 /// gradient. Arcs that merge share their further way, and the sum of their lengths may be quadratic, so
 /// geometry is traced on demand.
 class MorseSmaleComplex {

@@ -15,8 +15,9 @@ using core::TriangleMesh;
 
 namespace {
 
-void require(bool holds, const std::string& what, Index where) {
-  if (!holds) throw std::logic_error("MorseSmaleComplex::validate: " + what + " " + std::to_string(where));
+void require(bool holds, const char* what, Index where) {
+  if (!holds)
+    throw std::logic_error(std::string("MorseSmaleComplex::validate: ") + what + " " + std::to_string(where));
 }
 
 bool is_side_of(const TriangleMesh& mesh, Index edge, Index t) {

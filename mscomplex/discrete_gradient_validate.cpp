@@ -15,13 +15,14 @@ using core::TriangleMesh;
 
 namespace {
 
-void require(bool holds, const std::string& what, Index where) {
-  if (!holds) throw std::logic_error("DiscreteGradient::validate: " + what + " " + std::to_string(where));
+void require(bool holds, const char* what, Index where) {
+  if (!holds)
+    throw std::logic_error(std::string("DiscreteGradient::validate: ") + what + " " + std::to_string(where));
 }
 
 /// Follows next() from everywhere; a walk that meets itself is a closed V-path.
 template <class Next>
-void require_acyclic(Index count, const Next& next, const std::string& what) {
+void require_acyclic(Index count, const Next& next, const char* what) {
   std::vector<Index> walk_of(count, kNone);
   for (Index i = 0; i < count; ++i) {
     Index j = i;

@@ -69,10 +69,10 @@ struct SalientResult {
 ///   S(v) = Σ_x (f(x) − f(v)) W_c W_s / Σ_x W_c W_s over the vertices x with ‖x − v‖ ≤ support · σ,
 ///   W_c = exp(−‖x − v‖² / 2σ²), W_s = exp(−(f(x) − f(v))² / 2σ_s²)
 ///
-/// (the paper's equations 3 and 4 and Listing 1, with f taken from the Morse function once). Distances are
-/// Euclidean, and the neighbourhood is decided in double precision. S is 0 where σ_s is 0. Equal values keep
-/// the input's order. On sums of any size nothing overflows or underflows: values are taken relative to the
-/// largest.
+/// (the paper's equations 3 and 4 and Listing 1, with f taken from the Morse function once, not in every
+/// iteration). Distances are Euclidean; what is in reach is decided in double precision. S is 0 where σ_s is
+/// 0. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
+/// that nothing overflows or vanishes on the way.
 ///
 /// O(iterations · n · neighbours), parallel, the same bits for every number of threads. Throws
 /// InvalidArgument on options out of range, and if the saliency of no iteration is asked for; BadInput if σ

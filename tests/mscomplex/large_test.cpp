@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstddef>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "morsel/core/mesh_io.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"
@@ -22,25 +22,6 @@ using mscomplex::segment;
 using mscomplex::Segmentation;
 
 namespace {
-
-TriangleMesh read_off(const std::string& file) {
-  std::ifstream in(sample(file));
-  std::string word;
-  std::size_t vertices = 0, triangles = 0, edges = 0;
-  in >> word >> vertices >> triangles >> edges;
-  REQUIRE(word == "OFF");
-  Soup soup;
-  soup.positions.resize(vertices);
-  soup.triangles.resize(triangles);
-  for (Point& p : soup.positions) in >> p.x() >> p.y() >> p.z();
-  for (auto& t : soup.triangles) {
-    std::size_t corners = 0;
-    in >> corners >> t[0] >> t[1] >> t[2];
-    REQUIRE(corners == 3);
-  }
-  REQUIRE(in.good());
-  return soup.mesh();
-}
 
 ScalarField height(const TriangleMesh& mesh, int axis) {
   std::vector<double> values;
@@ -77,9 +58,12 @@ std::vector<Index> measure(const ScalarField& field) {
   CHECK(complex.maximum_count() == points.maxima);
   const Segmentation s = segment(field, complex.gradient());
   const auto& mesh = field.mesh();
+  Index wrong = 0;
   for (Index t = 0; t < mesh.triangle_count(); ++t)
-    REQUIRE(s.cells.at(s.morse_smale.triangle[t]) ==
-            std::array{s.ascending.triangle[t], s.descending.triangle[t]});
+    if (s.cells.at(s.morse_smale.triangle[t]) !=
+        std::array{s.ascending.triangle[t], s.descending.triangle[t]})
+      ++wrong;
+  CHECK(wrong == 0);
   return {complex.minimum_count(), complex.saddle_count(), complex.maximum_count(),
           complex.cap_count(),     complex.arc_count(),    complex.quad_count(),
           s.descending.count,      s.ascending.count,      s.morse_smale.count};
@@ -88,13 +72,13 @@ std::vector<Index> measure(const ScalarField& field) {
 }  // namespace
 
 TEST_CASE("the complex of the lion head") {
-  const TriangleMesh mesh = read_off("lion-head.off");
+  const TriangleMesh mesh = core::read_mesh(sample("lion-head.off")).mesh;
   CHECK(measure(height(mesh, 2)) == std::vector<Index>{8, 15, 8, 1, 60, 30, 8, 8, 20});
   CHECK(measure(roughness(mesh)) == std::vector<Index>{492, 904, 413, 1, 3616, 1808, 414, 492, 1747});
 }
 
 TEST_CASE("the complex of the bunny") {
-  const TriangleMesh mesh = read_off("bunny00.off");
+  const TriangleMesh mesh = core::read_mesh(sample("bunny00.off")).mesh;
   CHECK(measure(height(mesh, 1)) == std::vector<Index>{33, 49, 18, 0, 196, 98, 18, 33, 98});
   CHECK(measure(roughness(mesh)) == std::vector<Index>{3754, 6752, 3000, 0, 27008, 13504, 3000, 3754, 13074});
 }
