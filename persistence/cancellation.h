@@ -42,9 +42,8 @@ struct CancellationResult {
 /// How: from the minima that stay, the basins of the others are flooded to where they overflow; on the
 /// result, the maxima that do not stay are carved down likewise; last, each plateau that this leaves is
 /// ordered so that all its vertices have a lower and a higher neighbour. Simpler than Edelsbrunner, Morozov,
-/// Pascucci 2006
-/// ("Persistence-sensitive simplification of functions on 2-manifolds"), which keeps the points of the
-/// diagram that stay where they are; here they may move by t.
+/// Pascucci 2006 ("Persistence-sensitive simplification of functions on 2-manifolds"), which keeps the points
+/// of the diagram that stay where they are; here they may move by t.
 ///
 /// `count` is reached where some number of cancelled pairs does it. Each pair takes an extremum and one of a
 /// saddle's multiplicity away, so without multiple saddles the number of critical points falls by two a pair

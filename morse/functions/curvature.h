@@ -20,8 +20,8 @@ namespace morsel::morse {
 ///
 /// Where the formulas have no value: a neighbour at the same place (an edge of length zero) has no direction
 /// and is left out, the other weights summing to 1; a vertex without area around it, or whose normals cancel
-/// out, has curvature 0. So values are never NaN. Edges far below the unit of the floating-point range
-/// (under 1e-308) may make them overflow, which throws BadInput. O(n), parallel.
+/// out, has curvature 0. So values are never NaN. Edges far below the unit of the floating-point range (under
+/// 1e-308) may make them overflow, which throws BadInput. O(n), parallel.
 core::ScalarField mean_curvature(const core::TriangleMesh& mesh, const core::Progress& progress = {});
 
 /// k1 ≥ k2 at each vertex, unit 1/length.

@@ -13,6 +13,7 @@ using namespace morsel::test;
 using morse::CriticalPoint;
 using morse::CriticalPoints;
 using morse::CriticalType;
+using tools::match_critical_points;
 using tools::Matching;
 
 namespace {

@@ -1,0 +1,94 @@
+// Each format cut off and changed at each byte: a mesh or a BadInput, nothing else; and what was cut off must
+// not pass for whole.
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <string>
+
+#include "morsel/core/error.h"
+#include "morsel/core/mesh_io.h"
+#include "support/corpus.h"
+
+using namespace morsel;
+using namespace morsel::test;
+
+namespace {
+
+/// One whole file of each kind.
+std::vector<CorpusFile> whole_files() {
+  std::vector<CorpusFile> result;
+  for (const CorpusFile& file : mesh_corpus())
+    for (const char* name :
+         {"tetrahedron.off", "coff.off", "stcnoff.off", "tetrahedron.obj", "attributes.obj", "relative.obj",
+          "quality.ply", "other_elements.ply", "binary_little.ply", "binary_big.ply", "tetrahedron.stl",
+          "binary.stl", "binary_solid_header.stl"})
+      if (file.name == name) result.push_back(file);
+  REQUIRE(result.size() == 13);
+  return result;
+}
+
+/// Whether the bytes are taken for a file. Anything but BadInput is passed on and fails the test.
+bool is_taken(const std::string& bytes, core::MeshFormat format) {
+  try {
+    const core::LoadedSoup loaded = core::parse_polygon_soup(bytes, format, "damaged");
+    for (const bool repair : {false, true}) {
+      try {
+        core::build_mesh(loaded.soup, {.repair = repair}).mesh.validate();
+      } catch (const core::BadInput&) {
+      }
+    }
+    return true;
+  } catch (const core::BadInput& error) {
+    CHECK(std::string(error.what()).find("damaged") != std::string::npos);
+    return false;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a file that is cut off is refused wherever that is") {
+  for (const CorpusFile& file : whole_files()) {
+    const core::MeshFormat format = core::mesh_format(file.name);
+    for (std::size_t length = 0; length < file.bytes.size(); ++length) {
+      const std::string cut = file.bytes.substr(0, length);
+      const bool taken = is_taken(cut, format);
+      if (format == core::MeshFormat::obj || !taken) continue;  // OBJ does not say how much is to come
+      // Only the last line's end may be missing, or digits of the last number, or of the name after endsolid.
+      INFO(file.name << " cut to " << length << " of " << file.bytes.size() << " bytes");
+      const bool is_named = format == core::MeshFormat::stl && cut.find("endsolid") != std::string::npos;
+      CHECK((is_named || file.bytes.find_first_of(" \n", length) >= file.bytes.size() - 1));
+    }
+  }
+}
+
+TEST_CASE("a file with any byte changed gives a mesh or an error") {
+  for (const CorpusFile& file : whole_files()) {
+    const core::MeshFormat format = core::mesh_format(file.name);
+    std::string bytes = file.bytes;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      const char original = bytes[i];
+      for (const char change : {'\0', '\xFF', '\n', ' ', '-', '9', 'e', static_cast<char>(original ^ 1),
+                                static_cast<char>(original ^ 0x80)}) {
+        bytes[i] = change;
+        INFO(file.name << ", byte " << i << " changed to " << static_cast<int>(change));
+        REQUIRE_NOTHROW(is_taken(bytes, format));
+      }
+      bytes[i] = original;
+    }
+  }
+}
+
+TEST_CASE("a file with any byte removed or doubled gives a mesh or an error") {
+  for (const CorpusFile& file : whole_files()) {
+    const core::MeshFormat format = core::mesh_format(file.name);
+    for (std::size_t i = 0; i < file.bytes.size(); ++i) {
+      std::string shorter = file.bytes;
+      shorter.erase(i, 1);
+      std::string longer = file.bytes;
+      longer.insert(i, 1, longer[i]);
+      INFO(file.name << ", byte " << i);
+      REQUIRE_NOTHROW(is_taken(shorter, format));
+      REQUIRE_NOTHROW(is_taken(longer, format));
+    }
+  }
+}
