@@ -12,6 +12,9 @@ fail() {
   exit 1
 }
 
+# The comment at the head of the script.
+usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
+
 # apt_get ARGUMENTS…: as root, through sudo if need be, without questions, waiting for a package manager that is busy.
 # What it says goes to build/apt.log and is shown if it fails.
 apt_get() {
