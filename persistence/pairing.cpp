@@ -8,7 +8,6 @@
 
 namespace morsel::persistence {
 
-
 namespace detail {
 namespace {
 
