@@ -11,7 +11,6 @@ namespace morsel::mscomplex {
 
 using core::Index;
 using core::kNone;
-using core::TriangleMesh;
 
 namespace {
 
