@@ -51,6 +51,7 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                               {"range", "1std"},
                                               {"support", 2.0},
                                               {"classify", "smoothed"},
+                                              {"precision", "double"},
                                               {"sigma_s", *direct.sigma_s}});
   CHECK(result.details == core::Parameters{{"pairs_per_iteration", static_cast<std::int64_t>(direct.pairs)}});
 
@@ -63,7 +64,8 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                              {"sigma", 0.25},
                                              {"range", "local"},
                                              {"support", 1.5},
-                                             {"classify", "saliency"}});
+                                             {"classify", "saliency"},
+                                             {"precision", "double"}});
   morse::SalientOptions options{
       2, core::Length::absolute(0.25), {morse::ValueRange::Kind::local, 1}, 1.5, true};
   CHECK(values_of(local.field) == values_of(morse::salient(field, options).field));
@@ -88,7 +90,7 @@ TEST_CASE("salient keys are checked when the method is made") {
   CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
-  REQUIRE(help.declared().size() == 5);
+  REQUIRE(help.declared().size() == 6);
   const std::vector<std::pair<std::string, std::string>> defaults = {
       {"iterations", "10"}, {"sigma", "8eps"}, {"range", "1std"}, {"support", "2"}, {"classify", "smoothed"}};
   for (std::size_t i = 0; i < defaults.size(); ++i) {
