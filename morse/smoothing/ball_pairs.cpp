@@ -55,7 +55,8 @@ std::size_t BallPairs<Mask>::bytes() const {
 
 template <class Mask>
 TilePairs<Mask> BallPairs<Mask>::view() const {
-  return {run_ends.size(), runs.data(), run_ends.data(), blocks.data(), masks.data(), block_ends.data()};
+  return {run_ends.size(), reached.size(), runs.data(),      run_ends.data(),
+          blocks.data(),   masks.data(),   block_ends.data()};
 }
 
 /// What is found for one tile; kept from tile to tile for its memory.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -23,9 +24,11 @@ constexpr double kUnit = 0.84932180028801904272;
 /// A chunk in float32 extends at most this many σ from its middle, so its coordinates are right to 1e-6 σ.
 constexpr double kWide = 16;
 
-/// Nothing that counts is farther, and squares stay finite.
+/// Nothing that counts is farther, in units of σ or σ_s, and squares stay finite.
 template <class Real>
 constexpr double kFar = std::is_same_v<Real, float> ? 1e15 : 1e150;
+/// Values in float32 kernels are integers of at most this many bits besides the sign, and so are differences.
+constexpr int kBits = 31;
 
 enum class Pass : std::uint8_t { spread, fixed, local };
 
@@ -72,25 +75,24 @@ class BilateralFilter::EngineOf final : public Engine {
     const std::span<const core::Index> order = tree_.order();
     core::parallel_for_each(order.size(), [&](std::size_t i) { values_[i] = values[order[i]]; });
     numerators_.assign(order.size(), 0);
+    choose_step();
     if (!sigma_s) {
       run(Pass::spread, 1, [&](double done) { report(done / 4); });
-      spreads_.resize(order.size());
+      units_.resize(order.size());
       core::parallel_for_each(order.size(), [&](std::size_t i) {
-        spreads_[i] = numerators_[i] > 0 ? std::min(kUnit / numerators_[i], 1e300) : 0;
+        units_[i] = numerators_[i] > 0 ? kUnit / numerators_[i] : 0;
         numerators_[i] = 0;
       });
     }
-    // Beyond these all weights are 1, or all but those of equal values 0.
-    const double scale = sigma_s ? std::clamp(kUnit / *sigma_s, 1 / kFar<Real>, kFar<Real>) : 1;
     denominators_.assign(order.size(), 1);  // the point itself
     if (!sigma_s || *sigma_s > 0)
-      run(sigma_s ? Pass::fixed : Pass::local, scale,
+      run(sigma_s ? Pass::fixed : Pass::local, sigma_s ? kUnit / *sigma_s : 1,
           [&](double done) { report(sigma_s ? done : 0.25 + 0.75 * done); });
     else if (!counted_)
       run(Pass::spread, 1, report);
     core::parallel_for_each(order.size(), [&](std::size_t i) {
-      const bool none = sigma_s ? *sigma_s == 0 : spreads_[i] == 0;
-      result[order[i]] = none ? 0 : numerators_[i] / denominators_[i] / scale;
+      const bool none = sigma_s ? *sigma_s == 0 : units_[i] == 0;
+      result[order[i]] = none ? 0 : numerators_[i] / denominators_[i];
     });
   }
 
@@ -111,9 +113,19 @@ class BilateralFilter::EngineOf final : public Engine {
   /// What a chunk adds to the blocks that it reaches.
   struct Sums {
     std::vector<std::uint32_t> reached;  // where the chunk's pairs are not stored
-    AlignedVector<Real> narrow;
-    AlignedVector<double> wide;
+    AlignedVector<double> values;
+    double step = 1;  // their unit
   };
+
+  /// Steps of values for the float32 kernels, a power of two; relative to the middle of the values.
+  void choose_step() {
+    if (!std::is_same_v<Real, float> || values_.empty()) return;
+    const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
+    middle_ = (*least + *most) / 2;
+    int exponent = 0;
+    std::frexp(*most - *least, &exponent);
+    step_ = std::ldexp(1.0, std::max(exponent, -900) - kBits);
+  }
 
   /// Ranges of the tree, so that they are compact.
   void divide(std::size_t first, std::size_t last, std::size_t most) {
@@ -133,7 +145,7 @@ class BilateralFilter::EngineOf final : public Engine {
   }
 
   /// Adds up a pass's sums (or largest values) in numerators_ and denominators_.
-  void run(Pass pass, double scale, const Report& report) {
+  void run(Pass pass, double unit, const Report& report) {
     // Slab by slab, so that the sums of a few chunks exist at a time, progress moves and a stop is heard.
     const std::size_t slab = std::max<std::size_t>(128, 16 * static_cast<std::size_t>(core::thread_count()));
     for (std::size_t begin = 0; begin < chunks_.size(); begin += slab) {
@@ -142,14 +154,14 @@ class BilateralFilter::EngineOf final : public Engine {
       std::vector<Sums> sums(end - begin);
       core::parallel_for(begin, end, 1, [&](std::size_t k, std::size_t) {
         progress_.throw_if_cancelled();
-        visit(chunks_[k], pass, scale, sums[k - begin]);
+        visit(chunks_[k], pass, unit, sums[k - begin]);
       });
       add(pass, begin, sums);
     }
     counted_ = true;
   }
 
-  void visit(Chunk& chunk, Pass pass, double scale, Sums& sums) {
+  void visit(Chunk& chunk, Pass pass, double unit, Sums& sums) {
     BallPairs<Mask> found;
     if (!chunk.stored) {
       found = search_.find(chunk.first, chunk.last);
@@ -158,13 +170,13 @@ class BilateralFilter::EngineOf final : public Engine {
     const BallPairs<Mask>& pairs = chunk.stored ? chunk.pairs : found;
     if constexpr (std::is_same_v<Real, double>) {
       if constexpr (kLanes == 8)
-        visit(chunk, pairs, kernels_.double8, pass, scale, sums.narrow);
+        visit(chunk, pairs, kernels_.double8, pass, unit, sums);
       else
-        visit(chunk, pairs, kernels_.double16, pass, scale, sums.narrow);
+        visit(chunk, pairs, kernels_.double16, pass, unit, sums);
     } else if (chunk.wide) {
-      visit(chunk, pairs, kernels_.double16, pass, scale, sums.wide);
+      visit(chunk, pairs, kernels_.double16, pass, unit, sums);
     } else {
-      visit(chunk, pairs, kernels_.float16, pass, scale, sums.narrow);
+      visit(chunk, pairs, kernels_.float16, pass, unit, sums);
     }
     if (chunk.stored) return;
     // Takes from what is left; who comes first changes time only.
@@ -182,12 +194,17 @@ class BilateralFilter::EngineOf final : public Engine {
 
   template <class Number>
   void visit(const Chunk& chunk, const BallPairs<Mask>& pairs, const PairFunctions<Number, Mask>& functions,
-             Pass pass, double scale, AlignedVector<Number>& sums) const {
+             Pass pass, double unit, Sums& sums) const {
     const std::size_t blocks = pairs.reached.size();
     const std::size_t arrays = arrays_of(pass);
     AlignedVector<Number> points(blocks * arrays * kLanes);
     const BlockBox& box = tree_.box(chunk.first, chunk.last);
-    const double value_origin = values_[chunk.first * kLanes];
+    constexpr bool kIntegers = std::is_same_v<Number, float>;
+    const double origin_of_values = kIntegers ? middle_ : values_[chunk.first * kLanes];
+    // Of values and differences as the kernels see them; integers must not become too far apart.
+    const double step = kIntegers ? step_ : 1;
+    const double far = kIntegers ? 1e8 : kFar<double>;
+    const auto in_range = [&](double u) { return static_cast<Number>(std::clamp(u * step, 1 / far, far)); };
     for (std::size_t b = 0; b < blocks; ++b) {
       const std::size_t block = pairs.reached[b];
       const std::size_t count = tree_.points_in(block);
@@ -200,18 +217,26 @@ class BilateralFilter::EngineOf final : public Engine {
               static_cast<Number>(std::clamp((from[i] - origin) * per_sigma_, -kFar<Number>, kFar<Number>));
       }
       const double* const values = &values_[block * kLanes];
-      for (std::size_t i = 0; i < kLanes; ++i)
-        to[3 * kLanes + i] = i < count ? static_cast<Number>((values[i] - value_origin) * scale) : Number{0};
+      for (std::size_t i = 0; i < kLanes; ++i) {
+        const double value = i < count ? (values[i] - origin_of_values) / step : 0;
+        if constexpr (kIntegers)
+          to[3 * kLanes + i] = std::bit_cast<float>(static_cast<std::int32_t>(std::lrint(value)));
+        else
+          to[3 * kLanes + i] = value;
+      }
       if (arrays == 4) continue;
-      const double* const spreads = &spreads_[block * kLanes];
+      const double* const units = &units_[block * kLanes];
       for (std::size_t i = 0; i < kLanes; ++i)
-        to[4 * kLanes + i] =
-            i < count ? static_cast<Number>(std::min(spreads[i], kFar<Number> * kFar<Number>)) : Number{0};
+        to[4 * kLanes + i] = i < count ? in_range(units[i]) : Number{0};
     }
     std::vector<std::uint32_t> whole(blocks);
     std::vector<PairStep> steps(pairs.most_blocks * kLanes + 1);
-    sums.assign(blocks * sums_of(pass) * kLanes, Number{0});
-    function_of(functions, pass)(pairs.view(), points.data(), sums.data(), {whole.data(), steps.data()});
+    const std::size_t count = blocks * sums_of(pass) * kLanes;
+    sums.step = step;
+    sums.values.assign(count, 0);
+    AlignedVector<Number> parts(kIntegers ? count : 0);
+    function_of(functions, pass)(pairs.view(), points.data(), sums.values.data(), in_range(unit),
+                                 {whole.data(), steps.data(), parts.data()});
   }
 
   /// Adds the sums of chunks in their order, block by block.
@@ -226,26 +251,23 @@ class BilateralFilter::EngineOf final : public Engine {
         const auto to = std::lower_bound(from, reached.end(), last);
         const auto offset = static_cast<std::size_t>(from - reached.begin());
         const std::span<const std::uint32_t> blocks(from, to);
-        if (sums[k].narrow.empty())
-          add(pass, blocks, &sums[k].wide[offset * sums_of(pass) * kLanes]);
-        else
-          add(pass, blocks, sums[k].narrow.data() + offset * sums_of(pass) * kLanes);
+        if (blocks.empty()) continue;
+        add(pass, blocks, &sums[k].values[offset * sums_of(pass) * kLanes], sums[k].step);
       }
     });
   }
 
-  template <class Number>
-  void add(Pass pass, std::span<const std::uint32_t> blocks, const Number* sums) {
+  void add(Pass pass, std::span<const std::uint32_t> blocks, const double* sums, double step) {
     for (const std::size_t block : blocks) {
       const std::size_t begin = block * kLanes;
       const std::size_t count = tree_.points_in(block);
       if (pass == Pass::spread) {
         for (std::size_t i = 0; i < count; ++i)
-          numerators_[begin + i] = std::max(numerators_[begin + i], static_cast<double>(sums[i]));
+          numerators_[begin + i] = std::max(numerators_[begin + i], step * sums[i]);
       } else {
         for (std::size_t i = 0; i < count; ++i) {
-          numerators_[begin + i] += static_cast<double>(sums[i]);
-          denominators_[begin + i] += static_cast<double>(sums[kLanes + i]);
+          numerators_[begin + i] += step * sums[i];
+          denominators_[begin + i] += sums[kLanes + i];
         }
       }
       sums += sums_of(pass) * kLanes;
@@ -259,12 +281,14 @@ class BilateralFilter::EngineOf final : public Engine {
   std::vector<Chunk> chunks_;
   std::atomic<std::size_t> memory_left_;
   double per_sigma_;  // kUnit / σ in the tree's coordinates
+  double middle_ = 0;
+  double step_ = 1;
   bool counted_ = false;
   // In the tree's order:
   std::vector<double> values_;
   std::vector<double> numerators_;  // or the largest differences
   std::vector<double> denominators_;
-  std::vector<double> spreads_;  // kUnit / σ_s(v)
+  std::vector<double> units_;  // kUnit / σ_s(v)
 };
 
 BilateralFilter::BilateralFilter(std::span<const core::Point> points, const Options& options,

@@ -17,6 +17,7 @@ namespace morsel::morse {
 template <class Mask>
 struct TilePairs {
   std::size_t tiles;
+  std::size_t reached;  ///< blocks in the chunk
   const std::uint32_t*
       runs;  ///< first and last (past the end) of runs of blocks wholly within reach of a tile
   const std::uint32_t* run_ends;    ///< per tile, how many runs there are up to and with it
@@ -32,22 +33,29 @@ struct PairStep {
   std::uint16_t mask;
 };
 
-/// Room for the fullest tile.
+/// Room to work in.
+template <class Real>
 struct PairScratch {
   std::uint32_t* whole;  ///< as many as there are blocks in the chunk
-  PairStep* steps;       ///< lanes times as many as a tile has blocks
+  PairStep* steps;       ///< one more than lanes times as many as a tile has blocks partly within reach
+  Real* sums;            ///< as many as the function's sums; only for Real = float
 };
 
-/// Functions for one layout. `points` holds per block lanes x, lanes y, lanes z, all in units of σ · √(2 ln 2), and
-/// lanes values; `sums` per block what is added up. 64-byte aligned.
+/// Functions for one layout. `points` holds per block lanes x, lanes y, lanes z, in units of σ · √(2 ln 2), and
+/// lanes values: doubles, or for Real = float 32-bit integers in place of floats, whose differences must not
+/// overflow (a float would round a large value by more than a small difference may bear). `unit` times a
+/// difference is in units of σ_s · √(2 ln 2). `sums` has per block what is added up. 64-byte aligned.
 template <class Real, class Mask>
 struct PairFunctions {
-  /// Values are in units of σ_s · √(2 ln 2). Adds w (f(x) − f(v)) to the first lanes of sums, w to the second.
-  void (*fixed)(const TilePairs<Mask>& pairs, const Real* points, Real* sums, const PairScratch& scratch);
-  /// `points` has 1 / (σ_s(v) · √(2 ln 2)) besides, per block lanes more. Adds the same.
-  void (*local)(const TilePairs<Mask>& pairs, const Real* points, Real* sums, const PairScratch& scratch);
+  /// Adds w (f(x) − f(v)) to the first lanes of sums, w to the second.
+  void (*fixed)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
+                const PairScratch<Real>& scratch);
+  /// `points` has each point's own unit besides, per block lanes more. Adds the same.
+  void (*local)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
+                const PairScratch<Real>& scratch);
   /// Raises sums (lanes a block) to the largest |f(x) − f(v)|.
-  void (*spread)(const TilePairs<Mask>& pairs, const Real* points, Real* sums, const PairScratch& scratch);
+  void (*spread)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
+                 const PairScratch<Real>& scratch);
 };
 
 /// For each of `count` blocks, and each point of the tile: which of the block's points have a square of the

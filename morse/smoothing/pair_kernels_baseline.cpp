@@ -71,6 +71,7 @@ struct Common {
 };
 
 struct Doubles : Common<double, Double2, Int2, std::int64_t, 2> {
+  static Vector difference(Vector a, Vector b) { return a - b; }
   static Vector exp2_scale(Vector m) {
     const Int2 bits = reinterpret_cast<Int2>(m);
     const Int2 table = {kTable64[bits[0] & 7], kTable64[bits[1] & 7]};
@@ -81,6 +82,9 @@ struct Doubles : Common<double, Double2, Int2, std::int64_t, 2> {
 };
 
 struct Floats : Common<float, Float4, Int4, std::int32_t, 4> {
+  static Vector difference(Vector a, Vector b) {
+    return __builtin_convertvector(reinterpret_cast<Int4>(a) - reinterpret_cast<Int4>(b), Vector);
+  }
   static Vector exp2_scale(Vector m) {
     const Int4 bits = reinterpret_cast<Int4>(m);
     const Int4 table = {kTable32[bits[0] & 7], kTable32[bits[1] & 7], kTable32[bits[2] & 7],

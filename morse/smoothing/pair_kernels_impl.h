@@ -2,7 +2,7 @@
 // unnamed namespace (see pair_kernels.h for why); deliberately without #pragma once and includes.
 //
 // V::Vector holds V::kLanes of V::Real; a block of L points has L / kLanes parts. V needs
-//   zero load store broadcast add subtract multiply fma(a, b, c) = ab + c, fnma(a, b, c) = c − ab, absolute,
+//   zero load store broadcast add subtract multiply difference (of values) fma(a, b, c) = ab + c, fnma(a, b, c) = c − ab, absolute,
 //   maximum, at_most(a, b) → bits, exp2_scale(m), keep(w, e, least), keep(w, e, least, bits), keep(w, bits),
 //   sum and largest of one vector's lanes, by halves.
 
@@ -108,9 +108,11 @@ struct FixedRule {
   static constexpr bool kMaximum = false;
 
   template <class Limit>
-  static void visit(const Points<V, L>& v, const Points<V, L>& x, Vector* own, Vector* other, Limit limit) {
-    const Vector d = V::subtract(x.value, v.value);
-    const Vector e = V::fnma(d, d, distance_exponent<V>(v, x));
+  static void visit(const Points<V, L>& v, const Points<V, L>& x, Vector unit, Vector* own, Vector* other,
+                    Limit limit) {
+    const Vector d = V::difference(x.value, v.value);
+    const Vector t = V::multiply(d, unit);
+    const Vector e = V::fnma(t, t, distance_exponent<V>(v, x));
     const Vector w = limit.template weight<V>(exp2_of<V>(e), e);
     own[0] = V::fma(w, d, own[0]);
     own[1] = V::add(own[1], w);
@@ -128,8 +130,9 @@ struct LocalRule {
   static constexpr bool kMaximum = false;
 
   template <class Limit>
-  static void visit(const Points<V, L>& v, const Points<V, L>& x, Vector* own, Vector* other, Limit limit) {
-    const Vector d = V::subtract(x.value, v.value);
+  static void visit(const Points<V, L>& v, const Points<V, L>& x, Vector /*unit*/, Vector* own, Vector* other,
+                    Limit limit) {
+    const Vector d = V::difference(x.value, v.value);
     const Vector distance = distance_exponent<V>(v, x);
     const Vector t = V::multiply(d, v.per_sigma);
     const Vector e = V::fnma(t, t, distance);
@@ -153,8 +156,9 @@ struct SpreadRule {
   static constexpr bool kMaximum = true;
 
   template <class Limit>
-  static void visit(const Points<V, L>& v, const Points<V, L>& x, Vector* own, Vector* other, Limit limit) {
-    const Vector d = limit.template value<V>(V::absolute(V::subtract(x.value, v.value)));
+  static void visit(const Points<V, L>& v, const Points<V, L>& x, Vector /*unit*/, Vector* own, Vector* other,
+                    Limit limit) {
+    const Vector d = limit.template value<V>(V::absolute(V::difference(x.value, v.value)));
     own[0] = V::maximum(own[0], d);
     other[0] = V::maximum(other[0], d);
   }
@@ -171,9 +175,14 @@ typename V::Real reduce(const typename V::Real* lanes) {
   return maximum ? V::largest(part[0]) : V::sum(part[0]);
 }
 
+template <bool maximum>
+void add_to(double& sum, double more) {
+  sum = maximum ? (more > sum ? more : sum) : sum + more;
+}
+
 template <template <class, int> class RuleOf, class V, int L, class Mask>
-void visit_pairs(const TilePairs<Mask>& pairs, const typename V::Real* points, typename V::Real* sums,
-                 const PairScratch& scratch) {
+void visit_pairs(const TilePairs<Mask>& pairs, const typename V::Real* points, double* totals,
+                 typename V::Real value_unit, const PairScratch<typename V::Real>& scratch) {
   using Rule = RuleOf<V, L>;
   using Real = typename V::Real;
   using Vector = typename V::Vector;
@@ -181,6 +190,14 @@ void visit_pairs(const TilePairs<Mask>& pairs, const typename V::Real* points, t
   constexpr int kStride = (Rule::kHasSigma ? 5 : 4) * L;
   constexpr int kParts = L / V::kLanes;
   alignas(64) Real own[L * kSums * L];  // per point of the tile, per sum, lanes
+  const Vector unit = V::all(value_unit);
+  Real* sums;
+  if constexpr (sizeof(Real) == sizeof(double)) {
+    sums = totals;
+  } else {
+    sums = scratch.sums;
+    for (std::size_t i = 0; i < pairs.reached * kSums * L; ++i) sums[i] = 0;
+  }
   std::uint32_t run = 0;
   std::uint32_t mixed = 0;
   for (std::size_t tile = 0; tile < pairs.tiles; ++tile) {
@@ -205,17 +222,20 @@ void visit_pairs(const TilePairs<Mask>& pairs, const typename V::Real* points, t
       for (int offset = 0; offset < L; offset += V::kLanes) {
         Real* const to = sums + b * kSums * L + offset;
         Vector other[kSums];
-        for (int s = 0; s < kSums; ++s) other[s] = V::load(to + s * L);
+        for (int s = 0; s < kSums; ++s) other[s] = V::zero();
         for (int i = 0; i < L; ++i) {
           Real* const at = own + i * kSums * L + offset;
           Vector mine[kSums];
           for (int s = 0; s < kSums; ++s) mine[s] = V::load(at + s * L);
           Rule::visit(Points<V, L>::broadcast(centers + i, Rule::kHasSigma),
-                      Points<V, L>::load(points + b * kStride + offset, Rule::kHasSigma), mine, other,
+                      Points<V, L>::load(points + b * kStride + offset, Rule::kHasSigma), unit, mine, other,
                       Whole{});
           for (int s = 0; s < kSums; ++s) V::store(at + s * L, mine[s]);
         }
-        for (int s = 0; s < kSums; ++s) V::store(to + s * L, other[s]);
+        for (int s = 0; s < kSums; ++s) {
+          const Vector before = V::load(to + s * L);
+          V::store(to + s * L, Rule::kMaximum ? V::maximum(before, other[s]) : V::add(before, other[s]));
+        }
       }
     }
     for (std::size_t k = 0; k < steps; ++k) {
@@ -230,16 +250,22 @@ void visit_pairs(const TilePairs<Mask>& pairs, const typename V::Real* points, t
         for (int s = 0; s < kSums; ++s) mine[s] = V::load(at + s * L);
         Rule::visit(Points<V, L>::broadcast(centers + step.point, Rule::kHasSigma),
                     Points<V, L>::load(points + std::size_t{step.block} * kStride + offset, Rule::kHasSigma),
-                    mine, other, Cut{static_cast<std::uint32_t>(step.mask) >> offset});
+                    unit, mine, other, Cut{static_cast<std::uint32_t>(step.mask) >> offset});
         for (int s = 0; s < kSums; ++s) V::store(to + s * L, other[s]);
         for (int s = 0; s < kSums; ++s) V::store(at + s * L, mine[s]);
       }
     }
     for (int i = 0; i < L; ++i)
-      for (int s = 0; s < kSums; ++s) {
-        Real& sum = sums[(tile * kSums + static_cast<unsigned>(s)) * L + static_cast<unsigned>(i)];
-        const Real more = reduce<V, L, Rule::kMaximum>(own + (i * kSums + s) * L);
-        sum = Rule::kMaximum ? (more > sum ? more : sum) : sum + more;
+      for (int s = 0; s < kSums; ++s)
+        add_to<Rule::kMaximum>(
+            totals[(tile * kSums + static_cast<unsigned>(s)) * L + static_cast<unsigned>(i)],
+            static_cast<double>(reduce<V, L, Rule::kMaximum>(own + (i * kSums + s) * L)));
+    // Long sums of floats would lose digits.
+    constexpr std::size_t kTiles = 8;
+    if (sizeof(Real) < sizeof(double) && (tile % kTiles == kTiles - 1 || tile + 1 == pairs.tiles))
+      for (std::size_t i = 0; i < pairs.reached * kSums * L; ++i) {
+        add_to<Rule::kMaximum>(totals[i], static_cast<double>(sums[i]));
+        sums[i] = 0;
       }
   }
 }
