@@ -75,7 +75,7 @@ class BilateralFilter::EngineOf final : public Engine {
     const std::span<const core::Index> order = tree_.order();
     core::parallel_for_each(order.size(), [&](std::size_t i) { values_[i] = values[order[i]]; });
     numerators_.assign(order.size(), 0);
-    choose_step();
+    choose_step(sigma_s);
     if (!sigma_s) {
       run(Pass::spread, 1, [&](double done) { report(done / 4); });
       units_.resize(order.size());
@@ -117,14 +117,18 @@ class BilateralFilter::EngineOf final : public Engine {
     double step = 1;  // their unit
   };
 
-  /// Steps of values for the float32 kernels, a power of two; relative to the middle of the values.
-  void choose_step() {
+  /// Steps of values for the float32 kernels, relative to the middle of the values. Where σ_s is fixed, its unit is
+  /// a power of two in steps, which a float holds exactly.
+  void choose_step(std::optional<double> sigma_s) {
     if (!std::is_same_v<Real, float> || values_.empty()) return;
     const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
     middle_ = (*least + *most) / 2;
+    const double extent = *most - *least;
+    const double unit =
+        sigma_s && *sigma_s > extent * 1e-20 && *sigma_s < extent * 1e20 ? *sigma_s / kUnit : 1;
     int exponent = 0;
-    std::frexp(*most - *least, &exponent);
-    step_ = std::ldexp(1.0, std::max(exponent, -900) - kBits);
+    std::frexp(extent / unit, &exponent);
+    step_ = std::ldexp(unit, std::max(exponent, -900) - kBits);
   }
 
   /// Ranges of the tree, so that they are compact.
@@ -201,10 +205,11 @@ class BilateralFilter::EngineOf final : public Engine {
     const BlockBox& box = tree_.box(chunk.first, chunk.last);
     constexpr bool kIntegers = std::is_same_v<Number, float>;
     const double origin_of_values = kIntegers ? middle_ : values_[chunk.first * kLanes];
-    // Of values and differences as the kernels see them; integers must not become too far apart.
+    // Of values and differences as the kernels see them; the square of what is in range is finite.
     const double step = kIntegers ? step_ : 1;
-    const double far = kIntegers ? 1e8 : kFar<double>;
-    const auto in_range = [&](double u) { return static_cast<Number>(std::clamp(u * step, 1 / far, far)); };
+    const double least = kIntegers ? 1e-30 : 1 / kFar<double>;
+    const double most = kIntegers ? 1e8 : kFar<double>;
+    const auto in_range = [&](double u) { return static_cast<Number>(std::clamp(u * step, least, most)); };
     for (std::size_t b = 0; b < blocks; ++b) {
       const std::size_t block = pairs.reached[b];
       const std::size_t count = tree_.points_in(block);
