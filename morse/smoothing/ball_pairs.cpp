@@ -1,8 +1,8 @@
 #include "morsel/morse/smoothing/ball_pairs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -38,6 +38,21 @@ Span span_between(const BlockBox& a, const BlockBox& b) {
     span.most += reach * reach;
   }
   return span;
+}
+
+/// Set bits of `lanes` masks, 8 bytes at a time: not every processor counts bits by itself.
+template <class Mask>
+unsigned count_bits(const Mask* masks, std::size_t lanes) {
+  unsigned count = 0;
+  for (std::size_t i = 0; i < lanes; i += 8 / sizeof(Mask)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, masks + i, sizeof(word));
+    word -= (word >> 1) & 0x5555555555555555U;
+    word = (word & 0x3333333333333333U) + ((word >> 2) & 0x3333333333333333U);
+    word = (word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fU;
+    count += static_cast<unsigned>((word * 0x0101010101010101U) >> 56);
+  }
+  return count;
 }
 
 template <class T>
@@ -128,23 +143,18 @@ void BallSearch<Mask>::decide(std::size_t tile, Tile& found) const {
   for (std::size_t k = 0; k < found.blocks.size(); ++k) {
     const std::uint32_t block = found.blocks[k];
     Mask* const masks = &found.masks[k * lanes];
-    const Mask limit = valid(block);
-    Mask any = 0;
-    auto every = all;
-    unsigned bits = 0;
-    for (std::size_t i = 0; i < lanes; ++i) {
-      masks[i] &= limit;
-      if (i >= tree_.points_in(tile)) masks[i] = 0;
-      if (block == tile) masks[i] &= static_cast<Mask>(~((Mask{2} << i) - 1U));  // behind itself
-      any |= masks[i];
-      every &= masks[i];
-      bits += static_cast<unsigned>(std::popcount(masks[i]));
-    }
+    if (block == tile || tree_.points_in(block) < lanes)
+      for (std::size_t i = 0; i < lanes; ++i) {
+        masks[i] &= valid(block);
+        if (i >= tree_.points_in(tile)) masks[i] = 0;
+        if (block == tile) masks[i] &= static_cast<Mask>(~((Mask{2} << i) - 1U));  // behind itself
+      }
+    const unsigned bits = count_bits(masks, lanes);
     found.pairs += bits;
-    if (every == all) {
+    if (bits == lanes * lanes) {
       found.runs.emplace_back(block, block + 1);
       new_runs = true;
-    } else if (any != 0 || block == tile) {
+    } else if (bits != 0 || block == tile) {
       found.blocks[kept] = block;
       std::copy_n(masks, lanes, &found.masks[kept * lanes]);
       ++kept;

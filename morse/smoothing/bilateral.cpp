@@ -27,8 +27,9 @@ constexpr double kWide = 16;
 /// Nothing that counts is farther, in units of σ or σ_s, and squares stay finite.
 template <class Real>
 constexpr double kFar = std::is_same_v<Real, float> ? 1e15 : 1e150;
-/// Values in float32 kernels are integers of at most this many bits besides the sign, and so are differences.
+/// Values in float32 kernels are integers, up to ± kMost, so that differences have at most kBits bits and a sign.
 constexpr int kBits = 31;
+constexpr double kMost = (1 << (kBits - 1)) - 1;
 
 enum class Pass : std::uint8_t { spread, fixed, local };
 
@@ -225,7 +226,8 @@ class BilateralFilter::EngineOf final : public Engine {
       for (std::size_t i = 0; i < kLanes; ++i) {
         const double value = i < count ? (values[i] - origin_of_values) / step : 0;
         if constexpr (kIntegers)
-          to[3 * kLanes + i] = std::bit_cast<float>(static_cast<std::int32_t>(std::lrint(value)));
+          to[3 * kLanes + i] =
+              std::bit_cast<float>(static_cast<std::int32_t>(std::lrint(std::clamp(value, -kMost, kMost))));
         else
           to[3 * kLanes + i] = value;
       }

@@ -42,7 +42,7 @@ class BilateralFilter {
   /// Told how far a call is, in [0, 1], by the thread that calls.
   using Report = std::function<void(double fraction)>;
 
-  /// O(n log n). Keeps nothing of `points`.
+  /// O(n log n). Keeps nothing of `points`, but refers to `progress`, which apply() asks whether to stop.
   BilateralFilter(std::span<const core::Point> points, const Options& options,
                   const core::Progress& progress);
   ~BilateralFilter();

@@ -7,10 +7,11 @@ namespace {
 
 #include "morsel/morse/smoothing/pair_kernels_impl.h"
 
-using Double2 = double __attribute__((vector_size(16)));
-using Int2 = std::int64_t __attribute__((vector_size(16)));
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
+// They lie over arrays of their elements, which they may do only where they say so.
+using Double2 = double __attribute__((vector_size(16), may_alias));
+using Int2 = std::int64_t __attribute__((vector_size(16), may_alias));
+using Float4 = float __attribute__((vector_size(16), may_alias));
+using Int4 = std::int32_t __attribute__((vector_size(16), may_alias));
 
 /// Fused where the processor does that fast.
 template <class Vector, int lanes>
