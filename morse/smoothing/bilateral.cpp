@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -225,11 +225,12 @@ class BilateralFilter::EngineOf final : public Engine {
       const double* const values = &values_[block * kLanes];
       for (std::size_t i = 0; i < kLanes; ++i) {
         const double value = i < count ? (values[i] - origin_of_values) / step : 0;
-        if constexpr (kIntegers)
-          to[3 * kLanes + i] =
-              std::bit_cast<float>(static_cast<std::int32_t>(std::lrint(std::clamp(value, -kMost, kMost))));
-        else
+        if constexpr (kIntegers) {
+          const auto integer = static_cast<std::int32_t>(std::lrint(std::clamp(value, -kMost, kMost)));
+          std::memcpy(&to[3 * kLanes + i], &integer, sizeof(integer));
+        } else {
           to[3 * kLanes + i] = value;
+        }
       }
       if (arrays == 4) continue;
       const double* const units = &units_[block * kLanes];

@@ -7,11 +7,10 @@ namespace {
 
 #include "morsel/morse/smoothing/pair_kernels_impl.h"
 
-// They lie over arrays of their elements, which they may do only where they say so.
-using Double2 = double __attribute__((vector_size(16), may_alias));
-using Int2 = std::int64_t __attribute__((vector_size(16), may_alias));
-using Float4 = float __attribute__((vector_size(16), may_alias));
-using Int4 = std::int32_t __attribute__((vector_size(16), may_alias));
+using Double2 = double __attribute__((vector_size(16)));
+using Int2 = std::int64_t __attribute__((vector_size(16)));
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
 
 /// Fused where the processor does that fast.
 template <class Vector, int lanes>
@@ -40,9 +39,19 @@ struct Common {
 
   static Vector zero() { return Vector{}; }
   static Vector all(Real a) { return Vector{} + a; }
-  static Vector load(const Real* at) { return *reinterpret_cast<const Vector*>(at); }
-  static void store(Real* at, Vector a) { *reinterpret_cast<Vector*>(at) = a; }
-  static Vector broadcast(const Real* at) { return Vector{} + *at; }
+  // Copies, since a vector must not be read where its elements were written.
+  static Vector load(const Real* at) {
+    Vector a;
+    __builtin_memcpy(&a, at, sizeof(a));
+    return a;
+  }
+  static void store(Real* at, Vector a) { __builtin_memcpy(at, &a, sizeof(a)); }
+  // Bit by bit: arithmetic would quiet the NaN that an integer among floats may look like.
+  static Vector broadcast(const Real* at) {
+    Bits bits;
+    __builtin_memcpy(&bits, at, sizeof(bits));
+    return reinterpret_cast<Vector>(Ints{} + bits);
+  }
   static Vector add(Vector a, Vector b) { return a + b; }
   static Vector subtract(Vector a, Vector b) { return a - b; }
   static Vector multiply(Vector a, Vector b) { return a * b; }
