@@ -51,6 +51,7 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                               {"range", "1std"},
                                               {"support", 2.0},
                                               {"classify", "smoothed"},
+                                              {"precision", "double"},
                                               {"sigma_s", *direct.sigma_s}});
   CHECK(result.details == core::Parameters{{"pairs_per_iteration", static_cast<std::int64_t>(direct.pairs)}});
 
@@ -63,10 +64,17 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                              {"sigma", 0.25},
                                              {"range", "local"},
                                              {"support", 1.5},
-                                             {"classify", "saliency"}});
+                                             {"classify", "saliency"},
+                                             {"precision", "double"}});
   morse::SalientOptions options{
       2, core::Length::absolute(0.25), {morse::ValueRange::Kind::local, 1}, 1.5, true};
   CHECK(values_of(local.field) == values_of(morse::salient(field, options).field));
+  const core::MethodResult single = apply(field, {{"sigma", "0.25"}, {"precision", "single"}});
+  CHECK(single.parameters[5] == core::Parameters::value_type{"precision", "single"});
+  morse::SalientOptions in_single;
+  in_single.sigma = core::Length::absolute(0.25);
+  in_single.precision = morse::Precision::float32;
+  CHECK(values_of(single.field) == values_of(morse::salient(field, in_single).field));
   const core::MethodResult literal =
       apply(field, {{"sigma", "0.1"}, {"range", "literal"}, {"iterations", "1"}});
   CHECK(literal.parameters.back() == core::Parameters::value_type{"sigma_s", 0.1});
@@ -75,11 +83,11 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
 TEST_CASE("salient keys are checked when the method is made") {
   const ScalarField field(octahedron().mesh(), {1, -1, 0, 0.1, 0.2, 0.3});
   const std::vector<std::pair<std::string, std::string>> bad = {
-      {"iterations", "-1"}, {"iterations", "2.5"}, {"iterations", "99999999999"},
-      {"sigma", "0"},       {"sigma", "-8eps"},    {"sigma", "infeps"},
-      {"sigma", "8 eps"},   {"range", "2sd"},      {"range", "0"},
-      {"support", "0"},     {"support", "nan"},    {"classify", "both"},
-      {"sigmas", "3"}};
+      {"iterations", "-1"},  {"iterations", "2.5"}, {"iterations", "99999999999"},
+      {"sigma", "0"},        {"sigma", "-8eps"},    {"sigma", "infeps"},
+      {"precision", "half"}, {"sigma", "8 eps"},    {"range", "2sd"},
+      {"range", "0"},        {"support", "0"},      {"support", "nan"},
+      {"classify", "both"},  {"sigmas", "3"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
     CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
@@ -88,7 +96,7 @@ TEST_CASE("salient keys are checked when the method is made") {
   CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
-  REQUIRE(help.declared().size() == 5);
+  REQUIRE(help.declared().size() == 6);
   const std::vector<std::pair<std::string, std::string>> defaults = {
       {"iterations", "10"}, {"sigma", "8eps"}, {"range", "1std"}, {"support", "2"}, {"classify", "smoothed"}};
   for (std::size_t i = 0; i < defaults.size(); ++i) {

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
+#include "morsel/core/mesh_io.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/critical_points.h"
+#include "morsel/morse/functions/curvature.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 #include "support/salient_reference.h"
@@ -116,6 +118,121 @@ TEST_CASE("salient smoothing agrees with the listing on every field of every mes
           CHECK(worst <= 1e-12 * scale);
         }
     }
+}
+
+TEST_CASE("every instruction set and precision agrees with the listing on every field of every mesh") {
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const NamedField& f : field_zoo(entry.mesh, 24)) {
+      const double sigma = 0.1 * entry.mesh.bounding_box().diagonal();
+      const double extent = f.field.max() - f.field.min();
+      const double scale = std::max(std::abs(f.field.min()), std::abs(f.field.max()));
+      for (const char* text : {"1std", "local"}) {
+        SalientOptions chosen = options(3, sigma, text);
+        SalientReferenceOptions slow{3, sigma, 2, {}};
+        if (range(text).kind == ValueRange::Kind::deviations) slow.sigma_s = deviation(f.field);
+        const auto expected = salient_reference(entry.mesh.positions(), values_of(f.field), slow);
+        std::uint64_t pairs = 0;
+        for (const morse::InstructionSet set : morse::instruction_sets())
+          for (const morse::Precision precision : {morse::Precision::float64, morse::Precision::float32}) {
+            INFO(entry.name << ", " << f.name << ", " << text << ", " << to_string(set) << ", "
+                            << (precision == morse::Precision::float64 ? "double" : "single"));
+            chosen.instructions = set;
+            chosen.precision = precision;
+            const auto result = morse::salient(f.field, chosen);
+            if (pairs == 0) pairs = result.pairs;
+            CHECK(result.pairs == pairs);
+            double worst = 0;
+            for (Index v = 0; v < entry.mesh.vertex_count(); ++v)
+              worst = std::max(worst, std::abs(result.field.value(v) - expected[v]));
+            CHECK(worst <= 1e-12 * scale + (precision == morse::Precision::float64 ? 0 : 1e-6 * extent));
+          }
+      }
+    }
+}
+
+TEST_CASE("instruction sets with fused multiply-adds give the same bits") {
+  const TriangleMesh mesh = jittered(sphere(4).mesh(), 0.01, 9);
+  const ScalarField field(mesh, random_values(mesh.vertex_count(), 4));
+  for (const char* text : {"1std", "local"})
+    for (const morse::Precision precision : {morse::Precision::float64, morse::Precision::float32}) {
+      std::vector<double> expected;
+      for (const morse::InstructionSet set : morse::instruction_sets()) {
+        if (set == morse::InstructionSet::baseline) continue;
+        SalientOptions chosen = options(4, 0.1, text);
+        chosen.instructions = set;
+        chosen.precision = precision;
+        const std::vector<double> values = values_of(morse::salient(field, chosen).field);
+        if (expected.empty()) expected = values;
+        CHECK(values == expected);
+      }
+    }
+}
+
+TEST_CASE("ten iterations on real meshes keep to the listing in both precisions") {
+  const ScalarField field = morse::mean_curvature(core::read_mesh(sample("lion-head.off")).mesh);
+  const double extent = field.max() - field.min();
+  for (const char* text : {"1std", "local"}) {
+    SalientOptions chosen;
+    chosen.range = range(text);
+    const auto twice = morse::salient(field, chosen);
+    const auto expected = salient_reference(field.mesh().positions(), values_of(field),
+                                            {10, twice.sigma, chosen.support, twice.sigma_s});
+    const auto total = morse::classify({field.mesh(), expected}).total();
+    for (const morse::InstructionSet set : morse::instruction_sets())
+      for (const morse::Precision precision : {morse::Precision::float64, morse::Precision::float32}) {
+        INFO(text << ", " << to_string(set));
+        const bool single = precision == morse::Precision::float32;
+        chosen.instructions = set;
+        chosen.precision = precision;
+        const ScalarField found = morse::salient(field, chosen).field;
+        double worst = 0;
+        for (Index v = 0; v < field.mesh().vertex_count(); ++v)
+          worst = std::max(worst, std::abs(found.value(v) - expected[v]));
+        CHECK(worst <= (single ? 1e-6 : 1e-10) * extent);
+        const auto points = static_cast<double>(morse::classify(found).total());
+        CHECK(points == Approx(total).epsilon(0).margin(single ? std::max(6.0, 0.06 * total)
+                                                               : std::max(2.0, 0.005 * total)));
+      }
+  }
+}
+
+TEST_CASE("single precision holds where a mesh is wide compared with sigma") {
+  // A tiny sphere far from a large one.
+  Soup far = sphere(3);
+  for (Point& p : far.positions) p = 1e-3 * p + Point(1000, 2000, -500);
+  const TriangleMesh mesh = together(far, sphere(3)).mesh();
+  const ScalarField field(mesh, random_values(mesh.vertex_count(), 12));
+  for (const double sigma : {2e-4, 0.1})
+    for (const char* text : {"1std", "local", "1e-3", "1e-12", "1e6"}) {
+      INFO(sigma << ", " << text);
+      SalientOptions chosen = options(5, sigma, text);
+      const auto expected = morse::salient(field, chosen);
+      chosen.precision = morse::Precision::float32;
+      const auto found = morse::salient(field, chosen);
+      CHECK(found.pairs == expected.pairs);
+      double worst = 0;
+      for (Index v = 0; v < mesh.vertex_count(); ++v)
+        worst = std::max(worst, std::abs(found.field.value(v) - expected.field.value(v)));
+      CHECK(worst <= 1e-6);
+    }
+}
+
+TEST_CASE("single precision gives the same bits for every number of threads and any memory") {
+  const TriangleMesh mesh = jittered(sphere(4).mesh(), 0.01, 9);
+  const ScalarField field(mesh, random_values(mesh.vertex_count(), 4));
+  for (const char* text : {"1std", "local"}) {
+    std::vector<double> expected;
+    for (const int threads : {1, 2, 7})
+      for (const std::size_t memory : {std::size_t{0}, std::size_t{100'000}, std::size_t{1} << 30}) {
+        const core::ThreadLimit limit(threads);
+        SalientOptions chosen = options(4, 0.1, text);
+        chosen.memory = memory;
+        chosen.precision = morse::Precision::float32;
+        const std::vector<double> values = values_of(morse::salient(field, chosen).field);
+        if (expected.empty()) expected = values;
+        CHECK(values == expected);
+      }
+  }
 }
 
 TEST_CASE("every field that salient smoothing returns obeys the Euler identity") {

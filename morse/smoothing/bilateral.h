@@ -1,0 +1,67 @@
+#pragma once
+/// The sums of the bilateral filter: weighted means of differences over all balls of a radius, fast.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "morsel/core/progress.h"
+#include "morsel/core/types.h"
+#include "morsel/morse/smoothing/instruction_set.h"
+
+namespace morsel::morse {
+
+/// In what the weights and sums are computed. Who is a neighbour of whom is always decided in double precision.
+enum class Precision : std::uint8_t { float64, float32 };
+
+/// Computes, again and again for the same points,
+///
+///   S(v) = Σ_x (f(x) − f(v)) W_c W_s / Σ_x W_c W_s over the points x with ‖x − v‖ ≤ radius,
+///   W_c = exp(−‖x − v‖² / 2σ²), W_s = exp(−(f(x) − f(v))² / 2σ_s²).
+///
+/// Points lie in small blocks along a tree. The pairs of blocks within reach are found once; most lie there
+/// wholly, so that nothing is decided in the inner loop, which visits each pair of points once for both
+/// directions and takes one exponential for both weights. Sums are gathered chunk by chunk and added in the order of the
+/// chunks: the same bits for any number of threads and any memory; for the instruction sets see
+/// PairKernels. In float64 the weights are 2e-15 from the true ones. In float32 coordinates and values are taken
+/// relative to a place within the chunk, sums over chunks are in double, and chunks that are wide compared with σ are
+/// computed in float64, so S stays within about 1e-7 of the extent.
+class BilateralFilter {
+ public:
+  struct Options {
+    double radius;
+    double sigma;  ///< σ
+    Precision precision = Precision::float64;
+    InstructionSet instructions = InstructionSet::baseline;  ///< one that the processor has
+    std::size_t memory =
+        0;  ///< most bytes for keeping pairs between calls; without it they are found each time
+  };
+  /// Told how far a call is, in [0, 1], by the thread that calls.
+  using Report = std::function<void(double fraction)>;
+
+  /// O(n log n). Keeps nothing of `points`, but refers to `progress`, which apply() asks whether to stop.
+  BilateralFilter(std::span<const core::Point> points, const Options& options,
+                  const core::Progress& progress);
+  ~BilateralFilter();
+  BilateralFilter(const BilateralFilter&) = delete;
+  BilateralFilter& operator=(const BilateralFilter&) = delete;
+
+  /// S, one per point, for a fixed σ_s; or with σ_s(v) = max |f(x) − f(v)| over the ball of v where there is
+  /// none. 0 where σ_s is 0. Values are of order 1. O(pairs), parallel.
+  void apply(std::span<const double> values, std::optional<double> sigma_s, std::span<double> result,
+             const Report& report);
+
+  /// Pairs (v, x) that a call visits, v itself included; known after the first.
+  std::uint64_t pairs() const;
+
+ private:
+  class Engine;
+  template <class Mask, class Real>
+  class EngineOf;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace morsel::morse
