@@ -9,8 +9,10 @@ namespace {
 
 using Double2 = double __attribute__((vector_size(16)));
 using Int2 = std::int64_t __attribute__((vector_size(16)));
+using UInt2 = std::uint64_t __attribute__((vector_size(16)));  // wraps round where Int2 must not
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
+using UInt4 = std::uint32_t __attribute__((vector_size(16)));
 
 /// Fused where the processor does that fast.
 template <class Vector, int lanes>
@@ -85,7 +87,7 @@ struct Doubles : Common<double, Double2, Int2, std::int64_t, 2> {
   static Vector exp2_scale(Vector m) {
     const Int2 bits = reinterpret_cast<Int2>(m);
     const Int2 table = {kTable64[bits[0] & 7], kTable64[bits[1] & 7]};
-    return reinterpret_cast<Vector>(table + (bits << 49));
+    return reinterpret_cast<Vector>(reinterpret_cast<UInt2>(table) + (reinterpret_cast<UInt2>(bits) << 49));
   }
   static double sum(Vector a) { return a[0] + a[1]; }
   static double largest(Vector a) { return a[0] > a[1] ? a[0] : a[1]; }
@@ -99,7 +101,7 @@ struct Floats : Common<float, Float4, Int4, std::int32_t, 4> {
     const Int4 bits = reinterpret_cast<Int4>(m);
     const Int4 table = {kTable32[bits[0] & 7], kTable32[bits[1] & 7], kTable32[bits[2] & 7],
                         kTable32[bits[3] & 7]};
-    return reinterpret_cast<Vector>(table + (bits << 20));
+    return reinterpret_cast<Vector>(reinterpret_cast<UInt4>(table) + (reinterpret_cast<UInt4>(bits) << 20));
   }
   static float sum(Vector a) { return (a[0] + a[2]) + (a[1] + a[3]); }
   static float largest(Vector a) {
