@@ -7,7 +7,7 @@
 namespace morsel::morse {
 namespace {
 
-#include "morsel/morse/smoothing/pair_kernels_impl.h"
+#include "morsel/morse/smoothing/pair_kernels.inc"
 
 struct Doubles {
   using Real = double;

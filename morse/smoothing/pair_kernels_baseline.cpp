@@ -5,7 +5,7 @@
 namespace morsel::morse {
 namespace {
 
-#include "morsel/morse/smoothing/pair_kernels_impl.h"
+#include "morsel/morse/smoothing/pair_kernels.inc"
 
 using Double2 = double __attribute__((vector_size(16)));
 using Int2 = std::int64_t __attribute__((vector_size(16)));
