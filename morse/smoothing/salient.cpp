@@ -217,7 +217,7 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   options.return_saliency = reader.choice("classify", "smoothed", {"smoothed", "saliency"},
                                           "the field to return: f, or the last S instead") == "saliency";
   if (reader.choice("precision", "double", {"double", "single"},
-                    "of weights and sums; single is faster, within 1e-6 of the extent after 10 iterations") ==
+                    "of weights and sums; single is faster, up to 4e-6 of the extent off after 10 iterations") ==
       "single")
     options.precision = Precision::float32;
   check(options);
