@@ -23,38 +23,51 @@ using Tree =
 
 }  // namespace
 
-std::vector<double> salient_reference(std::span<const core::Point> positions, std::vector<double> values,
-                                      const SalientReferenceOptions& options, std::vector<double>* saliency) {
-  const Cloud cloud{positions};
-  const Tree tree(3, cloud);
+struct SalientListing::Search {
+  Search(std::span<const core::Point> points, const SalientReferenceOptions& o)
+      : cloud{points}, tree(3, cloud), options(o) {}
+  Cloud cloud;
+  Tree tree;
+  SalientReferenceOptions options;
+  std::vector<std::pair<core::Index, double>> found;
+};
+
+SalientListing::SalientListing(std::span<const core::Point> positions, const SalientReferenceOptions& options)
+    : search_(std::make_unique<Search>(positions, options)) {}
+SalientListing::~SalientListing() = default;
+
+double SalientListing::saliency(std::span<const double> values, core::Index v, std::size_t* pairs) {
+  auto& [cloud, tree, options, found] = *search_;
   const double radius = options.support * options.sigma;
   const double two_sigma_squared = 2 * options.sigma * options.sigma;
+  // The search is strict, the neighbourhood is not: look a little further, then compare distances.
+  tree.radiusSearch(cloud.points[v].data(), radius * radius * (1 + 1e-9), found,
+                    nanoflann::SearchParams(32, 0, false));
+  std::erase_if(found, [&](const auto& x) { return std::sqrt(x.second) > radius; });
+  if (pairs != nullptr) *pairs += found.size();
+  double sigma_s = options.sigma_s.value_or(0);
+  if (!options.sigma_s)
+    for (const auto& [x, squared] : found) sigma_s = std::max(sigma_s, std::abs(values[x] - values[v]));
+  if (sigma_s == 0) return 0;
+  double numerator = 0;
+  double denominator = 0;
+  for (const auto& [x, squared] : found) {
+    const double difference = values[x] - values[v];
+    const double t = difference / sigma_s;
+    const double weight = std::exp(-squared / two_sigma_squared) * std::exp(-t * t / 2);
+    numerator += difference * weight;
+    denominator += weight;
+  }
+  return numerator / denominator;
+}
+
+std::vector<double> salient_reference(std::span<const core::Point> positions, std::vector<double> values,
+                                      const SalientReferenceOptions& options, std::vector<double>* saliency) {
+  SalientListing listing(positions, options);
   std::vector<double> s(values.size(), 0.0);
-  std::vector<std::pair<core::Index, double>> found;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    for (std::size_t v = 0; v < values.size(); ++v) {
-      // The search is strict, the neighbourhood is not: look a little further, then compare distances.
-      tree.radiusSearch(positions[v].data(), radius * radius * (1 + 1e-9), found,
-                        nanoflann::SearchParams(32, 0, false));
-      std::erase_if(found,
-                    [&](const auto& x) { return (positions[x.first] - positions[v]).norm() > radius; });
-      std::sort(found.begin(), found.end());
-      double sigma_s = options.sigma_s.value_or(0);
-      if (!options.sigma_s)
-        for (const auto& [x, squared] : found) sigma_s = std::max(sigma_s, std::abs(values[x] - values[v]));
-      s[v] = 0;
-      if (sigma_s == 0) continue;
-      double numerator = 0;
-      double denominator = 0;
-      for (const auto& [x, squared] : found) {
-        const double difference = values[x] - values[v];
-        const double t = difference / sigma_s;
-        const double weight = std::exp(-squared / two_sigma_squared) * std::exp(-t * t / 2);
-        numerator += difference * weight;
-        denominator += weight;
-      }
-      s[v] = numerator / denominator;
-    }
+    for (std::size_t v = 0; v < values.size(); ++v)
+      s[v] = listing.saliency(values, static_cast<core::Index>(v));
     for (std::size_t v = 0; v < values.size(); ++v) values[v] += s[v];
   }
   if (saliency != nullptr) *saliency = std::move(s);

@@ -2,6 +2,8 @@
 /// The paper's Listing 1 written down plainly: the oracle of the fast filter, and the baseline of its
 /// benchmark.
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,8 +19,23 @@ struct SalientReferenceOptions {
   std::optional<double> sigma_s;  ///< none: the largest difference in each neighbourhood
 };
 
-/// The values after the iterations; `saliency` gets the last S. A kd-tree radius search per vertex and
-/// iteration, two exp a pair, one thread.
+/// One vertex of one iteration: a kd-tree radius search, two exp a pair. For one thread.
+class SalientListing {
+ public:
+  SalientListing(std::span<const core::Point> positions, const SalientReferenceOptions& options);
+  ~SalientListing();
+  SalientListing(const SalientListing&) = delete;
+  SalientListing& operator=(const SalientListing&) = delete;
+
+  /// S(v); `pairs`, if given, is raised by the number of neighbours, v included.
+  double saliency(std::span<const double> values, core::Index v, std::size_t* pairs = nullptr);
+
+ private:
+  struct Search;
+  std::unique_ptr<Search> search_;
+};
+
+/// The values after the iterations; `saliency` gets the last S.
 std::vector<double> salient_reference(std::span<const core::Point> positions, std::vector<double> values,
                                       const SalientReferenceOptions& options,
                                       std::vector<double>* saliency = nullptr);
