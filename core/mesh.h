@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/flat_array.h"
 #include "morsel/core/types.h"
 
 namespace morsel::core {
@@ -28,7 +29,7 @@ struct BoundingBox {
 /// 3). Memory: about 110 bytes a vertex.
 class TriangleMesh {
  public:
-  /// Checks and builds; O(n log n) time. Throws MeshError (all defects, counted) or BadInput if there are
+  /// Checks and builds; O(n) time, parallel. Throws MeshError (all defects, counted) or BadInput if there are
   /// more than about 1.4 billion triangles. The box diagonal may be zero only if all vertices coincide.
   TriangleMesh(std::vector<Point> positions, std::vector<Triangle> triangles);
 
@@ -141,18 +142,20 @@ class TriangleMesh {
   };
   struct Connectivity {
     std::vector<Triangle> triangles;
-    std::vector<Index> twin;              // per half-edge
-    std::vector<Index> halfedge_edge;     // per half-edge
-    std::vector<Index> edge_halfedge;     // per edge
-    std::vector<Index> vertex_halfedge;   // per vertex
-    std::vector<Index> vertex_loop;       // per vertex; empty if closed
-    std::vector<Index> vertex_component;  // per vertex; empty if connected
-    std::vector<Index> loop_offset;       // per loop + 1
+    FlatArray<Index> twin;              // per half-edge
+    FlatArray<Index> halfedge_edge;     // per half-edge
+    FlatArray<Index> edge_halfedge;     // per edge
+    FlatArray<Index> vertex_halfedge;   // per vertex
+    std::vector<Index> vertex_loop;     // per vertex; empty if closed
+    FlatArray<Index> vertex_component;  // per vertex; empty if connected
+    std::vector<Index> loop_offset;     // per loop + 1
     std::vector<Index> loop_halfedge;
     std::vector<long> component_euler;
     std::vector<Index> component_loops;
   };
-  class Builder;
+  class Builder;  // in mesh_connectivity.cpp
+  static std::shared_ptr<const Connectivity> connect(std::span<const Point> positions,
+                                                     std::vector<Triangle> triangles);
   TriangleMesh(std::shared_ptr<const Connectivity> connectivity, std::shared_ptr<const Geometry> geometry)
       : connectivity_(std::move(connectivity)), geometry_(std::move(geometry)) {}
 

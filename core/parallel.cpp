@@ -30,16 +30,23 @@ ThreadLimit::ThreadLimit(int threads) {
 
 ThreadLimit::~ThreadLimit() = default;
 
-void detail::run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
+void detail::run_in_arena(const std::function<void()>& work) {
   const int threads = thread_count();
-  if (threads == 1 || chunks == 1) {
+  // The arena of the calling thread has as many slots as the machine has processors; one of our own honours a raised limit.
+  // Making one for every loop would cost time, and its worker threads would now and then stay asleep.
+  if (threads <= tbb::this_task_arena::max_concurrency()) {
+    work();
+  } else {
+    tbb::task_arena(threads).execute(work);
+  }
+}
+
+void detail::run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
+  if (thread_count() == 1 || chunks == 1) {
     for (std::size_t k = 0; k < chunks; ++k) chunk(k);
     return;
   }
-  // The default arena has no more slots than the machine has processors; one of our own honours a raised
-  // limit.
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  run_in_arena([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         for (std::size_t k = range.begin(); k != range.end(); ++k) chunk(k);

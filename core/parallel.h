@@ -35,6 +35,8 @@ namespace detail {
 /// Runs chunk(k) for k = 0 … chunks − 1, in parallel when there is more than one. Exceptions reach the
 /// caller.
 void run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk);
+/// Runs work() where oneTBB's algorithms use thread_count() threads.
+void run_in_arena(const std::function<void()>& work);
 }  // namespace detail
 
 /// Calls body(first, last) on consecutive chunks of [begin, end) of `grain` elements each, in parallel.

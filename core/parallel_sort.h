@@ -2,7 +2,6 @@
 /// Sorting with all threads.
 
 #include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,13 +15,11 @@ namespace morsel::core {
 /// is the same for every number of threads. Random-access iterators; O(n log n).
 template <class Iterator, class Less>
 void parallel_sort(Iterator first, Iterator last, const Less& less) {
-  const int threads = thread_count();
-  if (threads == 1 || static_cast<std::size_t>(std::distance(first, last)) < kGrain) {
+  if (thread_count() == 1 || static_cast<std::size_t>(std::distance(first, last)) < kGrain) {
     std::sort(first, last, less);
     return;
   }
-  tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_sort(first, last, less); });
+  detail::run_in_arena([&] { tbb::parallel_sort(first, last, less); });
 }
 
 }  // namespace morsel::core

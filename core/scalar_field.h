@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "morsel/core/flat_array.h"
 #include "morsel/core/mesh.h"
 
 namespace morsel::core {
@@ -15,13 +16,13 @@ namespace morsel::core {
 class ScalarField {
  public:
   /// Orders by (value, vertex). `values` has one entry per vertex, in the function's own unit. Throws
-  /// InvalidArgument on a wrong size and BadInput on a non-finite value, naming the first such vertex. O(n
-  /// log n), parallel.
+  /// InvalidArgument on a wrong size and BadInput on a non-finite value, naming the first such vertex. Time
+  /// and memory of vertex_order().
   ScalarField(TriangleMesh mesh, std::vector<double> values);
 
   /// Keeps the given order: `rank` is a permutation of 0 … n − 1 along which values never decrease (ranks
-  /// decide only between equal values). Throws InvalidArgument if it is not. O(n).
-  ScalarField(TriangleMesh mesh, std::vector<double> values, std::vector<Index> rank);
+  /// decide only between equal values). Throws InvalidArgument if it is not. O(n), parallel.
+  ScalarField(TriangleMesh mesh, std::vector<double> values, FlatArray<Index> rank);
 
   const TriangleMesh& mesh() const { return mesh_; }
   std::span<const double> values() const { return values_; }
@@ -44,8 +45,8 @@ class ScalarField {
  private:
   TriangleMesh mesh_;
   std::vector<double> values_;
-  std::vector<Index> rank_;
-  std::vector<Index> order_;
+  FlatArray<Index> rank_;
+  FlatArray<Index> order_;
 };
 
 }  // namespace morsel::core

@@ -2,10 +2,13 @@
 /// Disjoint sets (Tarjan 1975), with path halving.
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "morsel/core/flat_array.h"
+#include "morsel/core/parallel.h"
 #include "morsel/core/types.h"
 
 namespace morsel::core {
@@ -34,6 +37,41 @@ class UnionFind {
 
  private:
   std::vector<Index> parent_;
+};
+
+/// Disjoint sets that any number of threads may unite at a time, without locks (Jayanti, Tarjan 2016, linking by index).
+/// The root of a set is its smallest element, so that the same sets and roots come out in any order of unions.
+class ConcurrentUnionFind {
+ public:
+  explicit ConcurrentUnionFind(Index n) : parent_(n) {
+    parallel_for_each(n, [&](std::size_t i) { parent_[i] = static_cast<Index>(i); });
+  }
+  /// The root, or, with unions under way in other threads, what was the root at some time during the call.
+  Index find(Index a) {
+    for (;;) {
+      const Index up = load(a);
+      if (up == a) return a;
+      const Index above = load(up);
+      // Halving the path may lose against another thread that shortened it further; either is an ancestor.
+      if (above != up) std::atomic_ref(parent_[a]).store(above, std::memory_order_relaxed);
+      a = above;
+    }
+  }
+  void unite(Index a, Index b) {
+    if (load(a) == load(b)) return;  // most often, once sets are large
+    for (;;) {
+      a = find(a);
+      b = find(b);
+      if (a == b) return;
+      if (b < a) std::swap(a, b);
+      Index root = b;  // links only a root, and only below a smaller one: no cycle can come about
+      if (std::atomic_ref(parent_[b]).compare_exchange_strong(root, a, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  Index load(Index a) { return std::atomic_ref(parent_[a]).load(std::memory_order_relaxed); }
+  FlatArray<Index> parent_;
 };
 
 /// Disjoint sets whose elements carry a parity relative to their root: for two-colourings such as

@@ -1,9 +1,16 @@
 #include "morsel/core/scalar_field.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
+#include <random>
 
 #include "morsel/core/error.h"
+#include "morsel/core/parallel.h"
+#include "morsel/core/vertex_order.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 
@@ -46,4 +53,53 @@ TEST_CASE("negating turns the order round, ties included") {
     CHECK(negated.rank(v) == 3 - field.rank(v));
     CHECK(negated.value(v) == -field.value(v));
   }
+}
+
+namespace {
+
+/// By comparisons alone.
+std::vector<Index> sorted_plainly(const std::vector<double>& values, const std::vector<Index>& before) {
+  std::vector<Index> order = before;
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return values[a] < values[b]; });
+  return order;
+}
+
+}  // namespace
+
+TEST_CASE("the radix sort orders as comparisons do whatever the values") {
+  std::mt19937 generator(7);
+  const auto random = [&] { return static_cast<double>(generator()) / std::mt19937::max(); };
+  const std::vector<std::pair<std::string, std::function<double()>>> kinds = {
+      {"uniform", random},
+      {"signed", [&] { return random() - 0.5; }},
+      {"few values", [&] { return std::floor(4 * random()); }},
+      {"constant", [] { return 3.25; }},
+      {"zeros of both signs", [&] { return random() < 0.5 ? 0.0 : -0.0; }},
+      {"crowded beside an outlier", [&] { return random() < 1e-4 ? 1e300 : 1 + 1e-9 * random(); }},
+      {"crowded around zero", [&] { return random() < 0.5 ? random() : 1e-300 * (random() - 0.5); }},
+      {"every magnitude",
+       [&] { return std::ldexp(random() - 0.5, static_cast<int>(2000 * random()) - 1000); }},
+      {"subnormal", [&] { return std::numeric_limits<double>::denorm_min() * std::floor(1000 * random()); }},
+      {"far from zero", [&] { return 1e15 + std::floor(100 * random()); }}};
+  for (const auto& [name, value] : kinds)
+    for (const std::size_t n :
+         {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{100}, std::size_t{200000}}) {
+      CAPTURE(name, n);
+      std::vector<double> values(n);
+      for (double& x : values) x = value();
+      std::vector<Index> before(n);
+      std::iota(before.begin(), before.end(), Index{0});
+      const auto plain = sorted_plainly(values, before);
+      std::shuffle(before.begin(), before.end(), generator);
+      const auto plain_after = sorted_plainly(values, before);
+      for (const int threads : {1, 4}) {
+        const core::ThreadLimit limit(threads);
+        const auto order = core::vertex_order(values);
+        REQUIRE(std::equal(order.begin(), order.end(), plain.begin(), plain.end()));
+        const auto after = core::vertex_order(values, before);
+        REQUIRE(std::equal(after.begin(), after.end(), plain_after.begin(), plain_after.end()));
+        const auto rank = core::inverse(order);
+        for (std::size_t i = 0; i < n; ++i) REQUIRE(rank[order[i]] == i);
+      }
+    }
 }

@@ -54,3 +54,22 @@ TEST_CASE("an odd cycle cannot be coloured and an even one can") {
     CHECK(sets.unite(n - 1, 0, true) == (n % 2 == 0));
   }
 }
+
+TEST_CASE("sets united by many threads at a time are those that one thread makes") {
+  std::mt19937 random(5);
+  const ThreadLimit limit(4);
+  for (const Index n : {Index{1}, Index{10}, Index{3000}, Index{50000}}) {
+    std::vector<std::pair<Index, Index>> unions(n);
+    for (auto& [a, b] : unions) {
+      a = static_cast<Index>(random() % n);
+      b = static_cast<Index>(random() % n);
+    }
+    UnionFind expected(n);
+    for (const auto& [a, b] : unions) expected.unite(a, b);
+    ConcurrentUnionFind sets(n);
+    parallel_for(0, unions.size(), 100, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) sets.unite(unions[i].first, unions[i].second);
+    });
+    for (Index i = 0; i < n; ++i) REQUIRE(sets.find(i) == expected.find(i));
+  }
+}
