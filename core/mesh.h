@@ -47,7 +47,10 @@ class TriangleMesh {
   static Index triangle_of(Index h) { return h / 3; }
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  Index origin(Index h) const { return connectivity_->triangles[h / 3][h % 3]; }
+  Index origin(Index h) const {
+    static_assert(sizeof(Triangle) == 3 * sizeof(Index));  // so corner h % 3 of triangle h / 3 is number h
+    return reinterpret_cast<const Index*>(connectivity_->triangles.data())[h];
+  }
   Index target(Index h) const { return origin(next(h)); }
   /// The vertex of h's triangle that is not on h.
   Index apex(Index h) const { return origin(previous(h)); }

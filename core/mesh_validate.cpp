@@ -2,21 +2,15 @@
 
 #include <map>
 #include <set>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "morsel/core/mesh.h"
 #include "morsel/core/mesh_defects.h"
+#include "morsel/core/require.h"
 
 namespace morsel::core {
-namespace {
 
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::logic_error("TriangleMesh::validate: " + what);
-}
-
-}  // namespace
+static constexpr Require require("TriangleMesh::validate");
 
 void TriangleMesh::validate() const {
   require(find_defects(positions(), triangles()).empty(), "the triangles have defects");
@@ -26,14 +20,12 @@ void TriangleMesh::validate() const {
   require(by_edge.size() == edge_count(), "edge count");
   Index e = 0;
   for (const auto& [ends, halfedges] : by_edge) {
-    require(edge_halfedge(e) == halfedges.front(), "edge_halfedge of edge " + std::to_string(e));
-    for (const Index h : halfedges) require(edge(h) == e, "edge of half-edge " + std::to_string(h));
+    require(edge_halfedge(e) == halfedges.front(), "edge_halfedge of edge", e);
+    for (const Index h : halfedges) require(edge(h) == e, "edge of half-edge", h);
     const bool inner = halfedges.size() == 2;
-    require(twin(halfedges.front()) == (inner ? halfedges.back() : kNone),
-            "twin at edge " + std::to_string(e));
-    require(twin(halfedges.back()) == (inner ? halfedges.front() : kNone),
-            "twin at edge " + std::to_string(e));
-    require(is_boundary_edge(e) != inner, "boundary edge " + std::to_string(e));
+    require(twin(halfedges.front()) == (inner ? halfedges.back() : kNone), "twin at edge", e);
+    require(twin(halfedges.back()) == (inner ? halfedges.front() : kNone), "twin at edge", e);
+    require(is_boundary_edge(e) != inner, "boundary edge", e);
     ++e;
   }
 
@@ -44,31 +36,31 @@ void TriangleMesh::validate() const {
   }
   std::vector<Index> ring;
   for (Index v = 0; v < vertex_count(); ++v) {
-    require(origin(vertex_halfedge(v)) == v, "half-edge of vertex " + std::to_string(v));
+    require(origin(vertex_halfedge(v)) == v, "half-edge of vertex", v);
     neighbors(v, ring);
     require(std::set<Index>(ring.begin(), ring.end()) == around[v] && ring.size() == around[v].size(),
-            "neighbours of vertex " + std::to_string(v));
+            "neighbours of vertex", v);
   }
 
   std::set<Index> on_loops;
   Index previous_first = 0;
   for (Index k = 0; k < boundary_loop_count(); ++k) {
     const auto loop = boundary_loop(k);
-    require(loop.size() >= 3, "length of loop " + std::to_string(k));
+    require(loop.size() >= 3, "length of loop", k);
     const Index first = origin(loop.front());
-    require(k == 0 || first > previous_first, "order of loop " + std::to_string(k));
+    require(k == 0 || first > previous_first, "order of loop", k);
     previous_first = first;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       require(twin(loop[i]) == kNone && target(loop[i]) == origin(loop[(i + 1) % loop.size()]),
-              "half-edges of loop " + std::to_string(k));
-      require(origin(loop[i]) >= first && boundary_loop_of_vertex(origin(loop[i])) == k,
-              "vertices of loop " + std::to_string(k));
+              "half-edges of loop", k);
+      require(origin(loop[i]) >= first && boundary_loop_of_vertex(origin(loop[i])) == k, "vertices of loop",
+              k);
       on_loops.insert(loop[i]);
     }
   }
   long sum = 0;
   for (Index h = 0; h < halfedge_count(); ++h)
-    require((twin(h) == kNone) == on_loops.contains(h), "boundary half-edge " + std::to_string(h));
+    require((twin(h) == kNone) == on_loops.contains(h), "boundary half-edge", h);
   for (Index c = 0; c < component_count(); ++c) {
     sum += euler_characteristic(c);
     require(euler_characteristic(c) == 2 - 2 * long{genus(c)} - long{boundary_loop_count(c)}, "genus");

@@ -1,10 +1,9 @@
 // The complex against plain tracing of its arcs and against Euler's identity.
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "morsel/core/require.h"
 #include "morsel/mscomplex/complex.h"
 
 namespace morsel::mscomplex {
@@ -15,10 +14,7 @@ using core::TriangleMesh;
 
 namespace {
 
-void require(bool holds, const char* what, Index where) {
-  if (!holds)
-    throw std::logic_error(std::string("MorseSmaleComplex::validate: ") + what + " " + std::to_string(where));
-}
+constexpr core::Require require("MorseSmaleComplex::validate");
 
 bool is_side_of(const TriangleMesh& mesh, Index edge, Index t) {
   return mesh.edge(3 * t) == edge || mesh.edge(3 * t + 1) == edge || mesh.edge(3 * t + 2) == edge;

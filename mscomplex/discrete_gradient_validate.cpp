@@ -1,10 +1,9 @@
 // The gradient's tables against the definition of a discrete gradient from lower stars.
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "morsel/core/require.h"
 #include "morsel/mscomplex/discrete_gradient.h"
 
 namespace morsel::mscomplex {
@@ -14,10 +13,7 @@ using core::kNone;
 
 namespace {
 
-void require(bool holds, const char* what, Index where) {
-  if (!holds)
-    throw std::logic_error(std::string("DiscreteGradient::validate: ") + what + " " + std::to_string(where));
-}
+constexpr core::Require require("DiscreteGradient::validate");
 
 /// Follows next() from everywhere; a walk that meets itself is a closed V-path.
 template <class Next>

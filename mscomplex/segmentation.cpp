@@ -29,33 +29,32 @@ class Segmenter {
 
   void follow_vertices() {
     auto& label = result_.ascending.vertex;
-    label.assign(mesh_.vertex_count(), kNone);
+    const auto descents = gradient_.descents();
+    label.assign(descents.begin(), descents.end());
     const auto minima = gradient_.minima();
-    for (std::size_t i = 0; i < minima.size(); ++i) label[minima[i]] = static_cast<Index>(i);
-    core::parallel_for_each(label.size(), [&](std::size_t v) {
-      follow(label, static_cast<Index>(v), [&](Index u) { return gradient_.descend(u); });
-    });
+    for (std::size_t i = 0; i < minima.size(); ++i) label[minima[i]] = static_cast<Index>(i) | kWayEnd;
+    follow_all(label);
     result_.ascending.count = static_cast<Index>(minima.size());
   }
 
   void follow_triangles() {
     auto& label = result_.descending.triangle;
-    label.assign(mesh_.triangle_count(), kNone);
+    label.resize(mesh_.triangle_count());
+    core::parallel_for_each(label.size(),
+                            [&](std::size_t t) { label[t] = gradient_.ascend(static_cast<Index>(t)); });
     const auto maxima = gradient_.maxima();
-    for (std::size_t i = 0; i < maxima.size(); ++i) label[maxima[i].cell] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < maxima.size(); ++i) label[maxima[i].cell] = static_cast<Index>(i) | kWayEnd;
     result_.descending.count = static_cast<Index>(maxima.size());
     for (Index k = 0; k < mesh_.boundary_loop_count(); ++k) {
       bool empty = true;
       for (const Index h : mesh_.boundary_loop(k))
         if (gradient_.is_paired(h)) {
-          label[TriangleMesh::triangle_of(h)] = static_cast<Index>(maxima.size()) + k;
+          label[TriangleMesh::triangle_of(h)] = (static_cast<Index>(maxima.size()) + k) | kWayEnd;
           empty = false;
         }
       if (!empty) ++result_.descending.count;
     }
-    core::parallel_for_each(label.size(), [&](std::size_t t) {
-      follow(label, static_cast<Index>(t), [&](Index u) { return gradient_.ascend(u); });
-    });
+    follow_all(label);
   }
 
   /// Labels of vertices for triangles and the other way round.
@@ -85,18 +84,18 @@ class Segmenter {
  private:
   /// All triangles of a star share the vertex, so their other two decide.
   Index highest_triangle(Index v) const {
-    Index best = kNone;
+    const Index start = mesh_.vertex_halfedge(v);
+    Index best = start;
     Pair best_ranks = 0;
+    Index a = rank_[mesh_.target(start)];
     mesh_.for_each_outgoing(v, [&](Index h) {
-      const Index a = rank_[mesh_.target(h)];
-      const Index b = rank_[mesh_.apex(h)];
+      const Index b = rank_[mesh_.apex(h)];  // also the target of the next
       const Pair ranks = Pair{std::max(a, b)} << 32 | std::min(a, b);
-      if (best == kNone || ranks > best_ranks) {
-        best = TriangleMesh::triangle_of(h);
-        best_ranks = ranks;
-      }
+      best = ranks > best_ranks ? h : best;
+      best_ranks = std::max(ranks, best_ranks);
+      a = b;
     });
-    return best;
+    return TriangleMesh::triangle_of(best);
   }
 
   Pair triangle_pair(std::size_t t) const {

@@ -103,6 +103,43 @@ TEST_CASE("classification gives the same for every number of threads") {
   }
 }
 
+/// classify() is classify_vertex() at every vertex, with fewer and more threads than counting has lanes.
+static void check_vertex_by_vertex(const ScalarField& field) {
+  std::vector<morse::CriticalPoint> expected;
+  for (Index v = 0; v < field.mesh().vertex_count(); ++v)
+    if (const auto point = morse::classify_vertex(field, v); point.type != CriticalType::regular)
+      expected.push_back(point);
+  for (const int threads : {1, 3, 16}) {
+    const core::ThreadLimit limit(threads);
+    const CriticalPoints points = morse::classify(field);
+    CHECK(points.points == expected);
+    CHECK(points.total() == expected.size());
+  }
+}
+
+TEST_CASE("all vertices at once are classified as one by one") {
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const unsigned seed : {14u, 15u, 16u})
+      for (const NamedField& f : field_zoo(entry.mesh, seed)) {
+        INFO(entry.name << ", " << f.name << ", seed " << seed);
+        check_vertex_by_vertex(f.field);
+      }
+  check_vertex_by_vertex({shuffled(torus(60, 70), 3).mesh(), random_values(60 * 70, 17)});
+}
+
+TEST_CASE("any number of runs of lower neighbours is counted") {
+  for (const int sides : {62, 63, 64, 126, 127, 128, 254, 255, 256, 510, 512, 600, 10000, 10001})
+    for (const int lows : {1, sides / 3, sides / 2})
+      for (const Soup& soup : {bipyramid(sides), wheel(sides), shuffled(bipyramid(sides), 5)}) {
+        INFO(sides << " sides, " << lows << " runs");
+        const TriangleMesh mesh = soup.mesh();
+        std::vector<double> values(mesh.vertex_count(), 0);
+        for (int i = 0; i < sides; ++i)
+          values[values.size() - 1 - static_cast<std::size_t>(i)] = i % 2 == 0 && i < 2 * lows ? -1 : 1;
+        check_vertex_by_vertex({mesh, std::move(values)});
+      }
+}
+
 TEST_CASE("classification can be cancelled") {
   std::stop_source stop;
   stop.request_stop();

@@ -20,22 +20,12 @@ using mscomplex::NodeKind;
 
 namespace {
 
-Cell sorted_cell(Cell cell) {
-  std::sort(cell.begin(), cell.end());
-  return cell;
-}
-
-Cell triangle_cell(const TriangleMesh& mesh, Index t) {
-  return sorted_cell({mesh.triangle(t)[0], mesh.triangle(t)[1], mesh.triangle(t)[2]});
-}
-
 /// The node's cell in the oracle's words; a cap is its loop's smallest vertex.
 Cell node_cell(const MorseSmaleComplex& complex, Index n) {
   const Node node = complex.node(n);
   if (node.kind == NodeKind::maximum) return triangle_cell(complex.mesh(), node.cell);
   if (node.kind != NodeKind::saddle) return {node.vertex};
-  const auto [a, b] = complex.mesh().edge_vertices(node.cell);
-  return sorted_cell({a, b});
+  return edge_cell(complex.mesh(), node.cell);
 }
 
 ComplexOracle::ArcName arc_name(const MorseSmaleComplex& complex, Index arc) {

@@ -22,21 +22,6 @@ using mscomplex::DiscreteGradient;
 
 namespace {
 
-Cell sorted_cell(Cell cell) {
-  std::sort(cell.begin(), cell.end());
-  return cell;
-}
-
-Cell edge_cell(const TriangleMesh& mesh, Index e) {
-  const auto [a, b] = mesh.edge_vertices(e);
-  return sorted_cell({a, b});
-}
-
-Cell triangle_cell(const TriangleMesh& mesh, Index t) {
-  const auto& [a, b, c] = mesh.triangle(t);
-  return sorted_cell({a, b, c});
-}
-
 /// The gradient in the oracle's words.
 GradientOracle in_words(const DiscreteGradient& gradient) {
   const TriangleMesh& mesh = gradient.mesh();

@@ -22,15 +22,6 @@ using mscomplex::SegmentLabels;
 
 namespace {
 
-Cell sorted_cell(Cell cell) {
-  std::sort(cell.begin(), cell.end());
-  return cell;
-}
-
-Cell triangle_cell(const TriangleMesh& mesh, Index t) {
-  return sorted_cell({mesh.triangle(t)[0], mesh.triangle(t)[1], mesh.triangle(t)[2]});
-}
-
 /// Tops in the oracle's words: critical triangles, then the smallest vertices of loops.
 std::vector<Cell> top_cells(const DiscreteGradient& gradient) {
   const TriangleMesh& mesh = gradient.mesh();

@@ -9,11 +9,6 @@ namespace {
 using core::Index;
 using core::kNone;
 
-Cell sorted(Cell cell) {
-  std::sort(cell.begin(), cell.end());
-  return cell;
-}
-
 Index other(const Cell& edge, Index v) { return edge[0] == v ? edge[1] : edge[0]; }
 
 }  // namespace
@@ -23,9 +18,9 @@ ComplexOracle::ComplexOracle(const core::ScalarField& field)
   for (const auto& [facet, cell] : gradient_.pairs) facet_[cell] = facet;
   for (const Cell& cell : gradient_.critical) critical_[cell] = true;
   for (const auto& t : field.mesh().triangles()) {
-    const Cell triangle = sorted({t[0], t[1], t[2]});
+    const Cell triangle = sorted_cell({t[0], t[1], t[2]});
     corners_[triangle] = t;
-    for (int i = 0; i < 3; ++i) cofaces_[sorted({t[i], t[(i + 1) % 3]})].push_back(triangle);
+    for (int i = 0; i < 3; ++i) cofaces_[sorted_cell({t[i], t[(i + 1) % 3]})].push_back(triangle);
   }
 }
 
@@ -86,7 +81,7 @@ void ComplexOracle::collect_at_vertex(Index vertex, Index from, std::vector<ArcN
     ring.erase(ring.begin());
   }
   for (const Index u : ring) {
-    const Cell edge = sorted({vertex, u});
+    const Cell edge = sorted_cell({vertex, u});
     if (critical_.contains(edge)) arcs.push_back({edge, Cell{vertex}});
     const auto pair = gradient_.pairs.find({u});
     if (pair != gradient_.pairs.end() && pair->second == edge) collect_at_vertex(u, vertex, arcs);
@@ -95,7 +90,7 @@ void ComplexOracle::collect_at_vertex(Index vertex, Index from, std::vector<ArcN
 
 /// From triangle `here` across its side a → b.
 void ComplexOracle::collect_across(Index a, Index b, const Cell& here, std::vector<ArcName>& arcs) const {
-  const Cell edge = sorted({a, b});
+  const Cell edge = sorted_cell({a, b});
   if (critical_.contains(edge)) {
     arcs.push_back({edge, here});
     return;
@@ -121,7 +116,7 @@ std::vector<ComplexOracle::ArcName> ComplexOracle::around_minimum(Index vertex) 
 std::vector<ComplexOracle::ArcName> ComplexOracle::around_maximum(Index triangle) const {
   const auto& t = field_.mesh().triangle(triangle);
   std::vector<ArcName> arcs;
-  for (int i = 0; i < 3; ++i) collect_across(t[i], t[(i + 1) % 3], sorted({t[0], t[1], t[2]}), arcs);
+  for (int i = 0; i < 3; ++i) collect_across(t[i], t[(i + 1) % 3], sorted_cell({t[0], t[1], t[2]}), arcs);
   return arcs;
 }
 

@@ -9,11 +9,6 @@ namespace {
 
 using core::Index;
 
-Cell sorted(Cell cell) {
-  std::sort(cell.begin(), cell.end());
-  return cell;
-}
-
 bool is_facet(const Cell& facet, const Cell& cell) {
   return facet.size() + 1 == cell.size() &&
          std::includes(cell.begin(), cell.end(), facet.begin(), facet.end());
@@ -87,13 +82,28 @@ void process(const core::ScalarField& field, Index vertex, const std::set<Cell>&
 
 }  // namespace
 
+Cell sorted_cell(Cell cell) {
+  std::sort(cell.begin(), cell.end());
+  return cell;
+}
+
+Cell edge_cell(const core::TriangleMesh& mesh, Index e) {
+  const auto [a, b] = mesh.edge_vertices(e);
+  return sorted_cell({a, b});
+}
+
+Cell triangle_cell(const core::TriangleMesh& mesh, Index t) {
+  const auto& [a, b, c] = mesh.triangle(t);
+  return sorted_cell({a, b, c});
+}
+
 GradientOracle process_lower_stars(const core::ScalarField& field) {
   const core::TriangleMesh& mesh = field.mesh();
   std::vector<std::set<Cell>> lower_stars(mesh.vertex_count());
   const auto add = [&](const Cell& cell) {
     const Index highest =
         *std::max_element(cell.begin(), cell.end(), [&](Index a, Index b) { return field.is_lower(a, b); });
-    lower_stars[highest].insert(sorted(cell));
+    lower_stars[highest].insert(sorted_cell(cell));
   };
   for (Index v = 0; v < mesh.vertex_count(); ++v) add({v});
   for (const auto& [a, b, c] : mesh.triangles())

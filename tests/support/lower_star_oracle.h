@@ -10,6 +10,9 @@ namespace morsel::test {
 
 /// A vertex, edge or triangle as its sorted vertex numbers.
 using Cell = std::vector<core::Index>;
+Cell sorted_cell(Cell cell);
+Cell edge_cell(const core::TriangleMesh& mesh, core::Index e);
+Cell triangle_cell(const core::TriangleMesh& mesh, core::Index t);
 
 struct GradientOracle {
   std::map<Cell, Cell> pairs;  ///< facet to cofacet

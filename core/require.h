@@ -1,0 +1,30 @@
+#pragma once
+/// How the validate() functions speak up.
+
+#include <stdexcept>
+#include <string>
+
+#include "morsel/core/types.h"
+
+namespace morsel::core {
+
+/// What a check demands: require(holds, what, where) throws std::logic_error "CHECK: WHAT WHERE" unless it holds.
+/// For contradictions within the library, which no input may bring about. Costs nothing where all is well.
+class Require {
+ public:
+  /// `check` names the function that demands; it must outlive this.
+  explicit constexpr Require(const char* check) : check_(check) {}
+
+  void operator()(bool holds, const char* what) const {
+    if (!holds) throw std::logic_error(std::string(check_) + ": " + what);
+  }
+  /// `where` is the number of the vertex, edge, … at which it must hold.
+  void operator()(bool holds, const char* what, Index where) const {
+    if (!holds) throw std::logic_error(std::string(check_) + ": " + what + " " + std::to_string(where));
+  }
+
+ private:
+  const char* check_;
+};
+
+}  // namespace morsel::core
