@@ -21,6 +21,7 @@ struct Options {
   std::string mesh;
   ComparisonRequest request;
   std::string report;
+  bool no_items = false;
   std::string export_folder;
 };
 
@@ -48,15 +49,17 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
   const Stopwatch load_watch;
   const core::LoadedMesh loaded =
       core::read_mesh(options.mesh, {.repair = common.repair}, console.progress());
-  ReportInput input{options.mesh, "", common.repair, load_watch.seconds()};
+  ReportInput input{options.mesh, "", common.repair, !options.no_items, load_watch.seconds()};
 
   Announcer announcer(console);
   ComparisonTable table;
   std::vector<ComparisonSink*> sinks = {&announcer, &table};
+  std::optional<JsonStream> json;
   std::optional<ReportWriter> report;
   if (file || report_to_stdout) {
     input.mesh_sha256 = sha256_of_file(options.mesh);
-    report.emplace(report_to_stdout ? std::cout : file->stream(), loaded, input, options.request);
+    json.emplace(report_to_stdout ? std::cout : file->stream());
+    report.emplace(*json, loaded, input, options.request);
     sinks.push_back(&*report);
   }
   std::optional<ExportSink> exports;
@@ -94,6 +97,9 @@ void add_compare(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false);
   command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
       ->type_name("REPORT.json");
+  command.add_flag("--no-items", options->no_items,
+                   "Leave what is listed point by point out of the report: the critical points and the\n"
+                   "diagram's pairs; their counts stay");
   command
       .add_option("--export", options->export_folder,
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
