@@ -9,7 +9,9 @@
 #include <sstream>
 
 #include "morsel/core/error.h"
+#include "morsel/core/parallel.h"
 #include "morsel/tools/report/difference.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/json_stream.h"
 #include "morsel/tools/report/sha256.h"
 #include "morsel/tools/report/text_table.h"
@@ -117,6 +119,50 @@ TEST_CASE("a row is the text of the object it stands for") {
     const Json object = {{"whole", whole}, {"real", real},    {"point", point},
                          {"te\"xt", text}, {"null", nullptr}, {"infinite", nullptr}};
     REQUIRE(out.str() == "[\n  " + tools::json_text(object) + "\n]\n");
+  }
+}
+
+TEST_CASE("many rows at once are the same text as one after the other") {
+  const core::ThreadLimit limit(4);
+  for (const std::size_t count : {0u, 1u, 511u, 512u, 513u, 40000u, 65536u}) {
+    for (const bool first : {true, false}) {
+      std::ostringstream at_once;
+      std::ostringstream one_by_one;
+      tools::JsonStream a(at_once);
+      tools::JsonStream b(one_by_one);
+      for (tools::JsonStream* stream : {&a, &b}) {
+        stream->begin_object();
+        stream->begin_array("rows");
+        if (!first) stream->row({{"first", 1u}});
+      }
+      const auto make = [](std::size_t i, const tools::TakeRow& take) {
+        take({{"i", i}, {"x", 0.1 * static_cast<double>(i)}});
+      };
+      a.rows(count, make);
+      for (std::size_t i = 0; i < count; ++i) make(i, [&](tools::Row row) { b.row(row); });
+      for (tools::JsonStream* stream : {&a, &b}) {
+        stream->row({});
+        stream->end_array();
+        stream->end_object();
+      }
+      REQUIRE(at_once.str() == one_by_one.str());
+    }
+  }
+}
+
+TEST_CASE("a mesh and its hash are read together and errors are the reader's") {
+  const auto path = std::filesystem::temp_directory_path() / "morsel_hashed_mesh_test.off";
+  std::ofstream(path) << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  for (const int threads : {1, 4}) {
+    const core::ThreadLimit limit(threads);
+    const tools::HashedMesh mesh = tools::read_hashed_mesh(path);
+    CHECK(mesh.loaded.mesh.vertex_count() == 4);
+    CHECK(mesh.sha256 == tools::sha256_of_file(path));
+  }
+  std::filesystem::remove(path);
+  for (const int threads : {1, 4}) {
+    const core::ThreadLimit limit(threads);
+    CHECK_THROWS_WITH(tools::read_hashed_mesh(path), Catch::Contains("No such file"));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "morsel/core/parallel.h"
+
 namespace morsel::tools {
 namespace {
 
@@ -52,6 +54,19 @@ struct CellWriter {
   }
 };
 
+void append_row(std::string& text, Row row) {
+  const CellWriter writer{text};
+  char separator = '{';
+  for (const RowMember& member : row) {
+    text += separator;
+    writer(member.key);
+    text += ':';
+    std::visit(writer, member.value);
+    separator = ',';
+  }
+  text += row.size() == 0 ? "{}" : "}";
+}
+
 }  // namespace
 
 std::string json_text(const Json& value, int indent) {
@@ -63,10 +78,14 @@ void JsonStream::write_out() {
   text_.clear();
 }
 
+void JsonStream::append_separator(std::string& text, bool is_first) const {
+  text += is_first ? "\n" : ",\n";
+  text.append(2 * has_items_.size(), ' ');
+}
+
 void JsonStream::next_item(std::string_view key) {
   if (!has_items_.empty()) {
-    text_ += has_items_.back() ? ",\n" : "\n";
-    text_.append(2 * has_items_.size(), ' ');
+    append_separator(text_, !has_items_.back());
     has_items_.back() = true;
   }
   if (!key.empty()) {
@@ -100,17 +119,30 @@ void JsonStream::member(std::string_view key, const Json& value) {
 
 void JsonStream::row(Row row) {
   next_item({});
-  const CellWriter writer{text_};
-  char separator = '{';
-  for (const RowMember& member : row) {
-    text_ += separator;
-    writer(member.key);
-    text_ += ':';
-    std::visit(writer, member.value);
-    separator = ',';
-  }
-  text_ += row.size() == 0 ? "{}" : "}";
+  append_row(text_, row);
   write_out();
+}
+
+void JsonStream::rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) {
+  constexpr std::size_t kRows = 512;  // a text
+  std::vector<std::string> texts(64);
+  for (std::size_t begin = 0; begin < count; begin += kRows * texts.size()) {
+    const std::size_t end = std::min(count, begin + kRows * texts.size());
+    core::parallel_for(begin, end, kRows, [&](std::size_t first, std::size_t last) {
+      std::string& text = texts[(first - begin) / kRows];
+      text.clear();
+      bool is_first = first == 0 && !has_items_.back();
+      const TakeRow take = [&](Row row) {
+        append_separator(text, is_first);
+        append_row(text, row);
+        is_first = false;
+      };
+      for (std::size_t i = first; i < last; ++i) make(i, take);
+    });
+    for (std::size_t k = 0; k * kRows < end - begin; ++k)
+      out_.write(texts[k].data(), static_cast<std::streamsize>(texts[k].size()));
+    has_items_.back() = true;
+  }
 }
 
 }  // namespace morsel::tools

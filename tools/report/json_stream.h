@@ -1,7 +1,9 @@
 #pragma once
 /// Writes a JSON document piece by piece, so that a million items never stand in memory together.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -24,6 +26,7 @@ struct RowMember {
 };
 /// An object of scalars, of which a document has many: written without a JSON value for each.
 using Row = std::initializer_list<RowMember>;
+using TakeRow = std::function<void(Row)>;
 
 /// Receives a JSON document piece by piece. The caller keeps it well-formed: keys in objects, none in arrays,
 /// every begin with its end.
@@ -38,6 +41,9 @@ class JsonSink {
   virtual void member(std::string_view key, const Json& value) = 0;
   /// An element of the current array.
   virtual void row(Row row) = 0;
+  /// Many elements of the current array: make(i, take), for each i < count, hands the i-th to take. Calls of
+  /// `make` may run in parallel and in any order.
+  virtual void rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) = 0;
 };
 
 /// Writes it as text, with two-space indentation and a line to each row.
@@ -52,11 +58,13 @@ class JsonStream : public JsonSink {
   void end_array() override { end(']'); }
   void member(std::string_view key, const Json& value) override;
   void row(Row row) override;
+  void rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) override;
 
  private:
   void begin(std::string_view key, char bracket);
   void end(char bracket);
   void next_item(std::string_view key);
+  void append_separator(std::string& text, bool is_first) const;
   void write_out();
 
   std::ostream& out_;

@@ -163,4 +163,9 @@ void ReportCollector::row(Row row) {
   finder_.end(open_.size());
 }
 
+void ReportCollector::rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) {
+  const TakeRow take = [&](Row row) { this->row(row); };
+  for (std::size_t i = 0; i < count; ++i) make(i, take);
+}
+
 }  // namespace morsel::tools

@@ -124,26 +124,28 @@ void ReportWriter::write_diagram(const MethodOutcome& outcome) {
   using persistence::PairKind;
   const persistence::Diagram& diagram = outcome.measurement.diagram;
   json_.begin_array("diagram");
-  const auto entry = [&](std::string_view kind, double birth, double death, core::Index born,
-                         core::Index dead) {
+  const auto entry = [&](const TakeRow& take, std::string_view kind, double birth, double death,
+                         core::Index born, core::Index dead) {
     const auto number = [&](core::Index v) {
       return v == core::kNone ? Cell(nullptr) : Cell(loaded_.source.numbering.input_vertex(v));
     };
-    json_.row({{"kind", kind},
-               {"birth", birth},
-               {"death", death},
-               {"persistence", death - birth},
-               {"birth_vertex", number(born)},
-               {"death_vertex", number(dead)}});
+    take({{"kind", kind},
+          {"birth", birth},
+          {"death", death},
+          {"persistence", death - birth},
+          {"birth_vertex", number(born)},
+          {"death_vertex", number(dead)}});
   };
-  for (const auto& pair : diagram.pairs) {
+  json_.rows(diagram.pairs.size(), [&](std::size_t i, const TakeRow& take) {
+    const persistence::PersistencePair& pair = diagram.pairs[i];
     const bool rising = pair.kind == PairKind::minimum_saddle;
     const core::Index other = pair.kind == PairKind::saddle_cap ? core::kNone : pair.extremum;
-    entry(to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle,
+    entry(take, to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle,
           rising ? pair.saddle : other);
-  }
+  });
+  const TakeRow add = [&](Row row) { json_.row(row); };
   const auto essential = [&](std::string_view kind, core::Index v) {
-    entry(kind, outcome.field.value(v), persistence::kInfinite, v, core::kNone);
+    entry(add, kind, outcome.field.value(v), persistence::kInfinite, v, core::kNone);
   };
   for (const auto& extrema : diagram.essential_extrema) essential("essential-minimum", extrema.minimum);
   for (const auto& saddle : diagram.essential_saddles)
@@ -157,15 +159,17 @@ void ReportWriter::write_items(const MethodOutcome& outcome) {
   const std::vector<double> persistence =
       persistence::vertex_persistence(outcome.measurement.diagram, loaded_.mesh.vertex_count());
   json_.begin_array("items");
-  for (const morse::CriticalPoint& point : outcome.measurement.critical_points.points) {
+  const std::vector<morse::CriticalPoint>& points = outcome.measurement.critical_points.points;
+  json_.rows(points.size(), [&](std::size_t i, const TakeRow& take) {
+    const morse::CriticalPoint& point = points[i];
     const std::span<const double, 3> position(loaded_.mesh.position(point.vertex).data(), 3);
-    json_.row({{"vertex", loaded_.source.numbering.input_vertex(point.vertex)},
-               {"position", position},
-               {"type", to_string(point.type)},
-               {"multiplicity", point.multiplicity},
-               {"value", outcome.field.value(point.vertex)},
-               {"persistence", persistence[point.vertex]}});
-  }
+    take({{"vertex", loaded_.source.numbering.input_vertex(point.vertex)},
+          {"position", position},
+          {"type", to_string(point.type)},
+          {"multiplicity", point.multiplicity},
+          {"value", outcome.field.value(point.vertex)},
+          {"persistence", persistence[point.vertex]}});
+  });
   json_.end_array();
 }
 
