@@ -40,7 +40,7 @@ void write_surface(const std::filesystem::path& path, const core::LoadedMesh& lo
   add("descending", m.segmentation.descending);
   add("ascending", m.segmentation.ascending);
   add("morse_smale", m.segmentation.morse_smale);
-  write_vtp(path, document);
+  write_vtp(path, document, core::Sync::never);
 }
 
 /// Where a cap is drawn: at the middle of its loop, which has no vertex of its own.
@@ -116,12 +116,12 @@ void write_complex(const std::filesystem::path& path, const core::LoadedMesh& lo
   document.cell_arrays = {{"kind", std::span<const std::uint8_t>(kinds)},
                           {"vertex", std::span<const std::int32_t>(vertices)},
                           {"end_vertex", std::span<const std::int32_t>(end_vertices)}};
-  write_vtp(path, document);
+  write_vtp(path, document, core::Sync::never);
 }
 
 void write_points(const std::filesystem::path& path, const core::LoadedMesh& loaded,
                   const MethodOutcome& outcome, std::span<const double> persistence) {
-  core::FileWriter file(path);
+  core::FileWriter file(path, core::Sync::never);
   file.write("vertex,x,y,z,type,multiplicity,value,persistence\n");
   for (const morse::CriticalPoint& point : outcome.measurement.critical_points.points) {
     file.write_number(std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)});

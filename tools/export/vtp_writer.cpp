@@ -6,8 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "morsel/core/file_writer.h"
-
 namespace morsel::tools {
 
 static_assert(sizeof(core::Point) == 3 * sizeof(double) && sizeof(core::Triangle) == 3 * sizeof(core::Index),
@@ -77,8 +75,8 @@ namespace {
 /// Writes the XML head with each array's place in the appended block, then the block itself.
 class VtpWriter {
  public:
-  VtpWriter(const std::filesystem::path& path, const VtpDocument& document)
-      : file_(path), document_(document) {}
+  VtpWriter(const std::filesystem::path& path, const VtpDocument& document, core::Sync sync)
+      : file_(path, sync), document_(document) {}
 
   void write() {
     const auto count = [](const VtpCells& cells) { return std::to_string(cells.count); };
@@ -145,8 +143,8 @@ class VtpWriter {
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document) {
-  VtpWriter(path, document).write();
+void write_vtp(const std::filesystem::path& path, const VtpDocument& document, core::Sync sync) {
+  VtpWriter(path, document, sync).write();
 }
 
 }  // namespace morsel::tools

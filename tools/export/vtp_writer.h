@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/file_writer.h"
 #include "morsel/core/types.h"
 
 namespace morsel::tools {
@@ -60,6 +61,7 @@ struct VtpDocument {
 };
 
 /// Writes binary (raw appended) data, whole or not at all. Throws WriteFailed.
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document);
+void write_vtp(const std::filesystem::path& path, const VtpDocument& document,
+               core::Sync sync = core::Sync::when_replacing);
 
 }  // namespace morsel::tools
