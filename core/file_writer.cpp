@@ -52,7 +52,7 @@ bool is_system_path(const fs::path& path) {
 }  // namespace
 
 struct FileWriter::Output {
-  explicit Output(const fs::path& target);
+  Output(const fs::path& target, Sync sync);
   ~Output() { discard(); }
 
   void append(const char* data, std::size_t size) {
@@ -91,13 +91,14 @@ struct FileWriter::Output {
   fs::path path;       // links followed
   fs::path temporary;  // empty when written directly
   int file = -1;
+  bool synced = false;
   std::vector<char> buffer;
   std::size_t used = 0;
   StreamBuffer stream_buffer{*this};
   std::ostream stream{&stream_buffer};
 };
 
-FileWriter::Output::Output(const fs::path& target) : shown(target), buffer(kBufferSize) {
+FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), buffer(kBufferSize) {
   if (!target.has_filename()) fail(shown, "that is not the name of a file");
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -121,6 +122,7 @@ FileWriter::Output::Output(const fs::path& target) : shown(target), buffer(kBuff
       fail(shown, error);
     }
     if (exists) static_cast<void>(::fchmod(file, status.st_mode & 07777));
+    synced = exists && sync == Sync::when_replacing;
   }
   stream.imbue(std::locale::classic());
   stream.precision(17);
@@ -143,7 +145,7 @@ void FileWriter::Output::commit() {
   if (file < 0) return;
   flush();
   // Pipes and some file systems cannot be synced and say EINVAL, EROFS or ENOTSUP; what counts are lost data.
-  if (!temporary.empty() && ::fsync(file) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT))
+  if (synced && ::fsync(file) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT))
     fail(shown, errno);
   if (::close(std::exchange(file, -1)) != 0 && errno != EINTR) fail(shown, errno);
   if (temporary.empty()) return;
@@ -156,7 +158,7 @@ void FileWriter::Output::discard() noexcept {
   if (!temporary.empty()) ::unlink(temporary.c_str());
 }
 
-FileWriter::FileWriter(const fs::path& path) : output_(std::make_unique<Output>(path)) {}
+FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}
 
 FileWriter::~FileWriter() = default;
 

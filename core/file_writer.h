@@ -10,15 +10,22 @@
 
 namespace morsel::core {
 
-/// Writes to a temporary file in the target's folder; commit() brings it to disk and renames it to the
-/// target. Without commit() (an error, a Cancelled on its way up) the destructor removes it and the target
-/// stays as it was. A target that exists keeps its permissions, and a symbolic link to it stays a link. A
-/// device or pipe (/dev/stdout) cannot be renamed to: it is written as the data come.
+/// Whether commit() waits for the disk. However a program ends, a target is whole or as it was without that;
+/// it is power failures that may lose what was only written.
+enum class Sync {
+  when_replacing,  ///< so that a power failure never takes both the old file and the new
+  never            ///< for large files that are easily made again
+};
+
+/// Writes to a temporary file in the target's folder; commit() renames it to the target. Without commit() (an
+/// error, a Cancelled on its way up) the destructor removes it and the target stays as it was. A target that
+/// exists keeps its permissions, and a symbolic link to it stays a link. A device or pipe (/dev/stdout)
+/// cannot be renamed to: it is written as the data come.
 ///
 /// All functions throw WriteFailed with the path and the system's reason. Buffered; not thread-safe.
 class FileWriter {
  public:
-  explicit FileWriter(const std::filesystem::path& path);
+  explicit FileWriter(const std::filesystem::path& path, Sync sync = Sync::when_replacing);
   ~FileWriter();
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "morsel/core/mesh_formats.h"
+#include "morsel/core/text_chunks.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
@@ -24,7 +27,38 @@ class Reader {
       : file_(file),
         scanner_(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, progress) {}
 
+  /// Of a piece of a file with `vertices_before` vertices before it and without continued lines.
+  Reader(std::string_view lines, char terminator, std::size_t vertices_before, const std::string& file,
+         const Progress& progress)
+      : file_(file),
+        scanner_(lines, file, {.comment = '#', .continuation = false, .terminator = terminator}, progress),
+        vertices_before_(vertices_before) {}
+
   LoadedSoup read() {
+    read_statements();
+    const std::size_t vertices = result_.soup.positions.size();
+    if (!result_.soup.corners.empty() && highest_ >= vertices)
+      fail_reading(file_, "line " + std::to_string(highest_line_) + ": the face names vertex " +
+                              std::to_string(std::size_t{highest_} + 1) + ", but the file has only " +
+                              std::to_string(vertices) + " vertices, numbered from 1");
+    return std::move(result_);
+  }
+
+  /// The statements of a piece; corners are checked against `vertices`, the number in the whole file.
+  PolygonSoup read_piece(std::size_t vertices) {
+    read_statements();
+    if (!result_.soup.corners.empty() && highest_ >= vertices) fail_reading(file_, "a face names no vertex");
+    return std::move(result_.soup);
+  }
+
+  std::size_t count_vertices() {
+    std::size_t count = 0;
+    while (scanner_.next_line()) count += scanner_.word() == "v" ? 1 : 0;
+    return count;
+  }
+
+ private:
+  void read_statements() {
     while (scanner_.next_line()) {
       const std::string_view keyword = scanner_.word();
       if (keyword == "v")
@@ -36,15 +70,8 @@ class Reader {
       else
         scanner_.fail("an OBJ file has no statement " + shown(keyword));
     }
-    const std::size_t vertices = result_.soup.positions.size();
-    if (!result_.soup.corners.empty() && highest_ >= vertices)
-      fail_reading(file_, "line " + std::to_string(highest_line_) + ": the face names vertex " +
-                              std::to_string(std::size_t{highest_} + 1) + ", but the file has only " +
-                              std::to_string(vertices) + " vertices, numbered from 1");
-    return std::move(result_);
   }
 
- private:
   void skip_statement() {
     while (!scanner_.at_line_end()) scanner_.word();  // word by word, for the sake of continued lines
   }
@@ -64,7 +91,7 @@ class Reader {
   /// Corners "7", "7/1", "7/1/3", "7//3"; a negative index counts back from the last vertex so far.
   void read_face() {
     PolygonSoup& soup = result_.soup;
-    const auto so_far = static_cast<std::int64_t>(soup.positions.size());
+    const auto so_far = static_cast<std::int64_t>(vertices_before_ + soup.positions.size());
     while (!scanner_.at_line_end()) {
       const std::int64_t number = scanner_.leading_integer("a corner of the face");
       skip_attributes();
@@ -95,15 +122,38 @@ class Reader {
 
   const std::string& file_;
   TextScanner scanner_;
+  std::size_t vertices_before_ = 0;
   LoadedSoup result_;
   Index highest_ = 0;
   std::size_t highest_line_ = 0;  // 0: no face yet
 };
 
+/// Reads it in parallel; nothing if that does not pay or something is wrong.
+std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::string& file,
+                                          const Progress& progress) {
+  const Progress silent;
+  const char terminator =
+      TextScanner(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, silent).terminator();
+  if (bytes.find('\\') != std::string_view::npos) return std::nullopt;  // a line may be continued
+  const std::vector<std::string_view> chunks = line_chunks(bytes, terminator);
+  const std::vector<std::size_t> vertices_before = items_before(chunks, [&](std::string_view lines) {
+    return Reader(lines, terminator, 0, file, silent).count_vertices();
+  });
+  if (chunks.empty() || vertices_before.back() >= kNone) return std::nullopt;
+  return read_chunks(
+      chunks.size(),
+      [&](std::size_t k) {
+        return Reader(chunks[k], terminator, vertices_before[k], file, silent)
+            .read_piece(vertices_before.back());
+      },
+      progress);
+}
+
 }  // namespace
 
 LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress) {
   if (bytes.empty()) fail_reading(file, "it is empty");
+  if (auto soup = read_in_chunks(bytes, file, progress)) return {std::move(*soup), {}};
   return Reader(bytes, file, progress).read();
 }
 

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cctype>
-#include <charconv>
+#include <utility>
+#include <vector>
 
 #include "morsel/core/mesh_formats.h"
+#include "morsel/core/text_chunks.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
@@ -23,12 +25,22 @@ class Reader {
  public:
   Reader(std::string_view bytes, const std::string& file, const Progress& progress)
       : file_(file),
-        scanner_(bytes, file, {.comment = '#', .continuation = false, .terminator = 0}, progress) {}
+        scanner_(bytes, file, {.comment = '#', .continuation = false, .terminator = 0}, progress),
+        progress_(progress) {}
+
+  /// Of a piece of a file whose header was read.
+  Reader(std::string_view lines, char terminator, const Header& header, const std::string& file,
+         const Progress& progress)
+      : file_(file),
+        scanner_(lines, file, {.comment = '#', .continuation = false, .terminator = terminator}, progress),
+        progress_(progress),
+        header_(header) {}
 
   LoadedSoup read() {
     read_header();
-    read_vertices();
-    read_faces();
+    if (read_in_chunks()) return std::move(result_);
+    read_vertices(0, header_.vertices);
+    read_faces(0, header_.faces);
     if (scanner_.next_line())
       scanner_.fail("the file goes on after the " + std::to_string(header_.vertices) + " vertices and " +
                     std::to_string(header_.faces) + " faces that its header announces");
@@ -36,6 +48,34 @@ class Reader {
   }
 
  private:
+  /// Reads all that follows the header, in parallel. False if that does not pay or something is wrong.
+  bool read_in_chunks() {
+    const char terminator = scanner_.terminator();
+    const std::vector<std::string_view> chunks = line_chunks(scanner_.rest(), terminator);
+    const Progress silent;
+    const std::vector<std::size_t> lines_before = items_before(chunks, [&](std::string_view lines) {
+      Reader reader(lines, terminator, header_, file_, silent);
+      std::size_t count = 0;
+      while (reader.scanner_.next_line()) ++count;
+      return count;
+    });
+    if (chunks.empty() || lines_before.back() != header_.vertices + header_.faces) return false;
+    const auto vertices = std::size_t{header_.vertices};
+    auto soup = read_chunks(
+        chunks.size(),
+        [&](std::size_t k) {
+          Reader reader(chunks[k], terminator, header_, file_, silent);
+          const std::size_t first = lines_before[k];
+          const std::size_t last = lines_before[k + 1];
+          reader.read_vertices(std::min(first, vertices), std::min(last, vertices));
+          reader.read_faces(std::max(first, vertices) - vertices, std::max(last, vertices) - vertices);
+          return std::move(reader.result_.soup);
+        },
+        progress_);
+    if (soup) result_.soup = std::move(*soup);
+    return soup.has_value();
+  }
+
   void read_header() {
     if (!scanner_.next_line()) fail_reading(file_, "it is empty");
     const std::string_view first = scanner_.peek_word();
@@ -95,13 +135,13 @@ class Reader {
     return static_cast<std::uint64_t>(number);
   }
 
-  void read_vertices() {
+  void read_vertices(std::uint64_t first, std::uint64_t last) {
     // Colours have three or four numbers; a file that has them without announcing them is common.
     const int fixed = (header_.normal ? 3 : 0) + (header_.texture ? 2 : 0);
     const bool plain = fixed == 0 && !header_.color;
     auto& positions = result_.soup.positions;
-    positions.reserve(header_.vertices);
-    for (std::uint64_t v = 0; v < header_.vertices; ++v) {
+    positions.reserve(last - first);
+    for (std::uint64_t v = first; v < last; ++v) {
       if (!scanner_.next_line())
         scanner_.fail_at_end("after " + std::to_string(v) + " of " + std::to_string(header_.vertices) +
                              " vertices");
@@ -119,11 +159,11 @@ class Reader {
     }
   }
 
-  void read_faces() {
+  void read_faces(std::uint64_t first, std::uint64_t last) {
     PolygonSoup& soup = result_.soup;
-    soup.offsets.reserve(header_.faces + 1);
-    soup.corners.reserve(std::min<std::size_t>(3 * header_.faces, scanner_.remaining() / 2));
-    for (std::uint64_t f = 0; f < header_.faces; ++f) {
+    soup.offsets.reserve(last - first + 1);
+    soup.corners.reserve(std::min<std::size_t>(3 * (last - first), scanner_.remaining() / 2));
+    for (std::uint64_t f = first; f < last; ++f) {
       if (!scanner_.next_line())
         scanner_.fail_at_end("after " + std::to_string(f) + " of " + std::to_string(header_.faces) +
                              " faces");
@@ -143,6 +183,7 @@ class Reader {
 
   const std::string& file_;
   TextScanner scanner_;
+  const Progress& progress_;
   Header header_;
   LoadedSoup result_;
 };

@@ -60,6 +60,7 @@ class TextScanner {
   /// The same as a view.
   std::string_view rest() const { return {next_, remaining()}; }
   std::size_t line() const { return line_; }
+  char terminator() const { return terminator_; }  ///< of lines: \n or \r
   /// Throws BadInput naming the file and this line.
   [[noreturn]] void fail(const std::string& what) const;
   /// Throws BadInput for a text that ends too early.

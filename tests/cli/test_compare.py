@@ -35,6 +35,24 @@ class Compare(ProgramTest):
                           [self.file("damaged.off", DAMAGED), "--repair"]):
             jsonschema.validate(self.report(*arguments), schema)
 
+    def test_items_can_be_left_out(self):
+        schema = json.loads(SCHEMA.read_text())
+        full = self.report(SAMPLES / "lion-head.off")
+        short = self.report(SAMPLES / "lion-head.off", "--no-items", name="short.json")
+        jsonschema.validate(short, schema)
+        self.assertIs(short["request"].pop("items"), False)
+        with self.assertRaises(jsonschema.ValidationError):  # whoever did not ask for that must have them
+            jsonschema.validate(short, schema)
+        full["request"]["items"] = False
+        with self.assertRaises(jsonschema.ValidationError):
+            jsonschema.validate(full, schema)
+        del full["request"]["items"]
+        for method in full["methods"]:
+            del method["items"], method["persistence"]["diagram"]
+        del full["timings"], short["timings"]
+        self.assertEqual(full, short)
+        self.assertLess((self.folder / "short.json").stat().st_size, 10000)
+
     def test_the_schema_refuses_what_it_should(self):
         schema = json.loads(SCHEMA.read_text())
         report = self.report(self.file("octahedron.off", OCTAHEDRON))

@@ -21,6 +21,14 @@ def arrays(data):
     return {data.GetArrayName(i): data.GetArray(i) for i in range(data.GetNumberOfArrays())}
 
 
+def cells(cell_array):
+    """The points of each cell."""
+    ends = cell_array.GetOffsetsArray()
+    points = cell_array.GetConnectivityArray()
+    return [[points.GetValue(k) for k in range(ends.GetValue(i), ends.GetValue(i + 1))]
+            for i in range(cell_array.GetNumberOfCells())]
+
+
 class Export(ProgramTest):
     def test_the_lions_files_hold_what_the_report_says(self):
         report = self.report(SAMPLES / "lion-head.off", "--export", "out")
@@ -56,6 +64,37 @@ class Export(ProgramTest):
                 self.assertEqual((int(row["vertex"]), row["type"], float(row["value"])),
                                  (item["vertex"], item["type"], item["value"]))
                 self.assertEqual(row["persistence"] == "inf", item["persistence"] is None)
+
+    def test_cells_are_the_meshs_faces_and_the_complexs_arcs(self):
+        lion = SAMPLES / "lion-head.off"
+        self.morsel("compare", lion, "--method", "conventional", "--export", "out")
+        lines = [line.split() for line in lion.read_text().splitlines() if line and not line.startswith("#")]
+        vertices = int(lines[1][0])
+        positions = [tuple(map(float, line[:3])) for line in lines[2:2 + vertices]]
+        surface = read(self.folder / "out" / "conventional.surface.vtp")
+        self.assertEqual(cells(surface.GetPolys()), [[int(v) for v in line[1:4]] for line in lines[2 + vertices:]])
+        self.assertEqual([surface.GetPoint(v) for v in range(vertices)], positions)
+
+        complex_ = read(self.folder / "out" / "conventional.complex.vtp")
+        of_cells = arrays(complex_.GetCellData())
+        nodes, arcs = cells(complex_.GetVerts()), cells(complex_.GetLines())
+        self.assertEqual(nodes, [[i] for i in range(len(nodes))])
+        used = {point for cell in nodes + arcs for point in cell}
+        self.assertEqual(used, set(range(complex_.GetNumberOfPoints())))
+        ends = {0: set(), 2: set()}
+        for i in range(len(nodes)):
+            kind, vertex = of_cells["kind"].GetValue(i), of_cells["vertex"].GetValue(i)
+            if kind != 3:
+                self.assertEqual(complex_.GetPoint(i), positions[vertex])
+            ends.setdefault(kind, set()).add(vertex)
+        for i, arc in enumerate(arcs, len(nodes)):
+            kind, start, end = (of_cells[name].GetValue(i) for name in ("kind", "vertex", "end_vertex"))
+            self.assertGreaterEqual(len(arc), 2)
+            self.assertEqual(complex_.GetPoint(arc[0]), positions[start])
+            self.assertIn(start, ends[1])
+            if end != -1:
+                self.assertIn(end, ends[2 * (kind - 4)])
+                self.assertEqual(complex_.GetPoint(arc[-1]), positions[end])
 
     def test_methods_of_one_name_get_files_of_their_own(self):
         mesh = self.file("o.off", OCTAHEDRON)

@@ -60,6 +60,26 @@ class Check(ProgramTest):
         result = self.morsel("check", self.edited(edit), code=1)
         self.assertIn("methods[1] (salient): critical_points.total: 77 -> 2", result.stdout)
 
+    def test_a_changed_item_or_pair_of_a_real_mesh_is_shown_however_the_report_is_laid_out(self):
+        self.morsel("compare", SAMPLES / "lion-head.off", "--method", "tps", "--method", "salient", "-o", "report.json")
+        def edit(report):
+            report["methods"][1]["items"][3]["vertex"] = -7
+            report["methods"][0]["persistence"]["diagram"][700]["kind"] = "none"
+        self.edited(edit)
+        report = json.loads((self.folder / "edited.json").read_text())
+        self.file("sorted.json", json.dumps(report, sort_keys=True, indent=4))
+        for name in ("edited.json", "sorted.json"):
+            lines = self.morsel("check", name, code=1).stdout.splitlines()
+            self.assertEqual(len(lines), 3)
+            self.assertIn("methods[0] (tps): persistence.diagram[700].kind: \"none\" -> \"", lines[1])
+            self.assertIn("methods[1] (salient): items[3].vertex: -7 -> ", lines[2])
+
+    def test_a_report_without_items_can_be_checked(self):
+        self.morsel("compare", self.mesh, "--no-items", "-o", "report.json")
+        self.morsel("check", "report.json")
+        edited = self.edited(lambda r: r["methods"][1]["critical_points"].update(total=9))
+        self.assertIn("1 difference ", self.morsel("check", edited, code=1).stdout)
+
     def test_timings_and_version_may_differ(self):
         def edit(report):
             report["timings"] = {"total": 1e9}

@@ -2,16 +2,14 @@
 
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/report/difference.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_reader.h"
 #include "morsel/tools/report/report_writer.h"
-#include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
 namespace {
@@ -22,16 +20,17 @@ struct Options {
 };
 
 /// The report that the same request gives now.
-Json run_again(const LoadedReport& report, const std::filesystem::path& mesh_path, const std::string& sha256,
-               const core::Progress& progress) {
-  const core::LoadedMesh loaded = core::read_mesh(mesh_path, {.repair = report.repair}, progress);
+ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
+                         const core::Progress& progress) {
+  const HashedMesh input = read_hashed_mesh(mesh_path, {.repair = report.repair}, progress);
   std::vector<MethodChain> chains;
   for (const std::string& method : report.request.methods) chains.push_back(make_method(method));
-  std::ostringstream out;
-  ReportWriter writer(out, loaded, {report.mesh_path, sha256, report.repair, 0}, report.request);
-  run_comparison(loaded, make_function(report.request.field), chains, {&writer}, progress);
+  ReportCollector again;
+  ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.repair, report.items},
+                      report.request);
+  run_comparison(input.loaded, make_function(report.request.field), chains, {&writer}, progress);
   writer.finish();
-  return Json::parse(out.str());
+  return again.take();
 }
 
 void print_differences(const std::vector<Difference>& differences, bool all) {
@@ -51,9 +50,9 @@ int check(const Options& options, Console& console) {
     std::cout << options.report << ": the mesh " << report.mesh_path << " is missing\n";
     return kDifferences;
   }
-  Json again;
+  ReportDocument again;
   try {
-    again = run_again(report, mesh, sha256_of_file(mesh), console.progress());
+    again = run_again(report, mesh, console.progress());
   } catch (const core::InvalidArgument& error) {
     throw core::BadInput(options.report + " asks for what this version does not do: " + error.what());
   }

@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "morsel/core/file_writer.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/parallel.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
 #include "morsel/tools/report/comparison_table.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
-#include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
 namespace {
@@ -21,6 +21,7 @@ struct Options {
   std::string mesh;
   ComparisonRequest request;
   std::string report;
+  bool no_items = false;
   std::string export_folder;
 };
 
@@ -36,6 +37,21 @@ class Announcer : public ComparisonSink {
   Console& console_;
 };
 
+/// Lets several sinks work at the same time.
+class SideBySide : public ComparisonSink {
+ public:
+  void add(ComparisonSink& sink) { sinks_.push_back(&sink); }
+  void field(const FieldOutcome& outcome) override {
+    for (ComparisonSink* sink : sinks_) sink->field(outcome);
+  }
+  void method(const MethodOutcome& outcome) override {
+    core::parallel_for(0, sinks_.size(), 1, [&](std::size_t i, std::size_t) { sinks_[i]->method(outcome); });
+  }
+
+ private:
+  std::vector<ComparisonSink*> sinks_;
+};
+
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const NamedFunction function = make_function(options.request.field);
@@ -46,25 +62,26 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
 
   const Stopwatch load_watch;
-  const core::LoadedMesh loaded =
-      core::read_mesh(options.mesh, {.repair = common.repair}, console.progress());
-  ReportInput input{options.mesh, "", common.repair, load_watch.seconds()};
+  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  const core::LoadedMesh& loaded = input.loaded;
+  const ReportInput about{options.mesh, input.sha256, common.repair, !options.no_items, load_watch.seconds()};
 
   Announcer announcer(console);
   ComparisonTable table;
-  std::vector<ComparisonSink*> sinks = {&announcer, &table};
+  SideBySide files;
+  std::optional<JsonStream> json;
   std::optional<ReportWriter> report;
   if (file || report_to_stdout) {
-    input.mesh_sha256 = sha256_of_file(options.mesh);
-    report.emplace(report_to_stdout ? std::cout : file->stream(), loaded, input, options.request);
-    sinks.push_back(&*report);
+    json.emplace(report_to_stdout ? std::cout : file->stream());
+    report.emplace(*json, loaded, about, options.request);
+    files.add(*report);
   }
   std::optional<ExportSink> exports;
   if (!options.export_folder.empty()) {
     exports.emplace(options.export_folder, loaded);
-    sinks.push_back(&*exports);
+    files.add(*exports);
   }
-  run_comparison(loaded, function, chains, sinks, console.progress());
+  run_comparison(loaded, function, chains, {&announcer, &table, &files}, console.progress());
   if (report) report->finish();
   if (file) file->commit();
 
@@ -94,6 +111,9 @@ void add_compare(CLI::App& app, Invocation& invocation) {
       ->allow_extra_args(false);
   command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
       ->type_name("REPORT.json");
+  command.add_flag("--no-items", options->no_items,
+                   "Leave what is listed point by point out of the report: the critical points and the\n"
+                   "diagram's pairs; their counts stay");
   command
       .add_option("--export", options->export_folder,
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")

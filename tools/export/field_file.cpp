@@ -57,8 +57,8 @@ void write_field(const std::filesystem::path& path, const core::ScalarField& fie
     for (core::Index& v : t) v = numbering.input_vertex(v);
   if (format == Format::vtp) {
     VtpDocument document;
-    document.points = input_positions;
-    document.polygons = triangle_cells(triangles);
+    document.points = {input_positions};
+    document.polygons = {triangles, input_positions.size()};
     document.point_arrays = {{name, std::span<const double>(values)}};
     write_vtp(path, document);
   } else {

@@ -1,42 +1,58 @@
 #pragma once
 /// Surfaces and lines for ParaView: VTK's XML PolyData format (.vtp).
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "morsel/core/file_writer.h"
 #include "morsel/core/types.h"
 
 namespace morsel::tools {
 
-/// A named array of a .vtp file; refers to the caller's data, which must live until it is written.
+/// A named array of a .vtp file; refers to the caller's data, which must live until it is written. Whole
+/// numbers take 32 bits where all of them fit.
 struct VtpArray {
   std::string name;
-  const char* type;  ///< VTK's name: "Float64", "Int32", "Int64", "UInt8"
-  const void* data;
-  std::size_t bytes;
+  const char* type;  ///< VTK's name: "Float64", "UInt8", "Int32", "Int64", …
   int components = 1;
+  std::uint64_t bytes = 0;
+  std::vector<std::span<const std::byte>> pieces;  ///< one after the other; empty if `value` makes the array
+  std::function<std::int64_t(std::size_t)> value;
 
   VtpArray(std::string array_name, std::span<const double> values);
-  VtpArray(std::string array_name, std::span<const std::int32_t> values);
-  VtpArray(std::string array_name, std::span<const std::int64_t> values);
   VtpArray(std::string array_name, std::span<const std::uint8_t> values);
-  VtpArray(std::string array_name, std::span<const core::Point> points);
+  VtpArray(std::string array_name, std::span<const std::int32_t> values);
+  /// Numbers below `bound`, or kNone, which is −1 in the file.
+  VtpArray(std::string array_name, std::span<const core::Index> values, std::uint64_t bound);
+  /// Points from several places, in this order.
+  VtpArray(std::string array_name, const std::vector<std::span<const core::Point>>& points);
+  /// Numbers that are made as they are written: value(i) for i < count, all of them below `bound`.
+  VtpArray(std::string array_name, std::size_t count, std::uint64_t bound,
+           std::function<std::int64_t(std::size_t)> value);
 };
 
 /// Cells as VTK stores them: cell i has the points connectivity[offsets[i − 1]] … connectivity[offsets[i] −
 /// 1].
 struct VtpCells {
-  std::vector<std::int64_t> connectivity;
-  std::vector<std::int64_t> offsets;
-  void add(std::span<const std::int64_t> points);
+  std::size_t count;
+  VtpArray connectivity;
+  VtpArray offsets;
+
+  VtpCells() : VtpCells(0, 0, {}) {}
+  /// Cell i has the points first_point + end(i − 1) … first_point + end(i) − 1, all in a row; end(−1) is 0.
+  VtpCells(std::size_t cells, std::size_t first_point, std::function<std::int64_t(std::size_t)> end);
+  /// Triangles on `points` points; refers to them.
+  VtpCells(std::span<const core::Triangle> triangles, std::size_t points);
 };
 
 /// A whole file. Cell arrays hold the vertices' cells first, then the lines', then the polygons'.
 struct VtpDocument {
-  std::span<const core::Point> points;
+  std::vector<std::span<const core::Point>> points;
   VtpCells vertices;
   VtpCells lines;
   VtpCells polygons;
@@ -45,9 +61,7 @@ struct VtpDocument {
 };
 
 /// Writes binary (raw appended) data, whole or not at all. Throws WriteFailed.
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document);
-
-/// The polygon cells of a list of triangles.
-VtpCells triangle_cells(std::span<const core::Triangle> triangles);
+void write_vtp(const std::filesystem::path& path, const VtpDocument& document,
+               core::Sync sync = core::Sync::when_replacing);
 
 }  // namespace morsel::tools

@@ -24,21 +24,47 @@ double scale_of(const Json& report) {
 
 class Comparer {
  public:
-  explicit Comparer(double scale) : scale_(scale) {}
+  Comparer(const ReportDocument& before, const ReportDocument& after)
+      : before_(before), after_(after), scale_(std::max(scale_of(before.head), scale_of(after.head))) {}
 
+  std::vector<Difference> run() {
+    compare(before_.head, after_.head, "");
+    return std::move(differences_);
+  }
+
+ private:
   void compare(const Json& before, const Json& after, const std::string& where) {
     if (before.is_object() && after.is_object()) {
       compare_objects(before, after, where);
     } else if (before.is_array() && after.is_array()) {
-      compare_arrays(before, after, where);
+      const PackedRows* rows_before = rows(before_, where);
+      const PackedRows* rows_after = rows(after_, where);
+      if (rows_before != nullptr && rows_after != nullptr)
+        compare_rows(*rows_before, *rows_after, where);
+      else
+        compare_arrays(before, after, where);
     } else if (!same_value(before, after)) {
       add(where, before.dump(), after.dump());
     }
   }
 
-  std::vector<Difference> take() { return std::move(differences_); }
+  /// What an array in the current method lists outside the head.
+  const PackedRows* rows(const ReportDocument& document, const std::string& where) const {
+    if (method_ >= document.methods.size()) return nullptr;
+    if (where == method_name_ + "items") return &document.methods[method_].items;
+    return where == method_name_ + "persistence.diagram" ? &document.methods[method_].diagram : nullptr;
+  }
 
- private:
+  void compare_sizes(std::size_t before, std::size_t after, const std::string& where) {
+    if (before != after) add(where, std::to_string(before) + " entries", std::to_string(after) + " entries");
+  }
+
+  void compare_rows(const PackedRows& before, const PackedRows& after, const std::string& where) {
+    compare_sizes(before.size(), after.size(), where);
+    for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i)
+      if (!before.has_equal(i, after)) compare(before[i], after[i], where + "[" + std::to_string(i) + "]");
+  }
+
   void add(const std::string& where, std::string before, std::string after) {
     differences_.push_back({where, std::move(before), std::move(after)});
   }
@@ -58,42 +84,48 @@ class Comparer {
       if (where == "tool" && key == "version") continue;
       const auto other = after.find(key);
       if (other == after.end()) {
-        add(prefix + key, summary(value), "absent");
+        add(prefix + key, summary(value, rows(before_, prefix + key)), "absent");
       } else {
         compare(value, *other, prefix + key);
       }
     }
     for (const auto& [key, value] : after.items())
       if (!before.contains(key) && !(where.empty() && key == "timings"))
-        add(prefix + key, "absent", summary(value));
+        add(prefix + key, "absent", summary(value, rows(after_, prefix + key)));
   }
 
   void compare_arrays(const Json& before, const Json& after, const std::string& where) {
-    if (before.size() != after.size())
-      add(where, std::to_string(before.size()) + " entries", std::to_string(after.size()) + " entries");
+    compare_sizes(before.size(), after.size(), where);
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
       std::string place = where + "[" + std::to_string(i) + "]";
-      if (where == "methods" && before[i].is_object()) place += " (" + before[i].value("name", "?") + "): ";
+      if (where == "methods" && before[i].is_object()) {
+        place += " (" + before[i].value("name", "?") + "): ";
+        method_ = i;
+        method_name_ = place;
+      }
       compare(before[i], after[i], place);
     }
   }
 
-  static std::string summary(const Json& value) {
+  static std::string summary(const Json& value, const PackedRows* rows) {
     if (value.is_object()) return "{" + std::to_string(value.size()) + " members}";
-    if (value.is_array()) return "[" + std::to_string(value.size()) + " entries]";
+    if (value.is_array())
+      return "[" + std::to_string(rows != nullptr ? rows->size() : value.size()) + " entries]";
     return value.dump();
   }
 
+  const ReportDocument& before_;
+  const ReportDocument& after_;
   double scale_;
+  std::size_t method_ = static_cast<std::size_t>(-1);  // the method that is being compared
+  std::string method_name_;                            // how it begins its differences
   std::vector<Difference> differences_;
 };
 
 }  // namespace
 
-std::vector<Difference> report_differences(const Json& before, const Json& after) {
-  Comparer comparer(std::max(scale_of(before), scale_of(after)));
-  comparer.compare(before, after, "");
-  return comparer.take();
+std::vector<Difference> report_differences(const ReportDocument& before, const ReportDocument& after) {
+  return Comparer(before, after).run();
 }
 
 }  // namespace morsel::tools

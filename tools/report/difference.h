@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/report/report_document.h"
 
 namespace morsel::tools {
 
@@ -18,6 +18,6 @@ struct Difference {
 /// numbers, texts and structure must be equal. Real numbers may differ by 1e-9 of themselves or 1e-12 of the
 /// report's largest field value (the last digits depend on the processor's exp), a bound far below anything
 /// that would move a critical point.
-std::vector<Difference> report_differences(const Json& before, const Json& after);
+std::vector<Difference> report_differences(const ReportDocument& before, const ReportDocument& after);
 
 }  // namespace morsel::tools

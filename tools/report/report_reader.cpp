@@ -12,24 +12,24 @@ LoadedReport read_report(const std::filesystem::path& path) {
     throw core::BadInput("cannot read the report " + path.string());
   LoadedReport report;
   try {
-    report.document = Json::parse(in);
+    report.document = parse_report(in);
   } catch (const Json::parse_error& error) {
     throw core::BadInput(path.string() + " is not JSON: " + error.what());
   }
-  const std::string schema = report.document.is_object() && report.document.contains("schema") &&
-                                     report.document["schema"].is_string()
-                                 ? report.document["schema"].get<std::string>()
-                                 : "none";
+  const Json& head = report.document.head;
+  const bool has_schema = head.is_object() && head.contains("schema") && head["schema"].is_string();
+  const std::string schema = has_schema ? head["schema"].get<std::string>() : "none";
   if (schema != "morsel.comparison/1")
     throw core::BadInput(path.string() + " is not a comparison report: its schema is \"" + schema +
                          "\", not \"morsel.comparison/1\"");
   try {
-    const Json& request = report.document.at("request");
+    const Json& request = head.at("request");
     report.request.field = request.at("field").get<std::string>();
     report.request.methods = request.at("methods").get<std::vector<std::string>>();
     report.repair = request.at("repair").get<bool>();
-    report.mesh_path = report.document.at("mesh").at("path").get<std::string>();
-    report.mesh_sha256 = report.document.at("mesh").at("sha256").get<std::string>();
+    report.items = request.value("items", true);
+    report.mesh_path = head.at("mesh").at("path").get<std::string>();
+    report.mesh_sha256 = head.at("mesh").at("sha256").get<std::string>();
   } catch (const Json::exception& error) {
     throw core::BadInput(path.string() + " is a damaged report: " + error.what());
   }

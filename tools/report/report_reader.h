@@ -4,15 +4,16 @@
 #include <filesystem>
 
 #include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/report/report_document.h"
 
 namespace morsel::tools {
 
 /// A report and what it says was asked for.
 struct LoadedReport {
-  Json document;
+  ReportDocument document;
   ComparisonRequest request;
   bool repair = false;
+  bool items = true;      ///< false: left out, as was asked for
   std::string mesh_path;  ///< as it stands in the report
   std::string mesh_sha256;
 };

@@ -1,7 +1,7 @@
 #include "morsel/tools/report/report_writer.h"
 
-#include <array>
 #include <cmath>
+#include <span>
 
 #include "morsel/persistence/diagram.h"
 #include "morsel/tools/report/mesh_section.h"
@@ -44,13 +44,15 @@ Json to_json(const core::Parameters& parameters) {
   return json;
 }
 
-ReportWriter::ReportWriter(std::ostream& out, const core::LoadedMesh& loaded, const ReportInput& input,
+ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                            const ComparisonRequest& request)
-    : json_(out), loaded_(loaded), timings_({{"load", input.load_seconds}}) {
+    : json_(json), loaded_(loaded), items_(input.items), timings_({{"load", input.load_seconds}}) {
   json_.begin_object();
   json_.member("schema", "morsel.comparison/1");
   json_.member("tool", {{"name", "morsel"}, {"version", kVersion}});
-  json_.member("request", {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}});
+  Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
+  if (!input.items) asked["items"] = false;
+  json_.member("request", asked);
   json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
 }
 
@@ -91,7 +93,7 @@ void ReportWriter::method(const MethodOutcome& outcome) {
                                      {"added", outcome.compared_to_first.added},
                                      {"removed", outcome.compared_to_first.removed}});
   write_persistence(outcome);
-  write_items(outcome);
+  if (items_) write_items(outcome);
   json_.end_object();
   Json seconds = {{"name", outcome.name}};
   seconds.update(timings_json(outcome.timings));
@@ -99,9 +101,7 @@ void ReportWriter::method(const MethodOutcome& outcome) {
 }
 
 void ReportWriter::write_persistence(const MethodOutcome& outcome) {
-  using persistence::PairKind;
   const persistence::Diagram& diagram = outcome.measurement.diagram;
-  const core::VertexNumbering& numbering = loaded_.source.numbering;
   std::size_t essential_saddles = 0;
   for (const auto& saddle : diagram.essential_saddles) essential_saddles += saddle.count;
 
@@ -116,27 +116,36 @@ void ReportWriter::write_persistence(const MethodOutcome& outcome) {
                      {"pairs", diagram.count_above(percent / 100 * outcome.field.extent()) +
                                    diagram.cap_pairs().size()}});
   json_.member("above", above);
+  if (items_) write_diagram(outcome);
+  json_.end_object();
+}
+
+void ReportWriter::write_diagram(const MethodOutcome& outcome) {
+  using persistence::PairKind;
+  const persistence::Diagram& diagram = outcome.measurement.diagram;
   json_.begin_array("diagram");
-  const auto entry = [&](std::string_view kind, double birth, double death, core::Index born,
-                         core::Index dead) {
+  const auto entry = [&](const TakeRow& take, std::string_view kind, double birth, double death,
+                         core::Index born, core::Index dead) {
     const auto number = [&](core::Index v) {
-      return v == core::kNone ? Json() : Json(numbering.input_vertex(v));
+      return v == core::kNone ? Cell(nullptr) : Cell(loaded_.source.numbering.input_vertex(v));
     };
-    json_.element({{"kind", kind},
-                   {"birth", birth},
-                   {"death", finite_or_null(death)},
-                   {"persistence", finite_or_null(death - birth)},
-                   {"birth_vertex", number(born)},
-                   {"death_vertex", number(dead)}});
+    take({{"kind", kind},
+          {"birth", birth},
+          {"death", death},
+          {"persistence", death - birth},
+          {"birth_vertex", number(born)},
+          {"death_vertex", number(dead)}});
   };
-  for (const auto& pair : diagram.pairs) {
+  json_.rows(diagram.pairs.size(), [&](std::size_t i, const TakeRow& take) {
+    const persistence::PersistencePair& pair = diagram.pairs[i];
     const bool rising = pair.kind == PairKind::minimum_saddle;
     const core::Index other = pair.kind == PairKind::saddle_cap ? core::kNone : pair.extremum;
-    entry(to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle,
+    entry(take, to_string(pair.kind), pair.birth, pair.death, rising ? other : pair.saddle,
           rising ? pair.saddle : other);
-  }
+  });
+  const TakeRow add = [&](Row row) { json_.row(row); };
   const auto essential = [&](std::string_view kind, core::Index v) {
-    entry(kind, outcome.field.value(v), persistence::kInfinite, v, core::kNone);
+    entry(add, kind, outcome.field.value(v), persistence::kInfinite, v, core::kNone);
   };
   for (const auto& extrema : diagram.essential_extrema) essential("essential-minimum", extrema.minimum);
   for (const auto& saddle : diagram.essential_saddles)
@@ -144,22 +153,23 @@ void ReportWriter::write_persistence(const MethodOutcome& outcome) {
   for (const auto& extrema : diagram.essential_extrema)
     if (!extrema.top_is_cap) essential("essential-maximum", extrema.top);
   json_.end_array();
-  json_.end_object();
 }
 
 void ReportWriter::write_items(const MethodOutcome& outcome) {
   const std::vector<double> persistence =
       persistence::vertex_persistence(outcome.measurement.diagram, loaded_.mesh.vertex_count());
   json_.begin_array("items");
-  for (const morse::CriticalPoint& point : outcome.measurement.critical_points.points) {
-    const core::Point& p = loaded_.mesh.position(point.vertex);
-    json_.element({{"vertex", loaded_.source.numbering.input_vertex(point.vertex)},
-                   {"position", {p.x(), p.y(), p.z()}},
-                   {"type", to_string(point.type)},
-                   {"multiplicity", point.multiplicity},
-                   {"value", outcome.field.value(point.vertex)},
-                   {"persistence", finite_or_null(persistence[point.vertex])}});
-  }
+  const std::vector<morse::CriticalPoint>& points = outcome.measurement.critical_points.points;
+  json_.rows(points.size(), [&](std::size_t i, const TakeRow& take) {
+    const morse::CriticalPoint& point = points[i];
+    const std::span<const double, 3> position(loaded_.mesh.position(point.vertex).data(), 3);
+    take({{"vertex", loaded_.source.numbering.input_vertex(point.vertex)},
+          {"position", position},
+          {"type", to_string(point.type)},
+          {"multiplicity", point.multiplicity},
+          {"value", outcome.field.value(point.vertex)},
+          {"persistence", persistence[point.vertex]}});
+  });
   json_.end_array();
 }
 

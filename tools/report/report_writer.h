@@ -1,7 +1,6 @@
 #pragma once
 /// The JSON report of a comparison ("morsel.comparison/1", see comparison.schema.json).
 
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -15,14 +14,15 @@ struct ReportInput {
   std::string mesh_path;  ///< as the user gave it
   std::string mesh_sha256;
   bool repair = false;
+  bool items = true;  ///< whether to list the critical points and the diagram's pairs, or only their counts
   double load_seconds = 0;
 };
 
 /// Writes a report while the comparison runs, method by method.
 class ReportWriter : public ComparisonSink {
  public:
-  /// Refers to `out` and `loaded`, which must outlive the writer.
-  ReportWriter(std::ostream& out, const core::LoadedMesh& loaded, const ReportInput& input,
+  /// Refers to `json` and `loaded`, which must outlive the writer.
+  ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                const ComparisonRequest& request);
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
@@ -31,10 +31,12 @@ class ReportWriter : public ComparisonSink {
 
  private:
   void write_persistence(const MethodOutcome& outcome);
+  void write_diagram(const MethodOutcome& outcome);
   void write_items(const MethodOutcome& outcome);
 
-  JsonStream json_;
+  JsonSink& json_;
   const core::LoadedMesh& loaded_;
+  bool items_;
   Json timings_;
   Stopwatch watch_;
 };
