@@ -7,15 +7,12 @@
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 #include "morsel/persistence/diagram.h"
-#include "morsel/persistence/plateaus.h"
+#include "morsel/persistence/reconstruction.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence::detail {
 
 /// Keeps what all cancellations of one field share. Refers to field and progress, which must outlive it.
-///
-/// Values are handled as levels: 0, 1, … for the distinct values of f in ascending order. Flooding and
-/// carving only ever give a vertex the value of another.
 class Canceller {
  public:
   /// Sweeps and pairs; O(n) and O(s log s).
@@ -29,19 +26,12 @@ class Canceller {
   core::ScalarField run(std::size_t cancelled) const;
 
  private:
-  Index level_count() const { return static_cast<Index>(value_of_level_.size()); }
   std::vector<Role> survivors(std::size_t cancelled) const;
-  bool flood(const std::vector<Role>& roles, std::vector<Index>& level) const;
-  void carve(const Sweep& down, const std::vector<Role>& roles, std::vector<Index>& level) const;
 
   const core::ScalarField& f_;
-  const core::TriangleMesh& mesh_;
   const core::Progress& progress_;
-  Sweep up_;
-  Sweep down_;
+  Sweeps sweeps_;
   Diagram diagram_;
-  std::vector<Index> level_;            // per vertex, of f
-  std::vector<double> value_of_level_;  // ascending
 };
 
 /// Minima, saddle vertices and maxima: the total that classification gives. O(n), parallel.

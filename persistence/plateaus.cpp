@@ -1,121 +1,33 @@
 #include "morsel/persistence/plateaus.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
 #include "morsel/core/link.h"
+#include "morsel/core/parallel.h"
+#include "morsel/core/parallel_sort.h"
+#include "morsel/persistence/st_numbering.h"
 
 namespace morsel::persistence::detail {
 namespace {
 
 using core::kNone;
 
-/// A graph with a source (node 0) and a sink (node 1) that is biconnected once the two are joined.
-struct SourceSinkGraph {
-  std::vector<Index> offset;    // per node from 2 on, then the end: into `adjacent`
-  std::vector<Index> adjacent;  // nodes from 2 on only
-  std::vector<bool> at_source;  // per node
-  std::vector<bool> at_sink;    // per node
-
-  void clear() {
-    offset.assign(2, 0);
-    adjacent.clear();
-    at_source.assign(2, false);
-    at_sink.assign(2, false);
-  }
-  Index node_count() const { return static_cast<Index>(at_source.size()); }
-};
-
-/// Tarjan's st-numbering; buffers are kept between uses.
-class StNumbering {
- public:
-  /// Replaces `order` by the nodes from 2 on so that each has a neighbour before and one after it.
-  void run(const SourceSinkGraph& graph, std::vector<Index>& order) {
-    search(graph);
-    // Insert each node beside its parent, on the side where its low point lies.
-    const Index count = graph.node_count();
-    before_.assign(count, kNone);
-    after_.assign(count, kNone);
-    low_side_is_before_.assign(count, false);
-    link(0, 1);
-    low_side_is_before_[0] = true;
-    for (const Index v : preorder_) {
-      const Index parent = parent_[v];
-      const bool insert_before = low_side_is_before_[low_[v]];
-      if (insert_before) {
-        link(before_[parent], v);
-        link(v, parent);
-      } else {
-        link(v, after_[parent]);
-        link(parent, v);
-      }
-      low_side_is_before_[parent] = !insert_before;
-    }
-    order.clear();
-    for (Index v = after_[0]; v != 1; v = after_[v]) order.push_back(v);
-  }
-
- private:
-  void link(Index first, Index second) {
-    after_[first] = second;
-    before_[second] = first;
-  }
-
-  /// Depth-first search from the source over the edge to the sink: parents, preorder (source and sink left
-  /// out) and low points, the first-visited node that a subtree is adjacent to.
-  void search(const SourceSinkGraph& graph) {
-    const Index count = graph.node_count();
-    number_.assign(count, kNone);
-    parent_.assign(count, kNone);
-    low_.assign(count, kNone);
-    cursor_.assign(count, 0);
-    preorder_.clear();
-    number_[0] = 0;
-    number_[1] = 1;
-    parent_[1] = 0;
-    const auto lower_low = [&](Index v, Index candidate) {
-      if (number_[candidate] < number_[low_[v]]) low_[v] = candidate;
-    };
-    const auto discover = [&](Index v, Index parent) {
-      number_[v] = static_cast<Index>(preorder_.size() + 2);
-      parent_[v] = parent;
-      low_[v] = graph.at_source[v] ? 0 : graph.at_sink[v] ? 1 : v;
-      preorder_.push_back(v);
-      stack_.push_back(v);
-      cursor_[v] = graph.offset[v];
-    };
-    for (Index root = 2; root < count; ++root) {
-      if (!graph.at_sink[root] || number_[root] != kNone) continue;
-      discover(root, 1);
-      while (!stack_.empty()) {
-        const Index v = stack_.back();
-        if (cursor_[v] == graph.offset[v + 1]) {
-          stack_.pop_back();
-          if (!stack_.empty()) lower_low(stack_.back(), low_[v]);
-          continue;
-        }
-        const Index u = graph.adjacent[cursor_[v]++];
-        if (number_[u] == kNone)
-          discover(u, v);
-        else
-          lower_low(v, u);
-      }
-    }
-  }
-
-  std::vector<Index> number_, parent_, low_, cursor_, preorder_, stack_;
-  std::vector<Index> before_, after_;
-  std::vector<bool> low_side_is_before_;
-};
+/// Vertices a chunk.
+constexpr std::size_t kChunk = std::size_t{1} << 15;
 
 class PlateauOrder {
  public:
-  PlateauOrder(const core::ScalarField& f, std::span<const Index> level, std::span<const Role> roles)
-      : f_(f), mesh_(f.mesh()), level_(level), roles_(roles), node_(mesh_.vertex_count(), kNone) {}
+  /// `node` has an entry a vertex, kNone until its plateau is numbered.
+  PlateauOrder(const core::ScalarField& f, std::span<const Index> place, std::span<const Role> roles,
+               std::span<Index> node)
+      : f_(f), mesh_(f.mesh()), place_(place), roles_(roles), node_(node) {}
 
   /// Reorders the vertices of one level, which come in f's order.
-  void arrange(std::span<Index> vertices) {
+  void arrange(const Level& level, std::span<Index> vertices) {
+    level_ = level;
     if (std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return is_fine(v); })) return;
     arranged_.clear();
     for (const Index v : vertices)
@@ -128,13 +40,15 @@ class PlateauOrder {
   }
 
  private:
+  bool is_level(Index u) const { return level_.holds(place_[u]); }
+
   /// Whether v becomes what it should if its level keeps f's order. (Survivors always do.)
   bool is_fine(Index v) const {
     if (roles_[v] != Role::regular) return true;
     bool lower = false;
     bool higher = mesh_.is_boundary_vertex(v);
     core::for_each_neighbor(mesh_, v, [&](Index u) {
-      const bool below = level_[u] != level_[v] ? level_[u] < level_[v] : f_.is_lower(u, v);
+      const bool below = is_level(u) ? f_.is_lower(u, v) : place_[u] < level_.first;
       lower |= below;
       higher |= !below;
     });
@@ -157,8 +71,8 @@ class PlateauOrder {
       bool higher = false;
       graph_.offset.push_back(static_cast<Index>(graph_.adjacent.size()));
       core::for_each_neighbor(mesh_, v, [&](Index u) {
-        if (level_[u] != level_[v]) {
-          (level_[u] < level_[v] ? at_source : at_sink) = true;
+        if (!is_level(u)) {
+          (place_[u] < level_.first ? at_source : at_sink) = true;
         } else if (roles_[u] != Role::regular) {
           (roles_[u] == Role::minimum ? at_source : at_sink) = true;
         } else {
@@ -170,8 +84,8 @@ class PlateauOrder {
           (f_.is_lower(u, v) ? lower : higher) = true;
         }
       });
-      graph_.at_source.push_back(at_source);
-      graph_.at_sink.push_back(at_sink);
+      graph_.at_source.push_back(at_source ? 1 : 0);
+      graph_.at_sink.push_back(at_sink ? 1 : 0);
       any_source |= at_source;
       any_sink |= at_sink;
       fine &= (lower || at_source) && (higher || at_sink);
@@ -195,38 +109,115 @@ class PlateauOrder {
 
   const core::ScalarField& f_;
   const core::TriangleMesh& mesh_;
-  std::span<const Index> level_;
+  std::span<const Index> place_;
   std::span<const Role> roles_;
-  std::vector<Index> node_;  // per vertex, kNone until its plateau is numbered
+  std::span<Index> node_;
+  Level level_ = {0, 0};
   std::vector<Index> arranged_, plateau_, order_;
   SourceSinkGraph graph_;
   StNumbering numbering_;
 };
 
-}  // namespace
+/// A vertex that was moved: its rank in f and the first rank of the level it came to.
+struct Move {
+  Index to;
+  Index from;
+};
 
-std::vector<Index> sort_by_level(const core::ScalarField& f, std::span<const Index> level, Index level_count,
-                                 std::vector<Index>& offsets) {
-  offsets.assign(std::size_t{level_count} + 1, 0);
-  for (const Index l : level) ++offsets[l + 1];
-  for (Index l = 0; l < level_count; ++l) offsets[l + 1] += offsets[l];
-  std::vector<Index> cursor(offsets.begin(), offsets.end() - 1);
-  std::vector<Index> sorted(level.size());
-  for (const Index v : f.order()) sorted[cursor[level[v]]++] = v;
-  return sorted;
+/// By ascending rank in f.
+std::vector<Move> find_moves(const core::ScalarField& f, std::span<const Index> place) {
+  const auto order = f.order();
+  return core::parallel_reduce(
+      0, order.size(), kChunk, std::vector<Move>{},
+      [&](std::size_t first, std::size_t last) {
+        std::vector<Move> part;
+        for (auto r = static_cast<Index>(first); r < last; ++r)
+          if (place[order[r]] != r) part.push_back({place[order[r]], r});
+        return part;
+      },
+      [](std::vector<Move> sum, const std::vector<Move>& part) {
+        sum.insert(sum.end(), part.begin(), part.end());
+        return sum;
+      });
 }
 
-std::vector<Index> order_plateaus(const core::ScalarField& f, std::span<const Index> level, Index level_count,
+/// Writes the new ranks of all vertices that have their places in some range of f's ranks.
+class Reranking {
+ public:
+  Reranking(const core::ScalarField& f, const Releveled& releveled, std::span<const Role> roles)
+      : f_(f),
+        releveled_(releveled),
+        roles_(roles),
+        leaving_(find_moves(f, releveled.place)),
+        coming_(leaving_),
+        node_(f.order().size(), kNone),
+        rank_(f.order().size()) {
+    core::parallel_sort(coming_.begin(), coming_.end(), [](const Move& a, const Move& b) {
+      return a.to != b.to ? a.to < b.to : a.from < b.from;
+    });
+  }
+
+  std::vector<Index> run() {
+    core::parallel_for(0, rank_.size(), kChunk, [&](std::size_t first, std::size_t last) {
+      rerank(static_cast<Index>(first), static_cast<Index>(last));
+    });
+    return std::move(rank_);
+  }
+
+ private:
+  /// All that stays in [begin, end) and the levels that start there.
+  void rerank(Index begin, Index end) {
+    const auto& levels = releveled_.levels;
+    auto level =
+        std::partition_point(levels.begin(), levels.end(), [&](const Level& l) { return l.first < begin; });
+    if (level != levels.begin()) begin = std::max(begin, std::prev(level)->last);
+    auto leaves = std::partition_point(leaving_.begin(), leaving_.end(),
+                                       [&](const Move& move) { return move.from < begin; });
+    auto comes = std::partition_point(coming_.begin(), coming_.end(),
+                                      [&](const Move& move) { return move.to < begin; });
+    Index next =
+        begin - static_cast<Index>(leaves - leaving_.begin()) + static_cast<Index>(comes - coming_.begin());
+    PlateauOrder plateaus(f_, releveled_.place, roles_, node_);
+    std::vector<Index> vertices;
+    const auto keep = [&](Index first, Index last, const auto& visit) {
+      for (Index r = first; r < last; ++r) {
+        if (leaves != leaving_.end() && leaves->from == r)
+          ++leaves;
+        else
+          visit(f_.order()[r]);
+      }
+    };
+    const auto append = [&](Index v) { vertices.push_back(v); };
+    const auto assign = [&](Index v) { rank_[v] = next++; };
+    Index r = begin;
+    for (; level != levels.end() && level->first < end; ++level) {
+      keep(r, level->first, assign);
+      vertices.clear();
+      for (; comes != coming_.end() && comes->to == level->first && comes->from < level->first; ++comes)
+        append(f_.order()[comes->from]);
+      keep(level->first, level->last, append);
+      for (; comes != coming_.end() && comes->to == level->first; ++comes) append(f_.order()[comes->from]);
+      plateaus.arrange(*level, vertices);
+      for (const Index v : vertices) assign(v);
+      r = level->last;
+    }
+    keep(r, std::max(r, end), assign);
+  }
+
+  const core::ScalarField& f_;
+  const Releveled& releveled_;
+  std::span<const Role> roles_;
+  std::vector<Move> leaving_;  // by rank in f
+  std::vector<Move> coming_;   // by level, then by rank in f
+  std::vector<Index> node_;
+  std::vector<Index> rank_;
+};
+
+}  // namespace
+
+std::vector<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,
                                   std::span<const Role> roles) {
-  std::vector<Index> offsets;
-  std::vector<Index> order = sort_by_level(f, level, level_count, offsets);
-  PlateauOrder plateaus(f, level, roles);
-  for (Index l = 0; l < level_count; ++l)
-    if (offsets[l + 1] - offsets[l] > 1)
-      plateaus.arrange(std::span<Index>(order).subspan(offsets[l], offsets[l + 1] - offsets[l]));
-  std::vector<Index> rank(order.size());
-  for (Index i = 0; i < order.size(); ++i) rank[order[i]] = i;
-  return rank;
+  return Reranking(f, releveled, roles).run();
 }
 
 }  // namespace morsel::persistence::detail

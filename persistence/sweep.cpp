@@ -1,149 +1,193 @@
 #include "morsel/persistence/sweep.h"
 
 #include <algorithm>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
-#include "morsel/core/parallel_sort.h"
 #include "morsel/core/union_find.h"
+#include "morsel/persistence/link_changes.h"
 
 namespace morsel::persistence::detail {
 namespace {
 
 using core::kNone;
 
-/// What one walk over the links finds, in vertex order; merges hold link vertices (or caps), not yet basins.
-struct Found {
-  std::vector<Index> extrema;
-  std::vector<Merge> merges;
-  std::vector<Saddle> saddles;
-};
-
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Fills `next` with each vertex's steepest neighbour (an extremum's is itself) and collects the rest.
-template <Direction direction>
-Found walk_links(const core::TriangleMesh& mesh, std::span<const Index> rank, std::vector<Index>& next) {
-  constexpr bool kUp = direction == Direction::up;
-  const Index n = mesh.vertex_count();
+/// The critical vertices, each kind by ascending rank.
+struct Critical {
+  std::vector<Index> minima, saddles, maxima;
+};
+
+Critical critical_vertices(const core::ScalarField& field) {
+  const core::TriangleMesh& mesh = field.mesh();
+  const auto rank = field.ranks();
+  const auto order = field.order();
+  const std::vector<std::uint8_t> changes = link_changes(mesh, rank);
   return core::parallel_reduce(
-      0, n, core::kGrain, Found{},
+      0, order.size(), std::size_t{1} << 16, Critical{},
       [&](std::size_t begin, std::size_t end) {
-        Found part;
-        for (auto v = static_cast<Index>(begin); v < end; ++v) {
-          const Index center = rank[v];
-          Index steepest = center;
-          Index target = v;
-          Index first_run = kNone;
-          Index runs = 0;
-          const auto cap = [&] { return n + mesh.boundary_loop_of_vertex(v); };
-          const core::LinkPart part_of_link = core::link_part(
-              mesh, v, /*cap_inside=*/!kUp,
-              [&](Index u) {
-                const Index r = rank[u];
-                if (kUp ? r < steepest : r > steepest) {
-                  steepest = r;
-                  target = u;
-                }
-                return kUp ? r < center : r > center;
-              },
-              [&](Index u) {
-                const Index element = u == kNone ? cap() : u;
-                if (runs++ == 0)
-                  first_run = element;
-                else
-                  part.merges.push_back({v, first_run, element});
-              });
-          if (!kUp && mesh.is_boundary_vertex(v)) target = cap();
-          next[v] = target;
-          if (part_of_link.empty) part.extrema.push_back(v);
-          if (runs > 1) part.saddles.push_back({v, runs - 1});
+        Critical part;
+        for (const Index v : order.subspan(begin, end - begin)) {
+          if (changes[v] == kRegular) continue;
+          if (changes[v] != kExtremum)
+            part.saddles.push_back(v);
+          else if (rank[mesh.target(mesh.vertex_halfedge(v))] < rank[v])
+            part.maxima.push_back(v);
+          else
+            part.minima.push_back(v);
         }
         return part;
       },
-      [](Found sum, const Found& part) {
-        append(sum.extrema, part.extrema);
-        append(sum.merges, part.merges);
+      [](Critical sum, const Critical& part) {
+        append(sum.minima, part.minima);
         append(sum.saddles, part.saddles);
+        append(sum.maxima, part.maxima);
         return sum;
       });
 }
 
-/// Turns steepest neighbours into basins; `basin` comes with the extrema filled in.
-void follow_paths(std::vector<Index>& next, std::vector<Index>& basin) {
-  for (Index v = 0; v < basin.size(); ++v) {
-    Index end = v;
-    while (basin[end] == kNone) end = next[end];
-    const Index found = basin[end];
-    for (Index u = v; basin[u] == kNone; u = next[u]) basin[u] = found;
+/// The runs of lower and of higher elements around a vertex of the capped surface, each by its element that
+/// lies farthest from the vertex.
+class LinkRuns {
+ public:
+  explicit LinkRuns(const core::ScalarField& field) : mesh_(field.mesh()), rank_(field.ranks()) {}
+
+  void walk(Index v) {
+    runs_.clear();
+    const Index center = rank_[v];
+    if (mesh_.is_boundary_vertex(v))
+      runs_.push_back({true, kNone, mesh_.vertex_count() + mesh_.boundary_loop_of_vertex(v)});
+    core::for_each_neighbor(mesh_, v, [&](Index u) {
+      const Index r = rank_[u];
+      const Run run = {r > center, r, u};
+      if (runs_.empty() || runs_.back().higher != run.higher)
+        runs_.push_back(run);
+      else
+        runs_.back().take(run);
+    });
+    if (runs_.size() > 1 && runs_.front().higher == runs_.back().higher) {
+      runs_.front().take(runs_.back());
+      runs_.pop_back();
+    }
   }
+
+  /// Calls visit(u) for an element of each run, a cap being vertex_count + loop.
+  template <class Visit>
+  void for_each(bool higher, const Visit& visit) const {
+    for (const Run& run : runs_)
+      if (run.higher == higher) visit(run.farthest);
+  }
+
+ private:
+  struct Run {
+    bool higher;
+    Index rank;
+    Index farthest;
+    void take(const Run& other) {
+      if (higher ? other.rank > rank : other.rank < rank) *this = other;
+    }
+  };
+  const core::TriangleMesh& mesh_;
+  std::span<const Index> rank_;
+  std::vector<Run> runs_;
+};
+
+/// What the saddles join, by ascending rank.
+struct Joined {
+  std::vector<Saddle> saddles;
+  std::vector<Merge> up, down;
+};
+
+Joined join(const core::ScalarField& field, const Sweeps& sweeps, std::span<const Index> saddles) {
+  return core::parallel_reduce(
+      0, saddles.size(), core::kGrain, Joined{},
+      [&](std::size_t begin, std::size_t end) {
+        Joined part;
+        LinkRuns runs(field);
+        std::vector<Index> buffer;
+        const auto collect = [&](const Sweep& sweep, bool higher, Index saddle, std::vector<Merge>& merges) {
+          Index first = kNone;
+          Index count = 0;
+          runs.for_each(higher, [&](Index u) {
+            const Index basin = sweep.paths->find(u, buffer);
+            if (count++ == 0)
+              first = basin;
+            else if (basin != first)
+              merges.push_back({saddle, first, basin});
+          });
+          return count - 1;
+        };
+        for (std::size_t s = begin; s < end; ++s) {
+          runs.walk(saddles[s]);
+          const Index saddle = field.rank(saddles[s]);
+          part.saddles.push_back({saddle, collect(sweeps.up, false, saddle, part.up)});
+          collect(sweeps.down, true, saddle, part.down);
+        }
+        return part;
+      },
+      [](Joined sum, const Joined& part) {
+        append(sum.saddles, part.saddles);
+        append(sum.up, part.up);
+        append(sum.down, part.down);
+        return sum;
+      });
+}
+
+/// The elder rule: keeps the merges that join components and notes which basin each of them ends.
+void unite(Sweep& sweep) {
+  core::UnionFind components(sweep.basin_count());  // roots are the eldest
+  std::size_t kept = 0;
+  for (const Merge& merge : sweep.merges) {
+    const Index a = components.find(merge.a);
+    const Index b = components.find(merge.b);
+    if (a == b) continue;
+    components.unite(a, b);
+    sweep.deaths.push_back({std::max(a, b), merge.saddle});
+    for (std::size_t i = sweep.deaths.size() - 1; i > 0 && sweep.deaths[i - 1].saddle == merge.saddle &&
+                                                  sweep.deaths[i - 1].basin < sweep.deaths[i].basin;
+         --i)
+      std::swap(sweep.deaths[i - 1], sweep.deaths[i]);
+    sweep.merges[kept++] = merge;
+  }
+  sweep.merges.resize(kept);
+  sweep.merges.shrink_to_fit();
 }
 
 }  // namespace
 
-Sweep sweep(const core::TriangleMesh& mesh, std::span<const Index> rank, Direction direction,
-            const core::Progress& progress) {
+Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
+  const core::TriangleMesh& mesh = field.mesh();
   const Index n = mesh.vertex_count();
-  const Index caps = direction == Direction::down ? mesh.boundary_loop_count() : 0;
-  Sweep result;
-  result.vertex_count = n;
-  std::vector<Index> next(std::size_t{n} + caps);
-  Found found = direction == Direction::up ? walk_links<Direction::up>(mesh, rank, next)
-                                           : walk_links<Direction::down>(mesh, rank, next);
+  Critical critical = critical_vertices(field);
   progress.throw_if_cancelled();
 
-  const auto earlier = [&](Index a, Index b) {
-    return direction == Direction::up ? rank[a] < rank[b] : rank[a] > rank[b];
-  };
-  core::parallel_sort(found.extrema.begin(), found.extrema.end(), earlier);
-  for (Index loop = caps; loop-- > 0;) result.extremum.push_back(n + loop);
-  append(result.extremum, found.extrema);
+  Sweeps result;
+  result.up.vertex_count = n;
+  result.down.vertex_count = n;
+  result.up.extremum = std::move(critical.minima);
+  for (Index loop = mesh.boundary_loop_count(); loop-- > 0;) result.down.extremum.push_back(n + loop);
+  result.down.extremum.insert(result.down.extremum.end(), critical.maxima.rbegin(), critical.maxima.rend());
+  result.up.paths = std::make_unique<SteepestPaths>(mesh, field.ranks(), Direction::up, result.up.extremum);
+  result.down.paths =
+      std::make_unique<SteepestPaths>(mesh, field.ranks(), Direction::down, result.down.extremum);
 
-  result.basin.assign(std::size_t{n} + caps, kNone);
-  for (Index b = 0; b < result.basin_count(); ++b) result.basin[result.extremum[b]] = b;
-  follow_paths(next, result.basin);
-
-  for (Merge& merge : found.merges) {
-    const auto [a, b] = std::minmax(result.basin[merge.a], result.basin[merge.b]);
-    merge = {merge.saddle, a, b};
-  }
-  std::erase_if(found.merges, [](const Merge& merge) { return merge.a == merge.b; });
-  core::parallel_sort(found.merges.begin(), found.merges.end(), [&](const Merge& x, const Merge& y) {
-    if (x.saddle != y.saddle) return earlier(x.saddle, y.saddle);
-    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+  Joined joined = join(field, result, critical.saddles);
+  progress.throw_if_cancelled();
+  result.saddles = std::move(joined.saddles);
+  result.up.merges = std::move(joined.up);
+  result.down.merges = std::move(joined.down);
+  core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
+    Sweep& sweep = which == 0 ? result.up : result.down;
+    if (which == 1) std::reverse(sweep.merges.begin(), sweep.merges.end());
+    unite(sweep);
   });
-  result.basin.resize(n);
-  result.merges = std::move(found.merges);
-  result.saddles = std::move(found.saddles);
   return result;
-}
-
-std::vector<Index> overflow_saddles(const Sweep& sweep, const std::vector<bool>& kept) {
-  const Index count = sweep.basin_count();
-  core::UnionFind sets(count);
-  std::vector<bool> holds_kept = kept;  // per root
-  std::vector<Index> overflow(count, kNone);
-  std::vector<Index> follows(count, kNone);  // overflows where that earlier basin does
-  for (const Merge& merge : sweep.merges) {
-    Index a = sets.find(merge.a);
-    Index b = sets.find(merge.b);
-    if (a == b) continue;
-    if (b < a) std::swap(a, b);
-    if (!holds_kept[a] && !holds_kept[b])
-      follows[b] = a;
-    else if (!holds_kept[a] || !holds_kept[b])
-      overflow[holds_kept[a] ? b : a] = merge.saddle;
-    holds_kept[a] = holds_kept[a] || holds_kept[b];
-    sets.unite(a, b);
-  }
-  for (Index b = 0; b < count; ++b)
-    if (follows[b] != kNone) overflow[b] = overflow[follows[b]];
-  return overflow;
 }
 
 }  // namespace morsel::persistence::detail

@@ -1,0 +1,211 @@
+#include "morsel/persistence/reconstruction.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "morsel/core/link.h"
+#include "morsel/core/parallel.h"
+#include "morsel/core/union_find.h"
+
+namespace morsel::persistence::detail {
+namespace {
+
+using core::kNone;
+using core::ScalarField;
+
+/// Regions a chunk: most are of a few vertices.
+constexpr std::size_t kRegionGrain = 256;
+
+/// Basins that are not kept and overflow together, at the saddle of that rank.
+struct Region {
+  Index saddle;
+  Index first;  ///< its basins in Regions::basins
+  Index last;
+};
+
+struct Regions {
+  std::vector<Region> regions;
+  std::vector<Index> basins;
+};
+
+/// Where basins that are not kept overflow: at the saddle at which, during the sweep, their component first
+/// meets one that holds a kept basin. `merges` come in the order of the sweep.
+Regions overflow_regions(std::span<const Merge> merges, std::vector<std::uint8_t> holds_kept) {
+  const auto count = static_cast<Index>(holds_kept.size());
+  core::UnionFind sets(count);
+  std::vector<Index> follows(count, kNone);  // overflows where that earlier basin does
+  std::vector<Index> region(count, kNone);
+  Regions result;
+  for (const Merge& merge : merges) {
+    Index a = sets.find(merge.a);
+    Index b = sets.find(merge.b);
+    if (a == b) continue;
+    if (b < a) std::swap(a, b);
+    if (holds_kept[a] == 0 && holds_kept[b] == 0) {
+      follows[b] = a;
+    } else if (holds_kept[a] == 0 || holds_kept[b] == 0) {
+      region[holds_kept[a] != 0 ? b : a] = static_cast<Index>(result.regions.size());
+      result.regions.push_back({merge.saddle, 0, 0});
+    }
+    holds_kept[a] |= holds_kept[b];
+    sets.unite(a, b);
+  }
+  for (Index b = 0; b < count; ++b) {
+    if (follows[b] != kNone) region[b] = region[follows[b]];
+    if (region[b] != kNone) ++result.regions[region[b]].last;  // counts
+  }
+  Index offset = 0;
+  for (Region& r : result.regions) {
+    r.first = offset;
+    offset += std::exchange(r.last, offset);
+  }
+  result.basins.resize(offset);
+  for (Index b = 0; b < count; ++b)
+    if (region[b] != kNone) result.basins[result.regions[region[b]].last++] = b;
+  return result;
+}
+
+class Reconstruction {
+ public:
+  Reconstruction(const ScalarField& f, const Sweeps& sweeps, std::span<const Role> roles,
+                 const core::Progress& progress)
+      : f_(f), mesh_(f.mesh()), sweeps_(sweeps), roles_(roles), progress_(progress) {
+    result_.place.assign(f.ranks().begin(), f.ranks().end());
+  }
+
+  Releveled run() {
+    const std::vector<Merge> joined = flood();
+    progress_.throw_if_cancelled();
+    if (joined.empty()) {
+      carve(sweeps_.down.merges);
+    } else {
+      // Flooding leaves the sweep of f from above as it is, but joins what it floods earlier.
+      std::vector<Merge> merges(sweeps_.down.merges.size() + joined.size());
+      std::merge(sweeps_.down.merges.begin(), sweeps_.down.merges.end(), joined.begin(), joined.end(),
+                 merges.begin(), [](const Merge& a, const Merge& b) { return a.saddle > b.saddle; });
+      carve(merges);
+    }
+    auto& levels = result_.levels;
+    std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.first < b.first; });
+    levels.erase(std::unique(levels.begin(), levels.end(),
+                             [](const Level& a, const Level& b) { return a.first == b.first; }),
+                 levels.end());
+    return std::move(result_);
+  }
+
+ private:
+  // Regions are disjoint; a neighbour in another one that is moved at the same time is on the same side of the
+  // level before and after.
+  Index place(Index v) const {
+    return std::atomic_ref<Index>(result_.place[v]).load(std::memory_order_relaxed);
+  }
+  void move_to(Index v, const Level& level) {
+    const Index rank = f_.rank(v);
+    std::atomic_ref<Index>(result_.place[v])
+        .store(level.holds(rank) ? rank : level.first, std::memory_order_relaxed);
+  }
+
+  std::vector<Merge> flood() {
+    const Sweep& up = sweeps_.up;
+    std::vector<std::uint8_t> kept(up.basin_count());
+    for (Index b = 0; b < up.basin_count(); ++b) kept[b] = roles_[up.extremum[b]] == Role::minimum ? 1 : 0;
+    const Regions regions = overflow_regions(up.merges, std::move(kept));
+    std::vector<Merge> joined =
+        for_each_region(regions, [&](const Region& region, const Level& level, Scratch& scratch) {
+          const auto is_below = [&](Index v) { return place(v) < level.first; };
+          Index joint = kNone;
+          const auto touch = [&](Index v) {  // what lies above is connected from now on
+            const Index basin = sweeps_.down.paths->find(v, scratch.path);
+            if (joint == kNone) joint = basin;
+            if (basin != joint) scratch.merges.push_back({level.first, joint, basin});
+          };
+          grow(regions, region, level, up, is_below, scratch.stack, [&](Index v) {
+            if (mesh_.is_boundary_vertex(v)) touch(mesh_.vertex_count() + mesh_.boundary_loop_of_vertex(v));
+            core::for_each_neighbor(mesh_, v, [&](Index u) {
+              if (f_.rank(u) >= level.first) touch(u);
+            });
+          });
+        });
+    std::stable_sort(joined.begin(), joined.end(),
+                     [](const Merge& a, const Merge& b) { return a.saddle > b.saddle; });
+    return joined;
+  }
+
+  void carve(std::span<const Merge> merges) {
+    const Sweep& down = sweeps_.down;
+    std::vector<std::uint8_t> kept(down.basin_count());
+    for (Index b = 0; b < down.basin_count(); ++b)
+      kept[b] = down.is_cap(b) || roles_[down.extremum[b]] == Role::maximum ? 1 : 0;
+    const Regions regions = overflow_regions(merges, std::move(kept));
+    for_each_region(regions, [&](const Region& region, const Level& level, Scratch& scratch) {
+      const auto is_above = [&](Index v) { return place(v) >= level.last; };
+      grow(regions, region, level, down, is_above, scratch.stack, [](Index) {});
+    });
+  }
+
+  struct Scratch {
+    std::vector<Index> stack, path;
+    std::vector<Merge> merges;
+  };
+
+  /// Calls visit(region, level, scratch) for all regions and notes their levels.
+  template <class Visit>
+  std::vector<Merge> for_each_region(const Regions& regions, const Visit& visit) {
+    const std::size_t noted = result_.levels.size();
+    result_.levels.resize(noted + regions.regions.size());
+    return core::parallel_reduce(
+        0, regions.regions.size(), kRegionGrain, std::vector<Merge>{},
+        [&](std::size_t first, std::size_t last) {
+          Scratch scratch;
+          for (std::size_t i = first; i < last; ++i) {
+            const Level level = level_of(f_, regions.regions[i].saddle);
+            result_.levels[noted + i] = level;
+            visit(regions.regions[i], level, scratch);
+          }
+          return std::move(scratch.merges);
+        },
+        [](std::vector<Merge> sum, const std::vector<Merge>& part) {
+          sum.insert(sum.end(), part.begin(), part.end());
+          return sum;
+        });
+  }
+
+  /// Moves all that is connected to the region's extrema, as far as `moves` holds, to the level.
+  template <class Moves, class Visit>
+  void grow(const Regions& regions, const Region& region, const Level& level, const Sweep& sweep,
+            const Moves& moves, std::vector<Index>& stack, const Visit& visit) {
+    const auto take = [&](Index v) {
+      if (!moves(v)) return;
+      move_to(v, level);
+      stack.push_back(v);
+    };
+    for (Index i = region.first; i < region.last; ++i) {
+      const Index extremum = sweep.extremum[regions.basins[i]];
+      if (place(extremum) != f_.rank(extremum)) continue;  // reached before, or flooded over by now
+      take(extremum);
+      while (!stack.empty()) {
+        const Index v = stack.back();
+        stack.pop_back();
+        visit(v);
+        core::for_each_neighbor(mesh_, v, take);
+      }
+    }
+  }
+
+  const ScalarField& f_;
+  const core::TriangleMesh& mesh_;
+  const Sweeps& sweeps_;
+  std::span<const Role> roles_;
+  const core::Progress& progress_;
+  mutable Releveled result_;
+};
+
+}  // namespace
+
+Releveled reconstruct(const ScalarField& f, const Sweeps& sweeps, std::span<const Role> roles,
+                      const core::Progress& progress) {
+  return Reconstruction(f, sweeps, roles, progress).run();
+}
+
+}  // namespace morsel::persistence::detail
