@@ -13,7 +13,7 @@ using Changes = std::vector<std::uint8_t>;
 constexpr std::size_t kMostSlices = 8;
 
 void add(Changes& changes, Index v) {
-  changes[v] = static_cast<std::uint8_t>(changes[v] + (changes[v] < kSaddle ? 1 : 0));
+  changes[v] = static_cast<std::uint8_t>(changes[v] + (changes[v] < kMostChanges ? 1 : 0));
 }
 
 void count_triangles(const core::TriangleMesh& mesh, std::span<const Index> rank, std::size_t first,
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> link_changes(const core::TriangleMesh& mesh, std::span
     core::parallel_for(0, rank.size(), std::size_t{1} << 16, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = 1; k < slices; ++k)
         for (std::size_t v = first; v < last; ++v)
-          changes[v] = std::min<std::uint8_t>(kSaddle, static_cast<std::uint8_t>(changes[v] + parts[k][v]));
+          changes[v] = static_cast<std::uint8_t>(std::min<int>(kMostChanges, changes[v] + parts[k][v]));
     });
   count_caps(mesh, rank, changes);
   return std::move(changes);

@@ -21,23 +21,31 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 /// The critical vertices, each kind by ascending rank.
 struct Critical {
-  std::vector<Index> minima, saddles, maxima;
+  std::vector<Index> minima, maxima;
+  std::vector<Saddle> saddles;
 };
 
-Critical critical_vertices(const core::ScalarField& field) {
+/// For those whose number of changes was cut off.
+Index multiplicity(const core::ScalarField& field, Index v) {
+  const auto lower = core::link_part(
+      field.mesh(), v, /*cap_inside=*/false, [&](Index u) { return field.is_lower(u, v); }, [](Index) {});
+  return lower.runs - 1;
+}
+
+Critical critical_vertices(const core::ScalarField& field, std::span<const std::uint8_t> changes) {
   const core::TriangleMesh& mesh = field.mesh();
-  const auto rank = field.ranks();
   const auto order = field.order();
-  const std::vector<std::uint8_t> changes = link_changes(mesh, rank);
   return core::parallel_reduce(
       0, order.size(), std::size_t{1} << 16, Critical{},
       [&](std::size_t begin, std::size_t end) {
         Critical part;
-        for (const Index v : order.subspan(begin, end - begin)) {
-          if (changes[v] == kRegular) continue;
-          if (changes[v] != kExtremum)
-            part.saddles.push_back(v);
-          else if (rank[mesh.target(mesh.vertex_halfedge(v))] < rank[v])
+        for (auto r = static_cast<Index>(begin); r < end; ++r) {
+          const Index v = order[r];
+          const std::uint8_t count = changes[v];
+          if (count == kRegular) continue;
+          if (count != kExtremum)
+            part.saddles.push_back({r, count < kMostChanges ? Index{count} / 2 - 1 : multiplicity(field, v)});
+          else if (field.is_lower(mesh.target(mesh.vertex_halfedge(v)), v))
             part.maxima.push_back(v);
           else
             part.minima.push_back(v);
@@ -46,8 +54,8 @@ Critical critical_vertices(const core::ScalarField& field) {
       },
       [](Critical sum, const Critical& part) {
         append(sum.minima, part.minima);
-        append(sum.saddles, part.saddles);
         append(sum.maxima, part.maxima);
+        append(sum.saddles, part.saddles);
         return sum;
       });
 }
@@ -98,45 +106,38 @@ class LinkRuns {
   std::vector<Run> runs_;
 };
 
-/// What the saddles join, by ascending rank.
-struct Joined {
-  std::vector<Saddle> saddles;
-  std::vector<Merge> up, down;
-};
-
-Joined join(const core::ScalarField& field, const Sweeps& sweeps, std::span<const Index> saddles) {
-  return core::parallel_reduce(
-      0, saddles.size(), core::kGrain, Joined{},
-      [&](std::size_t begin, std::size_t end) {
-        Joined part;
-        LinkRuns runs(field);
-        std::vector<Index> buffer;
-        const auto collect = [&](const Sweep& sweep, bool higher, Index saddle, std::vector<Merge>& merges) {
-          Index first = kNone;
-          Index count = 0;
-          runs.for_each(higher, [&](Index u) {
-            const Index basin = sweep.paths->find(u, buffer);
-            if (count++ == 0)
-              first = basin;
-            else if (basin != first)
-              merges.push_back({saddle, first, basin});
-          });
-          return count - 1;
-        };
-        for (std::size_t s = begin; s < end; ++s) {
-          runs.walk(saddles[s]);
-          const Index saddle = field.rank(saddles[s]);
-          part.saddles.push_back({saddle, collect(sweeps.up, false, saddle, part.up)});
-          collect(sweeps.down, true, saddle, part.down);
-        }
-        return part;
-      },
-      [](Joined sum, const Joined& part) {
-        append(sum.saddles, part.saddles);
-        append(sum.up, part.up);
-        append(sum.down, part.down);
-        return sum;
+/// Fills the merges of both sweeps. Saddles are visited in the order of their vertices, as they lie in memory,
+/// and write to where their rank puts them.
+void find_merges(const core::ScalarField& field, std::span<const std::uint8_t> changes, Sweeps& sweeps) {
+  const auto order = field.order();
+  std::vector<Index> slot(order.size());
+  Index slots = 0;
+  for (const Saddle& saddle : sweeps.saddles) {
+    slot[order[saddle.rank]] = slots;
+    slots += saddle.multiplicity;
+  }
+  sweeps.up.merges.resize(slots);
+  sweeps.down.merges.resize(slots);
+  core::parallel_for(0, order.size(), core::kGrain, [&](std::size_t begin, std::size_t end) {
+    LinkRuns runs(field);
+    std::vector<Index> buffer;
+    const auto collect = [&](const Sweep& sweep, bool higher, Index saddle, Merge* merge) {
+      Index first = kNone;
+      runs.for_each(higher, [&](Index u) {
+        const Index basin = sweep.paths->find(u, buffer);
+        if (first == kNone)
+          first = basin;
+        else
+          *merge++ = {saddle, first, basin};
       });
+    };
+    for (auto v = static_cast<Index>(begin); v < end; ++v) {
+      if (changes[v] <= kRegular) continue;
+      runs.walk(v);
+      collect(sweeps.up, false, field.rank(v), &sweeps.up.merges[slot[v]]);
+      collect(sweeps.down, true, field.rank(v), &sweeps.down.merges[slot[v]]);
+    }
+  });
 }
 
 /// The elder rule: keeps the merges that join components and notes which basin each of them ends.
@@ -164,10 +165,12 @@ void unite(Sweep& sweep) {
 Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
   const core::TriangleMesh& mesh = field.mesh();
   const Index n = mesh.vertex_count();
-  Critical critical = critical_vertices(field);
+  const std::vector<std::uint8_t> changes = link_changes(mesh, field.ranks());
+  Critical critical = critical_vertices(field, changes);
   progress.throw_if_cancelled();
 
   Sweeps result;
+  result.saddles = std::move(critical.saddles);
   result.up.vertex_count = n;
   result.down.vertex_count = n;
   result.up.extremum = std::move(critical.minima);
@@ -176,12 +179,8 @@ Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
   result.up.paths = std::make_unique<SteepestPaths>(mesh, field.ranks(), Direction::up, result.up.extremum);
   result.down.paths =
       std::make_unique<SteepestPaths>(mesh, field.ranks(), Direction::down, result.down.extremum);
-
-  Joined joined = join(field, result, critical.saddles);
+  find_merges(field, changes, result);
   progress.throw_if_cancelled();
-  result.saddles = std::move(joined.saddles);
-  result.up.merges = std::move(joined.up);
-  result.down.merges = std::move(joined.down);
   core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
     Sweep& sweep = which == 0 ? result.up : result.down;
     if (which == 1) std::reverse(sweep.merges.begin(), sweep.merges.end());
