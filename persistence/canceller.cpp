@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "morsel/core/parallel.h"
-#include "morsel/persistence/link_changes.h"
+#include "morsel/persistence/link_ends.h"
 #include "morsel/persistence/plateaus.h"
 
 namespace morsel::persistence::detail {
@@ -41,8 +41,9 @@ std::vector<Role> Canceller::survivors(std::size_t cancelled) const {
 }
 
 std::size_t critical_count(const ScalarField& field) {
-  const std::vector<std::uint8_t> changes = link_changes(field.mesh(), field.ranks());
-  return changes.size() - static_cast<std::size_t>(std::count(changes.begin(), changes.end(), kRegular));
+  const std::vector<VertexType> types = vertex_types(field.mesh(), field.ranks());
+  return static_cast<std::size_t>(
+      std::count_if(types.begin(), types.end(), [](VertexType type) { return !type.is_regular(); }));
 }
 
 }  // namespace morsel::persistence::detail

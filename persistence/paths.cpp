@@ -1,7 +1,5 @@
 #include "morsel/persistence/paths.h"
 
-#include <atomic>
-
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
 
@@ -28,36 +26,33 @@ Index steepest_neighbor(const core::TriangleMesh& mesh, std::span<const Index> r
 
 }  // namespace
 
-SteepestPaths::SteepestPaths(const core::TriangleMesh& mesh, std::span<const Index> rank, Direction direction,
-                             std::span<const Index> extremum)
+Paths::Paths(const core::TriangleMesh& mesh, std::span<const Index> rank, Direction direction,
+             std::span<const Index> extremum)
     : mesh_(mesh),
       rank_(rank),
       direction_(direction),
-      basin_(std::size_t{mesh.vertex_count()} + mesh.boundary_loop_count(), kNone) {
+      entries_(std::size_t{mesh.vertex_count()} + mesh.boundary_loop_count(), kNone) {
   core::parallel_for_each(extremum.size(),
-                          [&](std::size_t b) { basin_[extremum[b]] = static_cast<Index>(b); });
-}
-
-Index SteepestPaths::find(Index v, std::vector<Index>& buffer) const {
-  return direction_ == Direction::up ? walk<Direction::up>(v, buffer) : walk<Direction::down>(v, buffer);
+                          [&](std::size_t b) { entries_[extremum[b]] = static_cast<Index>(b); });
 }
 
 // Threads may walk the same path at the same time; they write the same basins.
-template <Direction direction>
-Index SteepestPaths::walk(Index v, std::vector<Index>& buffer) const {
-  const auto known = [&](Index u) {
-    return std::atomic_ref<Index>(basin_[u]).load(std::memory_order_relaxed);
-  };
-  Index basin = known(v);
-  if (basin != kNone) return basin;
+Index Paths::find(Index v, std::vector<Index>& buffer) const {
+  Index found = entry(v).load(std::memory_order_relaxed);
+  if (found < kNext) return found;
   buffer.clear();
   do {
     buffer.push_back(v);
-    v = steepest_neighbor<direction>(mesh_, rank_, v);
-    basin = known(v);
-  } while (basin == kNone);
-  for (const Index u : buffer) std::atomic_ref<Index>(basin_[u]).store(basin, std::memory_order_relaxed);
-  return basin;
+    if (found != kNone)
+      v = found & ~kNext;
+    else if (direction_ == Direction::up)
+      v = steepest_neighbor<Direction::up>(mesh_, rank_, v);
+    else
+      v = steepest_neighbor<Direction::down>(mesh_, rank_, v);
+    found = entry(v).load(std::memory_order_relaxed);
+  } while (found >= kNext);
+  for (const Index u : buffer) entry(u).store(found, std::memory_order_relaxed);
+  return found;
 }
 
 }  // namespace morsel::persistence::detail

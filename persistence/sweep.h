@@ -8,6 +8,7 @@
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 #include "morsel/persistence/diagram.h"
+#include "morsel/persistence/link_ends.h"
 #include "morsel/persistence/paths.h"
 
 namespace morsel::persistence::detail {
@@ -25,11 +26,6 @@ struct Death {
   Index saddle;  ///< its rank
 };
 
-struct Saddle {
-  Index rank;
-  Index multiplicity;
-};
-
 /// One of the two. Basins are numbered from the eldest: minima by ascending rank, or caps from the last loop
 /// to the first and then maxima by descending rank.
 struct Sweep {
@@ -37,7 +33,7 @@ struct Sweep {
   std::vector<Index> extremum;  ///< per basin: a vertex, or vertex_count + loop for a cap
   std::vector<Merge> merges;    ///< in the order of the sweep; only those that join components
   std::vector<Death> deaths;    ///< in the order of the sweep, at one saddle the youngest first
-  std::unique_ptr<SteepestPaths> paths;
+  std::unique_ptr<Paths> paths;
 
   Index basin_count() const { return static_cast<Index>(extremum.size()); }
   bool is_cap(Index b) const { return extremum[b] >= vertex_count; }
