@@ -1,9 +1,11 @@
 #include "morsel/persistence/pairing.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "morsel/core/parallel.h"
-#include "morsel/core/parallel_sort.h"
+#include "morsel/persistence/radix_sort.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence {
@@ -14,16 +16,14 @@ namespace {
 /// Sorts by persistence; among equals the order stays as it is.
 void sort_by_persistence(std::vector<PersistencePair>& pairs) {
   struct Key {
-    double persistence;
+    std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
     Index position;
   };
   std::vector<Key> keys(pairs.size());
   core::parallel_for_each(keys.size(), [&](std::size_t i) {
-    keys[i] = {pairs[i].persistence(), static_cast<Index>(i)};
+    keys[i] = {std::bit_cast<std::uint64_t>(pairs[i].persistence() + 0.0), static_cast<Index>(i)};  // no −0
   });
-  core::parallel_sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return a.persistence != b.persistence ? a.persistence < b.persistence : a.position < b.position;
-  });
+  radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
   std::vector<PersistencePair> sorted(pairs.size());
   core::parallel_for_each(keys.size(), [&](std::size_t i) { sorted[i] = pairs[keys[i].position]; });
   pairs = std::move(sorted);

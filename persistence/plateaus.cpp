@@ -1,13 +1,15 @@
 #include "morsel/persistence/plateaus.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
-#include "morsel/core/parallel_sort.h"
+#include "morsel/persistence/radix_sort.h"
 #include "morsel/persistence/st_numbering.h"
 
 namespace morsel::persistence::detail {
@@ -17,6 +19,9 @@ using core::kNone;
 
 /// Vertices a chunk.
 constexpr std::size_t kChunk = std::size_t{1} << 15;
+
+/// Levels a chunk.
+constexpr std::size_t kLevels = 512;
 
 class PlateauOrder {
  public:
@@ -141,7 +146,7 @@ std::vector<Move> find_moves(const core::ScalarField& f, std::span<const Index> 
       });
 }
 
-/// Writes the new ranks of all vertices that have their places in some range of f's ranks.
+/// The new ranks.
 class Reranking {
  public:
   Reranking(const core::ScalarField& f, const Releveled& releveled, std::span<const Role> roles)
@@ -150,14 +155,12 @@ class Reranking {
         roles_(roles),
         leaving_(find_moves(f, releveled.place)),
         coming_(leaving_),
-        node_(f.order().size(), kNone),
         rank_(f.order().size()) {
-    core::parallel_sort(coming_.begin(), coming_.end(), [](const Move& a, const Move& b) {
-      return a.to != b.to ? a.to < b.to : a.from < b.from;
-    });
+    radix_sort(coming_, std::bit_width(rank_.size()), [](const Move& move) { return move.to; });
   }
 
   std::vector<Index> run() {
+    arrange();
     core::parallel_for(0, rank_.size(), kChunk, [&](std::size_t first, std::size_t last) {
       rerank(static_cast<Index>(first), static_cast<Index>(last));
     });
@@ -165,43 +168,82 @@ class Reranking {
   }
 
  private:
-  /// All that stays in [begin, end) and the levels that start there.
+  /// For each level the first of what comes to it, and its lowest new rank.
+  struct Start {
+    Index comes;
+    Index rank;
+  };
+
+  std::vector<Start> level_starts() const {
+    std::vector<Start> starts;
+    starts.reserve(releveled_.levels.size());
+    Index leaves = 0;
+    Index comes = 0;
+    for (const Level& level : releveled_.levels) {
+      while (leaves < leaving_.size() && leaving_[leaves].from < level.first) ++leaves;
+      while (comes < coming_.size() && coming_[comes].to < level.first) ++comes;
+      starts.push_back({comes, level.first - leaves + comes});
+    }
+    return starts;
+  }
+
+  /// Appends the vertices of a level in f's order; those that come are coming_[comes] and what follows.
+  void collect(const Level& level, Index comes, std::vector<Index>& vertices) const {
+    const auto order = f_.order();
+    const auto is_coming = [&] { return comes < coming_.size() && coming_[comes].to == level.first; };
+    for (; is_coming() && coming_[comes].from < level.first; ++comes)
+      vertices.push_back(order[coming_[comes].from]);
+    for (Index r = level.first; r < level.last; ++r)
+      if (releveled_.place[order[r]] == r) vertices.push_back(order[r]);
+    for (; is_coming(); ++comes) vertices.push_back(order[coming_[comes].from]);
+  }
+
+  /// Ranks the vertices of the levels that something was moved to, visiting the levels as they lie in memory.
+  void arrange() {
+    const auto& levels = releveled_.levels;
+    std::vector<Index> visits(levels.size());
+    std::iota(visits.begin(), visits.end(), Index{0});
+    radix_sort(visits, std::bit_width(rank_.size()), [&](Index l) { return f_.order()[levels[l].first]; });
+    const std::vector<Start> starts = level_starts();
+    std::vector<Index> node(rank_.size(), kNone);
+    core::parallel_for(0, visits.size(), kLevels, [&](std::size_t first, std::size_t last) {
+      PlateauOrder plateaus(f_, releveled_.place, roles_, node);
+      std::vector<Index> vertices;
+      for (std::size_t i = first; i < last; ++i) {
+        const Level& level = levels[visits[i]];
+        vertices.clear();
+        collect(level, starts[visits[i]].comes, vertices);
+        plateaus.arrange(level, vertices);
+        Index next = starts[visits[i]].rank;
+        for (const Index v : vertices) rank_[v] = next++;
+      }
+    });
+  }
+
+  /// Ranks all that stays in [begin, end) and is in no such level.
   void rerank(Index begin, Index end) {
     const auto& levels = releveled_.levels;
     auto level =
-        std::partition_point(levels.begin(), levels.end(), [&](const Level& l) { return l.first < begin; });
-    if (level != levels.begin()) begin = std::max(begin, std::prev(level)->last);
+        std::partition_point(levels.begin(), levels.end(), [&](const Level& l) { return l.last <= begin; });
     auto leaves = std::partition_point(leaving_.begin(), leaving_.end(),
                                        [&](const Move& move) { return move.from < begin; });
     auto comes = std::partition_point(coming_.begin(), coming_.end(),
                                       [&](const Move& move) { return move.to < begin; });
-    Index next =
-        begin - static_cast<Index>(leaves - leaving_.begin()) + static_cast<Index>(comes - coming_.begin());
-    PlateauOrder plateaus(f_, releveled_.place, roles_, node_);
-    std::vector<Index> vertices;
-    const auto keep = [&](Index first, Index last, const auto& visit) {
-      for (Index r = first; r < last; ++r) {
+    for (Index r = begin; r < end;) {
+      if (level != levels.end() && r >= level->first) {
+        r = level++->last;
+        continue;
+      }
+      while (leaves != leaving_.end() && leaves->from < r) ++leaves;
+      while (comes != coming_.end() && comes->to < r) ++comes;
+      auto next = static_cast<Index>(r - (leaves - leaving_.begin()) + (comes - coming_.begin()));
+      for (const Index stop = level != levels.end() ? std::min(end, level->first) : end; r < stop; ++r) {
         if (leaves != leaving_.end() && leaves->from == r)
           ++leaves;
         else
-          visit(f_.order()[r]);
+          rank_[f_.order()[r]] = next++;
       }
-    };
-    const auto append = [&](Index v) { vertices.push_back(v); };
-    const auto assign = [&](Index v) { rank_[v] = next++; };
-    Index r = begin;
-    for (; level != levels.end() && level->first < end; ++level) {
-      keep(r, level->first, assign);
-      vertices.clear();
-      for (; comes != coming_.end() && comes->to == level->first && comes->from < level->first; ++comes)
-        append(f_.order()[comes->from]);
-      keep(level->first, level->last, append);
-      for (; comes != coming_.end() && comes->to == level->first; ++comes) append(f_.order()[comes->from]);
-      plateaus.arrange(*level, vertices);
-      for (const Index v : vertices) assign(v);
-      r = level->last;
     }
-    keep(r, std::max(r, end), assign);
   }
 
   const core::ScalarField& f_;
@@ -209,7 +251,6 @@ class Reranking {
   std::span<const Role> roles_;
   std::vector<Move> leaving_;  // by rank in f
   std::vector<Move> coming_;   // by level, then by rank in f
-  std::vector<Index> node_;
   std::vector<Index> rank_;
 };
 

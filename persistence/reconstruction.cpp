@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <numeric>
 #include <utility>
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
 #include "morsel/core/union_find.h"
+#include "morsel/persistence/radix_sort.h"
 
 namespace morsel::persistence::detail {
 namespace {
@@ -86,11 +89,7 @@ class Reconstruction {
                  merges.begin(), [](const Merge& a, const Merge& b) { return a.saddle > b.saddle; });
       carve(merges);
     }
-    auto& levels = result_.levels;
-    std::sort(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.first < b.first; });
-    levels.erase(std::unique(levels.begin(), levels.end(),
-                             [](const Level& a, const Level& b) { return a.first == b.first; }),
-                 levels.end());
+    add_levels();
     return std::move(result_);
   }
 
@@ -111,8 +110,8 @@ class Reconstruction {
     std::vector<std::uint8_t> kept(up.basin_count());
     for (Index b = 0; b < up.basin_count(); ++b) kept[b] = roles_[up.extremum[b]] == Role::minimum ? 1 : 0;
     const Regions regions = overflow_regions(up.merges, std::move(kept));
-    std::vector<Merge> joined =
-        for_each_region(regions, [&](const Region& region, const Level& level, Scratch& scratch) {
+    std::vector<Merge> joined = for_each_region(
+        regions, up, flooded_, [&](const Region& region, const Level& level, Scratch& scratch) {
           const auto is_below = [&](Index v) { return place(v) < level.first; };
           Index joint = kNone;
           const auto touch = [&](Index v) {  // what lies above is connected from now on
@@ -127,8 +126,8 @@ class Reconstruction {
             });
           });
         });
-    std::stable_sort(joined.begin(), joined.end(),
-                     [](const Merge& a, const Merge& b) { return a.saddle > b.saddle; });
+    const auto n = static_cast<Index>(result_.place.size());
+    radix_sort(joined, std::bit_width(n), [&](const Merge& merge) { return n - merge.saddle; });
     return joined;
   }
 
@@ -138,7 +137,7 @@ class Reconstruction {
     for (Index b = 0; b < down.basin_count(); ++b)
       kept[b] = down.is_cap(b) || roles_[down.extremum[b]] == Role::maximum ? 1 : 0;
     const Regions regions = overflow_regions(merges, std::move(kept));
-    for_each_region(regions, [&](const Region& region, const Level& level, Scratch& scratch) {
+    for_each_region(regions, down, carved_, [&](const Region& region, const Level& level, Scratch& scratch) {
       const auto is_above = [&](Index v) { return place(v) >= level.last; };
       grow(regions, region, level, down, is_above, scratch.stack, [](Index) {});
     });
@@ -149,19 +148,23 @@ class Reconstruction {
     std::vector<Merge> merges;
   };
 
-  /// Calls visit(region, level, scratch) for all regions and notes their levels.
+  /// Calls visit(region, level, scratch) for all regions, as they lie in memory, and notes their levels.
   template <class Visit>
-  std::vector<Merge> for_each_region(const Regions& regions, const Visit& visit) {
-    const std::size_t noted = result_.levels.size();
-    result_.levels.resize(noted + regions.regions.size());
+  std::vector<Merge> for_each_region(const Regions& regions, const Sweep& sweep, std::vector<Level>& levels,
+                                     const Visit& visit) {
+    levels.resize(regions.regions.size());
+    std::vector<Index> visits(levels.size());
+    std::iota(visits.begin(), visits.end(), Index{0});
+    const auto place_of = [&](Index i) { return sweep.extremum[regions.basins[regions.regions[i].first]]; };
+    radix_sort(visits, std::bit_width(result_.place.size()), place_of);
     return core::parallel_reduce(
-        0, regions.regions.size(), kRegionGrain, std::vector<Merge>{},
+        0, visits.size(), kRegionGrain, std::vector<Merge>{},
         [&](std::size_t first, std::size_t last) {
           Scratch scratch;
           for (std::size_t i = first; i < last; ++i) {
-            const Level level = level_of(f_, regions.regions[i].saddle);
-            result_.levels[noted + i] = level;
-            visit(regions.regions[i], level, scratch);
+            const Region& region = regions.regions[visits[i]];
+            const Level level = levels[visits[i]] = level_of(f_, region.saddle);
+            visit(region, level, scratch);
           }
           return std::move(scratch.merges);
         },
@@ -169,6 +172,17 @@ class Reconstruction {
           sum.insert(sum.end(), part.begin(), part.end());
           return sum;
         });
+  }
+
+  /// Regions come in the order of the sweeps, and so do their levels.
+  void add_levels() {
+    result_.levels.resize(flooded_.size() + carved_.size());
+    const auto is_lower = [](const Level& a, const Level& b) { return a.first < b.first; };
+    const auto is_same = [](const Level& a, const Level& b) { return a.first == b.first; };
+    std::merge(flooded_.begin(), flooded_.end(), carved_.rbegin(), carved_.rend(), result_.levels.begin(),
+               is_lower);
+    result_.levels.erase(std::unique(result_.levels.begin(), result_.levels.end(), is_same),
+                         result_.levels.end());
   }
 
   /// Moves all that is connected to the region's extrema, as far as `moves` holds, to the level.
@@ -199,6 +213,7 @@ class Reconstruction {
   std::span<const Role> roles_;
   const core::Progress& progress_;
   mutable Releveled result_;
+  std::vector<Level> flooded_, carved_;  // the levels of the regions
 };
 
 }  // namespace

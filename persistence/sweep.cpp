@@ -63,32 +63,49 @@ void replace_by_basins(const Paths& paths, std::vector<Index>& ends) {
   });
 }
 
-/// The elder rule at one saddle after the other.
-class Elder {
- public:
-  explicit Elder(Sweep& sweep) : sweep_(sweep), components_(sweep.basin_count()) {}
+/// What the saddles join, by ascending rank: of the basins that meet at one, the first with each other.
+std::vector<Merge> collect_merges(const core::ScalarField& field, std::span<const Saddle> saddles,
+                                  std::span<const Index> offset, std::span<const Index> basins) {
+  return core::parallel_reduce(
+      0, saddles.size(), core::kGrain, std::vector<Merge>{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<Merge> part;
+        for (const auto& [rank, multiplicity] : saddles.subspan(begin, end - begin)) {
+          const auto meeting = basins.subspan(offset[field.order()[rank]], 2 * multiplicity + 2);
+          const Index first = meeting.front();
+          Index previous = first;
+          for (const Index basin : meeting) {
+            if (basin != first && basin != previous) part.push_back({rank, first, basin});
+            previous = basin;
+          }
+        }
+        return part;
+      },
+      [](std::vector<Merge> sum, const std::vector<Merge>& part) {
+        append(sum, part);
+        return sum;
+      });
+}
 
-  /// `basins` meet at the saddle.
-  void meet(Index saddle, std::span<const Index> basins) {
-    const std::size_t earlier = sweep_.deaths.size();
-    for (const Index basin : basins.subspan(1)) {
-      if (basin == basins[0]) continue;
-      const Index a = components_.find(basins[0]);
-      const Index b = components_.find(basin);
-      if (a == b) continue;
-      components_.unite(a, b);
-      sweep_.merges.push_back({saddle, a, b});
-      sweep_.deaths.push_back({std::max(a, b), saddle});
-    }
-    if (sweep_.deaths.size() > earlier + 1)
-      std::sort(sweep_.deaths.begin() + static_cast<std::ptrdiff_t>(earlier), sweep_.deaths.end(),
-                [](const Death& x, const Death& y) { return x.basin > y.basin; });
+/// The elder rule: keeps the merges that join components and notes which basin each of them ends.
+void unite(Sweep& sweep) {
+  core::UnionFind components(sweep.basin_count());  // roots are the eldest
+  std::size_t kept = 0;
+  std::vector<Death>& deaths = sweep.deaths;
+  for (const Merge& merge : sweep.merges) {
+    const Index a = components.find(merge.a);
+    const Index b = components.find(merge.b);
+    if (a == b) continue;
+    components.unite(a, b);
+    sweep.merges[kept++] = {merge.saddle, a, b};
+    deaths.push_back({std::max(a, b), merge.saddle});
+    for (std::size_t i = deaths.size() - 1;
+         i > 0 && deaths[i - 1].saddle == merge.saddle && deaths[i - 1].basin < deaths[i].basin; --i)
+      std::swap(deaths[i - 1], deaths[i]);
   }
-
- private:
-  Sweep& sweep_;
-  core::UnionFind components_;  // roots are the eldest
-};
+  sweep.merges.resize(kept);
+  sweep.merges.shrink_to_fit();
+}
 
 }  // namespace
 
@@ -114,18 +131,12 @@ Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
   replace_by_basins(*result.down.paths, ends.higher);
   progress.throw_if_cancelled();
 
-  const auto meet = [&](Elder& elder, const Saddle& saddle, const std::vector<Index>& basins) {
-    elder.meet(saddle.rank, std::span<const Index>(basins).subspan(ends.offset[field.order()[saddle.rank]],
-                                                                   2 * saddle.multiplicity + 2));
-  };
+  result.up.merges = collect_merges(field, result.saddles, ends.offset, ends.lower);
+  result.down.merges = collect_merges(field, result.saddles, ends.offset, ends.higher);
   core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
-    if (which == 0) {
-      Elder elder(result.up);
-      for (const Saddle& saddle : result.saddles) meet(elder, saddle, ends.lower);
-    } else {
-      Elder elder(result.down);
-      for (std::size_t s = result.saddles.size(); s-- > 0;) meet(elder, result.saddles[s], ends.higher);
-    }
+    Sweep& sweep = which == 0 ? result.up : result.down;
+    if (which == 1) std::reverse(sweep.merges.begin(), sweep.merges.end());
+    unite(sweep);
   });
   return result;
 }
