@@ -12,30 +12,31 @@ namespace morsel::persistence::detail {
 using core::ScalarField;
 
 Canceller::Canceller(const ScalarField& f, const core::Progress& progress)
-    : f_(f), progress_(progress), sweeps_(sweep(f, progress)), diagram_(make_diagram(f, sweeps_)) {}
+    : f_(f), progress_(progress), sweeps_(sweep(f, progress)), diagram_(unsorted_diagram(f, sweeps_)) {}
 
-ScalarField Canceller::run(std::size_t cancelled) const {
-  if (cancelled == 0) return f_;
+ScalarField Canceller::run(std::span<const PersistencePair> staying) const {
+  if (staying.size() == diagram_.finite_count) return f_;
   progress_.throw_if_cancelled();
-  const std::vector<Role> roles = survivors(cancelled);
+  const std::vector<Role> roles = survivors(staying);
   const Releveled releveled = reconstruct(f_, sweeps_, roles, progress_);
   progress_.throw_if_cancelled();
   std::vector<Index> rank = order_plateaus(f_, releveled, roles);
   std::vector<double> values(f_.values().begin(), f_.values().end());
   core::parallel_for_each(values.size(), [&](std::size_t v) {
-    if (releveled.place[v] != f_.ranks()[v]) values[v] = f_.value(f_.order()[releveled.place[v]]);
+    const Index place = releveled.place[v];
+    if (place != f_.ranks()[v]) values[v] = f_.value(f_.order()[place]);
   });
   return {f_.mesh(), std::move(values), std::move(rank)};
 }
 
 /// What stays, chosen once, from f.
-std::vector<Role> Canceller::survivors(std::size_t cancelled) const {
+std::vector<Role> Canceller::survivors(std::span<const PersistencePair> staying) const {
   std::vector<Role> roles(f_.mesh().vertex_count(), Role::regular);
   for (const EssentialExtrema& extrema : diagram_.essential_extrema) {
     roles[extrema.minimum] = Role::minimum;
     if (!extrema.top_is_cap) roles[extrema.top] = Role::maximum;
   }
-  for (const PersistencePair& pair : diagram_.finite_pairs().subspan(cancelled))
+  for (const PersistencePair& pair : staying)
     roles[pair.extremum] = pair.kind == PairKind::minimum_saddle ? Role::minimum : Role::maximum;
   return roles;
 }

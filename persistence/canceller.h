@@ -2,6 +2,7 @@
 /// Cancelling any number of pairs of one field. For the module's own use.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "morsel/core/progress.h"
@@ -19,14 +20,14 @@ class Canceller {
   Canceller(const core::ScalarField& f, const core::Progress& progress);
 
   const core::ScalarField& field() const { return f_; }
+  /// Of the field, with unsorted pairs.
   const Diagram& diagram() const { return diagram_; }
 
-  /// The field without the first `cancelled` finite pairs of the diagram; f itself for 0. O(n) and O(s log
-  /// s).
-  core::ScalarField run(std::size_t cancelled) const;
+  /// The field without the finite pairs that do not stay; f itself if all do. O(n) and O(s log s).
+  core::ScalarField run(std::span<const PersistencePair> staying) const;
 
  private:
-  std::vector<Role> survivors(std::size_t cancelled) const;
+  std::vector<Role> survivors(std::span<const PersistencePair> staying) const;
 
   const core::ScalarField& f_;
   const core::Progress& progress_;

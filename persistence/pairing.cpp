@@ -13,22 +13,6 @@ namespace morsel::persistence {
 namespace detail {
 namespace {
 
-/// Sorts by persistence; among equals the order stays as it is.
-void sort_by_persistence(std::vector<PersistencePair>& pairs) {
-  struct Key {
-    std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
-    Index position;
-  };
-  std::vector<Key> keys(pairs.size());
-  core::parallel_for_each(keys.size(), [&](std::size_t i) {
-    keys[i] = {std::bit_cast<std::uint64_t>(pairs[i].persistence() + 0.0), static_cast<Index>(i)};  // no −0
-  });
-  radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
-  std::vector<PersistencePair> sorted(pairs.size());
-  core::parallel_for_each(keys.size(), [&](std::size_t i) { sorted[i] = pairs[keys[i].position]; });
-  pairs = std::move(sorted);
-}
-
 /// Calls visit(basin) for each basin that never ends.
 template <class Visit>
 void for_each_essential(const Sweep& sweep, const Visit& visit) {
@@ -70,7 +54,7 @@ void add_essential_saddles(const core::ScalarField& field, const Sweeps& sweeps,
 
 }  // namespace
 
-Diagram make_diagram(const core::ScalarField& field, const Sweeps& sweeps) {
+Diagram unsorted_diagram(const core::ScalarField& field, const Sweeps& sweeps) {
   const Sweep& up = sweeps.up;
   const Sweep& down = sweeps.down;
   const Index n = field.mesh().vertex_count();
@@ -92,7 +76,6 @@ Diagram make_diagram(const core::ScalarField& field, const Sweeps& sweeps) {
     diagram.pairs[up.deaths.size() + i] = {maximum, saddle, PairKind::saddle_maximum, field.value(saddle),
                                            field.value(maximum)};
   });
-  sort_by_persistence(diagram.pairs);
   for (const Death& death : capped) {
     const Index saddle = field.order()[death.saddle];
     diagram.pairs.push_back(
@@ -103,13 +86,31 @@ Diagram make_diagram(const core::ScalarField& field, const Sweeps& sweeps) {
   return diagram;
 }
 
+// Among equals the order stays as it is.
+void sort_pairs(Diagram& diagram) {
+  struct Key {
+    std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
+    Index position;
+  };
+  std::vector<Key> keys(diagram.finite_count);
+  core::parallel_for_each(keys.size(), [&](std::size_t i) {
+    const double persistence = diagram.pairs[i].persistence() + 0.0;  // no −0
+    keys[i] = {std::bit_cast<std::uint64_t>(persistence), static_cast<Index>(i)};
+  });
+  radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
+  std::vector<PersistencePair> sorted = diagram.pairs;
+  core::parallel_for_each(keys.size(), [&](std::size_t i) { sorted[i] = diagram.pairs[keys[i].position]; });
+  diagram.pairs = std::move(sorted);
+}
+
 }  // namespace detail
 
 Diagram pair_extrema(const core::ScalarField& field, const core::Progress& progress) {
   progress.update("persistence pairs", 0);
   const detail::Sweeps sweeps = detail::sweep(field, progress);
   progress.update("persistence pairs", 0.8);
-  Diagram diagram = detail::make_diagram(field, sweeps);
+  Diagram diagram = detail::unsorted_diagram(field, sweeps);
+  detail::sort_pairs(diagram);
   progress.update("persistence pairs", 1);
   return diagram;
 }

@@ -32,15 +32,20 @@ class PlateauOrder {
 
   /// Reorders the vertices of one level, which come in f's order.
   void arrange(const Level& level, std::span<Index> vertices) {
+    if (vertices.size() < 2) return;  // as in f
     level_ = level;
-    if (std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return is_fine(v); })) return;
     arranged_.clear();
-    for (const Index v : vertices)
-      if (roles_[v] == Role::minimum) arranged_.push_back(v);
-    for (const Index v : vertices)
-      if (roles_[v] == Role::regular && node_[v] == kNone) append_plateau(v);
-    for (const Index v : vertices)
-      if (roles_[v] == Role::maximum) arranged_.push_back(v);
+    if (roles_[vertices.front()] == Role::regular) append_plateau(vertices.front());
+    if (arranged_.size() < vertices.size()) {  // most levels are one plateau
+      if (std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return is_fine(v); })) return;
+      const auto minima = std::stable_partition(vertices.begin(), vertices.end(),
+                                                [&](Index v) { return roles_[v] == Role::minimum; });
+      arranged_.insert(arranged_.begin(), vertices.begin(), minima);
+      for (const Index v : vertices)
+        if (roles_[v] == Role::regular && node_[v] == kNone) append_plateau(v);
+      for (const Index v : vertices)
+        if (roles_[v] == Role::maximum) arranged_.push_back(v);
+    }
     std::copy(arranged_.begin(), arranged_.end(), vertices.begin());
   }
 
@@ -131,19 +136,21 @@ struct Move {
 
 /// By ascending rank in f.
 std::vector<Move> find_moves(const core::ScalarField& f, std::span<const Index> place) {
-  const auto order = f.order();
-  return core::parallel_reduce(
-      0, order.size(), kChunk, std::vector<Move>{},
+  const auto rank = f.ranks();
+  auto moves = core::parallel_reduce(
+      0, rank.size(), kChunk, std::vector<Move>{},
       [&](std::size_t first, std::size_t last) {
         std::vector<Move> part;
-        for (auto r = static_cast<Index>(first); r < last; ++r)
-          if (place[order[r]] != r) part.push_back({place[order[r]], r});
+        for (std::size_t v = first; v < last; ++v)
+          if (place[v] != rank[v]) part.push_back({place[v], rank[v]});
         return part;
       },
       [](std::vector<Move> sum, const std::vector<Move>& part) {
         sum.insert(sum.end(), part.begin(), part.end());
         return sum;
       });
+  radix_sort(moves, std::bit_width(rank.size()), [](const Move& move) { return move.from; });
+  return moves;
 }
 
 /// The new ranks.

@@ -119,12 +119,10 @@ class Reconstruction {
             if (joint == kNone) joint = basin;
             if (basin != joint) scratch.merges.push_back({level.first, joint, basin});
           };
-          grow(regions, region, level, up, is_below, scratch.stack, [&](Index v) {
-            if (mesh_.is_boundary_vertex(v)) touch(mesh_.vertex_count() + mesh_.boundary_loop_of_vertex(v));
-            core::for_each_neighbor(mesh_, v, [&](Index u) {
-              if (f_.rank(u) >= level.first) touch(u);
-            });
-          });
+          const auto stay = [&](Index v) {
+            if (v >= f_.ranks().size() || f_.rank(v) >= level.first) touch(v);
+          };
+          grow(regions, region, level, up, is_below, scratch.stack, stay);
         });
     const auto n = static_cast<Index>(result_.place.size());
     radix_sort(joined, std::bit_width(n), [&](const Merge& merge) { return n - merge.saddle; });
@@ -153,6 +151,8 @@ class Reconstruction {
   std::vector<Merge> for_each_region(const Regions& regions, const Sweep& sweep, std::vector<Level>& levels,
                                      const Visit& visit) {
     levels.resize(regions.regions.size());
+    core::parallel_for_each(levels.size(),
+                            [&](std::size_t i) { levels[i] = level_of(f_, regions.regions[i].saddle); });
     std::vector<Index> visits(levels.size());
     std::iota(visits.begin(), visits.end(), Index{0});
     const auto place_of = [&](Index i) { return sweep.extremum[regions.basins[regions.regions[i].first]]; };
@@ -161,11 +161,8 @@ class Reconstruction {
         0, visits.size(), kRegionGrain, std::vector<Merge>{},
         [&](std::size_t first, std::size_t last) {
           Scratch scratch;
-          for (std::size_t i = first; i < last; ++i) {
-            const Region& region = regions.regions[visits[i]];
-            const Level level = levels[visits[i]] = level_of(f_, region.saddle);
-            visit(region, level, scratch);
-          }
+          for (std::size_t i = first; i < last; ++i)
+            visit(regions.regions[visits[i]], levels[visits[i]], scratch);
           return std::move(scratch.merges);
         },
         [](std::vector<Merge> sum, const std::vector<Merge>& part) {
@@ -185,23 +182,25 @@ class Reconstruction {
                          result_.levels.end());
   }
 
-  /// Moves all that is connected to the region's extrema, as far as `moves` holds, to the level.
-  template <class Moves, class Visit>
+  /// Moves all that is connected to the region's extrema, as far as `moves` holds, to the level. Calls stay(u)
+  /// for what is beside it (caps too) or was moved before.
+  template <class Moves, class Stay>
   void grow(const Regions& regions, const Region& region, const Level& level, const Sweep& sweep,
-            const Moves& moves, std::vector<Index>& stack, const Visit& visit) {
+            const Moves& moves, std::vector<Index>& stack, const Stay& stay) {
     const auto take = [&](Index v) {
-      if (!moves(v)) return;
+      if (!moves(v)) return stay(v);
       move_to(v, level);
       stack.push_back(v);
     };
     for (Index i = region.first; i < region.last; ++i) {
       const Index extremum = sweep.extremum[regions.basins[i]];
       if (place(extremum) != f_.rank(extremum)) continue;  // reached before, or flooded over by now
+      if (!moves(extremum)) continue;                      // it is on the level
       take(extremum);
       while (!stack.empty()) {
         const Index v = stack.back();
         stack.pop_back();
-        visit(v);
+        if (mesh_.is_boundary_vertex(v)) stay(mesh_.vertex_count() + mesh_.boundary_loop_of_vertex(v));
         core::for_each_neighbor(mesh_, v, take);
       }
     }

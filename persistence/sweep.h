@@ -49,7 +49,10 @@ struct Sweeps {
 /// the field.
 Sweeps sweep(const core::ScalarField& field, const core::Progress& progress = {});
 
-/// The diagram of the field from its sweeps.
-Diagram make_diagram(const core::ScalarField& field, const Sweeps& sweeps);
+/// The diagram of the field from its sweeps, but with the finite pairs in the order of the sweeps; O(n).
+Diagram unsorted_diagram(const core::ScalarField& field, const Sweeps& sweeps);
+
+/// Brings the pairs of such a diagram into their order; O(s).
+void sort_pairs(Diagram& diagram);
 
 }  // namespace morsel::persistence::detail
