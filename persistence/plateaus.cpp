@@ -81,18 +81,23 @@ class PlateauOrder {
       bool higher = false;
       graph_.offset.push_back(static_cast<Index>(graph_.adjacent.size()));
       core::for_each_neighbor(mesh_, v, [&](Index u) {
-        if (!is_level(u)) {
-          (place_[u] < level_.first ? at_source : at_sink) = true;
-        } else if (roles_[u] != Role::regular) {
+        const bool below = place_[u] < level_.first;
+        const bool above = place_[u] >= level_.last;
+        at_source |= below;
+        at_sink |= above;
+        if (below || above) return;
+        if (roles_[u] != Role::regular) {
           (roles_[u] == Role::minimum ? at_source : at_sink) = true;
-        } else {
-          if (node_[u] == kNone) {
-            node_[u] = static_cast<Index>(plateau_.size() + 2);
-            plateau_.push_back(u);
-          }
-          graph_.adjacent.push_back(node_[u]);
-          (f_.is_lower(u, v) ? lower : higher) = true;
+          return;
         }
+        if (node_[u] == kNone) {
+          node_[u] = static_cast<Index>(plateau_.size() + 2);
+          plateau_.push_back(u);
+        }
+        graph_.adjacent.push_back(node_[u]);
+        const bool is_lower = f_.is_lower(u, v);
+        lower |= is_lower;
+        higher |= !is_lower;
       });
       graph_.at_source.push_back(at_source ? 1 : 0);
       graph_.at_sink.push_back(at_sink ? 1 : 0);

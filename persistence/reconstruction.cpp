@@ -94,6 +94,11 @@ class Reconstruction {
   }
 
  private:
+  struct Scratch {
+    std::vector<Index> part, path;
+    std::vector<Merge> merges;
+  };
+
   // Regions are disjoint; a neighbour in another one that is moved at the same time is on the same side of the
   // level before and after.
   Index place(Index v) const {
@@ -110,23 +115,61 @@ class Reconstruction {
     std::vector<std::uint8_t> kept(up.basin_count());
     for (Index b = 0; b < up.basin_count(); ++b) kept[b] = roles_[up.extremum[b]] == Role::minimum ? 1 : 0;
     const Regions regions = overflow_regions(up.merges, std::move(kept));
-    std::vector<Merge> joined = for_each_region(
-        regions, up, flooded_, [&](const Region& region, const Level& level, Scratch& scratch) {
-          const auto is_below = [&](Index v) { return place(v) < level.first; };
-          Index joint = kNone;
-          const auto touch = [&](Index v) {  // what lies above is connected from now on
-            const Index basin = sweeps_.down.paths->find(v, scratch.path);
-            if (joint == kNone) joint = basin;
-            if (basin != joint) scratch.merges.push_back({level.first, joint, basin});
-          };
-          const auto stay = [&](Index v) {
-            if (v >= f_.ranks().size() || f_.rank(v) >= level.first) touch(v);
-          };
-          grow(regions, region, level, up, is_below, scratch.stack, stay);
+    std::vector<Merge> joined =
+        for_each_region(regions, up, flooded_, [&](Index minimum, const Level& level, Scratch& scratch) {
+          if (place(minimum) >= level.first) return;  // reached before, or on the level
+          if (flood_from(minimum, level, scratch.part) != 1) join_around(level, scratch);
         });
     const auto n = static_cast<Index>(result_.place.size());
     radix_sort(joined, std::bit_width(n), [&](const Merge& merge) { return n - merge.saddle; });
     return joined;
+  }
+
+  /// Floods what is connected to a minimum below the level, which becomes `part`; returns the part's Euler
+  /// characteristic.
+  long flood_from(Index minimum, const Level& level, std::vector<Index>& part) {
+    long sixfold = 0;
+    move_to(minimum, level);
+    part.assign(1, minimum);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Index v = part[i];
+      long neighbors = 0;  // in the part; half an edge each
+      long following = 0;  // one another in v's link; a third of a triangle each
+      Index count = 0;
+      bool first = false;
+      bool previous = false;
+      core::for_each_neighbor(mesh_, v, [&](Index u) {
+        const bool inside = f_.rank(u) < level.first;
+        if (inside && place(u) < level.first) {
+          move_to(u, level);
+          part.push_back(u);
+        }
+        if (count++ == 0) first = inside;
+        neighbors += inside ? 1 : 0;
+        following += inside && previous ? 1 : 0;
+        previous = inside;
+      });
+      if (!mesh_.is_boundary_vertex(v)) following += first && previous ? 1 : 0;
+      sixfold += 6 - 3 * neighbors + 2 * following;
+    }
+    return sixfold / 6;
+  }
+
+  /// Notes that all that lies beside scratch.part, on the level or above it, is connected from the level on.
+  /// Beside a disc it is so anyway, since it lies on one circle.
+  void join_around(const Level& level, Scratch& scratch) const {
+    Index joint = kNone;
+    const auto touch = [&](Index u) {
+      const Index basin = sweeps_.down.paths->find(u, scratch.path);
+      if (joint == kNone) joint = basin;
+      if (basin != joint) scratch.merges.push_back({level.first, joint, basin});
+    };
+    for (const Index v : scratch.part) {
+      if (mesh_.is_boundary_vertex(v)) touch(mesh_.vertex_count() + mesh_.boundary_loop_of_vertex(v));
+      core::for_each_neighbor(mesh_, v, [&](Index u) {
+        if (f_.rank(u) >= level.first) touch(u);
+      });
+    }
   }
 
   void carve(std::span<const Merge> merges) {
@@ -135,18 +178,22 @@ class Reconstruction {
     for (Index b = 0; b < down.basin_count(); ++b)
       kept[b] = down.is_cap(b) || roles_[down.extremum[b]] == Role::maximum ? 1 : 0;
     const Regions regions = overflow_regions(merges, std::move(kept));
-    for_each_region(regions, down, carved_, [&](const Region& region, const Level& level, Scratch& scratch) {
-      const auto is_above = [&](Index v) { return place(v) >= level.last; };
-      grow(regions, region, level, down, is_above, scratch.stack, [](Index) {});
+    for_each_region(regions, down, carved_, [&](Index maximum, const Level& level, Scratch& scratch) {
+      if (place(maximum) != f_.rank(maximum)) return;  // reached before, or flooded over
+      std::vector<Index>& part = scratch.part;
+      part.clear();
+      const auto take = [&](Index v) {
+        if (place(v) < level.last) return;
+        move_to(v, level);
+        part.push_back(v);
+      };
+      take(maximum);
+      for (std::size_t i = 0; i < part.size(); ++i) core::for_each_neighbor(mesh_, part[i], take);
     });
   }
 
-  struct Scratch {
-    std::vector<Index> stack, path;
-    std::vector<Merge> merges;
-  };
-
-  /// Calls visit(region, level, scratch) for all regions, as they lie in memory, and notes their levels.
+  /// Calls visit(extremum, level, scratch) for the extrema of all regions, as these lie in memory, and notes
+  /// the levels.
   template <class Visit>
   std::vector<Merge> for_each_region(const Regions& regions, const Sweep& sweep, std::vector<Level>& levels,
                                      const Visit& visit) {
@@ -161,8 +208,11 @@ class Reconstruction {
         0, visits.size(), kRegionGrain, std::vector<Merge>{},
         [&](std::size_t first, std::size_t last) {
           Scratch scratch;
-          for (std::size_t i = first; i < last; ++i)
-            visit(regions.regions[visits[i]], levels[visits[i]], scratch);
+          for (std::size_t i = first; i < last; ++i) {
+            const Region& region = regions.regions[visits[i]];
+            for (Index b = region.first; b < region.last; ++b)
+              visit(sweep.extremum[regions.basins[b]], levels[visits[i]], scratch);
+          }
           return std::move(scratch.merges);
         },
         [](std::vector<Merge> sum, const std::vector<Merge>& part) {
@@ -180,30 +230,6 @@ class Reconstruction {
                is_lower);
     result_.levels.erase(std::unique(result_.levels.begin(), result_.levels.end(), is_same),
                          result_.levels.end());
-  }
-
-  /// Moves all that is connected to the region's extrema, as far as `moves` holds, to the level. Calls stay(u)
-  /// for what is beside it (caps too) or was moved before.
-  template <class Moves, class Stay>
-  void grow(const Regions& regions, const Region& region, const Level& level, const Sweep& sweep,
-            const Moves& moves, std::vector<Index>& stack, const Stay& stay) {
-    const auto take = [&](Index v) {
-      if (!moves(v)) return stay(v);
-      move_to(v, level);
-      stack.push_back(v);
-    };
-    for (Index i = region.first; i < region.last; ++i) {
-      const Index extremum = sweep.extremum[regions.basins[i]];
-      if (place(extremum) != f_.rank(extremum)) continue;  // reached before, or flooded over by now
-      if (!moves(extremum)) continue;                      // it is on the level
-      take(extremum);
-      while (!stack.empty()) {
-        const Index v = stack.back();
-        stack.pop_back();
-        if (mesh_.is_boundary_vertex(v)) stay(mesh_.vertex_count() + mesh_.boundary_loop_of_vertex(v));
-        core::for_each_neighbor(mesh_, v, take);
-      }
-    }
   }
 
   const ScalarField& f_;
