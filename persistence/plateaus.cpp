@@ -137,25 +137,23 @@ class PlateauOrder {
 struct Move {
   Index to;
   Index from;
+  Index vertex;
 };
 
-/// By ascending rank in f.
 std::vector<Move> find_moves(const core::ScalarField& f, std::span<const Index> place) {
   const auto rank = f.ranks();
-  auto moves = core::parallel_reduce(
+  return core::parallel_reduce(
       0, rank.size(), kChunk, std::vector<Move>{},
       [&](std::size_t first, std::size_t last) {
         std::vector<Move> part;
         for (std::size_t v = first; v < last; ++v)
-          if (place[v] != rank[v]) part.push_back({place[v], rank[v]});
+          if (place[v] != rank[v]) part.push_back({place[v], rank[v], static_cast<Index>(v)});
         return part;
       },
       [](std::vector<Move> sum, const std::vector<Move>& part) {
         sum.insert(sum.end(), part.begin(), part.end());
         return sum;
       });
-  radix_sort(moves, std::bit_width(rank.size()), [](const Move& move) { return move.from; });
-  return moves;
 }
 
 /// The new ranks.
@@ -165,10 +163,19 @@ class Reranking {
       : f_(f),
         releveled_(releveled),
         roles_(roles),
-        leaving_(find_moves(f, releveled.place)),
-        coming_(leaving_),
+        coming_(find_moves(f, releveled.place)),
+        leaving_(coming_.size()),
         rank_(f.order().size()) {
-    radix_sort(coming_, std::bit_width(rank_.size()), [](const Move& move) { return move.to; });
+    const auto bits = static_cast<unsigned>(std::bit_width(rank_.size()));
+    core::parallel_for_each(coming_.size(), [&](std::size_t i) { leaving_[i] = coming_[i].from; });
+    core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
+      if (which == 0) {
+        radix_sort(coming_, bits, [](const Move& move) { return move.from; });
+        radix_sort(coming_, bits, [](const Move& move) { return move.to; });
+      } else {
+        radix_sort(leaving_, bits, [](Index rank) { return rank; });
+      }
+    });
   }
 
   std::vector<Index> run() {
@@ -192,7 +199,7 @@ class Reranking {
     Index leaves = 0;
     Index comes = 0;
     for (const Level& level : releveled_.levels) {
-      while (leaves < leaving_.size() && leaving_[leaves].from < level.first) ++leaves;
+      while (leaves < leaving_.size() && leaving_[leaves] < level.first) ++leaves;
       while (comes < coming_.size() && coming_[comes].to < level.first) ++comes;
       starts.push_back({comes, level.first - leaves + comes});
     }
@@ -204,10 +211,10 @@ class Reranking {
     const auto order = f_.order();
     const auto is_coming = [&] { return comes < coming_.size() && coming_[comes].to == level.first; };
     for (; is_coming() && coming_[comes].from < level.first; ++comes)
-      vertices.push_back(order[coming_[comes].from]);
+      vertices.push_back(coming_[comes].vertex);
     for (Index r = level.first; r < level.last; ++r)
       if (releveled_.place[order[r]] == r) vertices.push_back(order[r]);
-    for (; is_coming(); ++comes) vertices.push_back(order[coming_[comes].from]);
+    for (; is_coming(); ++comes) vertices.push_back(coming_[comes].vertex);
   }
 
   /// Ranks the vertices of the levels that something was moved to, visiting the levels as they lie in memory.
@@ -237,8 +244,7 @@ class Reranking {
     const auto& levels = releveled_.levels;
     auto level =
         std::partition_point(levels.begin(), levels.end(), [&](const Level& l) { return l.last <= begin; });
-    auto leaves = std::partition_point(leaving_.begin(), leaving_.end(),
-                                       [&](const Move& move) { return move.from < begin; });
+    auto leaves = std::lower_bound(leaving_.begin(), leaving_.end(), begin);
     auto comes = std::partition_point(coming_.begin(), coming_.end(),
                                       [&](const Move& move) { return move.to < begin; });
     for (Index r = begin; r < end;) {
@@ -246,11 +252,11 @@ class Reranking {
         r = level++->last;
         continue;
       }
-      while (leaves != leaving_.end() && leaves->from < r) ++leaves;
+      while (leaves != leaving_.end() && *leaves < r) ++leaves;
       while (comes != coming_.end() && comes->to < r) ++comes;
       auto next = static_cast<Index>(r - (leaves - leaving_.begin()) + (comes - coming_.begin()));
       for (const Index stop = level != levels.end() ? std::min(end, level->first) : end; r < stop; ++r) {
-        if (leaves != leaving_.end() && leaves->from == r)
+        if (leaves != leaving_.end() && *leaves == r)
           ++leaves;
         else
           rank_[f_.order()[r]] = next++;
@@ -261,8 +267,8 @@ class Reranking {
   const core::ScalarField& f_;
   const Releveled& releveled_;
   std::span<const Role> roles_;
-  std::vector<Move> leaving_;  // by rank in f
-  std::vector<Move> coming_;   // by level, then by rank in f
+  std::vector<Move> coming_;    // by level, then by rank in f
+  std::vector<Index> leaving_;  // their ranks in f, ascending
   std::vector<Index> rank_;
 };
 
