@@ -15,7 +15,7 @@ using core::kNone;
 
 /// Slices of triangles are counted apart and added; as sums are cut off, their number makes no difference.
 constexpr std::size_t kMostSlices = 8;
-constexpr std::size_t kTriangles = std::size_t{1} << 15;  // a chunk
+constexpr std::size_t kTriangles = std::size_t{1} << 13;  // a chunk
 
 /// The corners of a triangle from the lowest to the highest, by whether 0 is below 1, 1 below 2, 0 below 2.
 constexpr std::array<std::array<std::uint8_t, 3>, 8> kAscending = {
@@ -147,7 +147,7 @@ std::vector<VertexType> vertex_types(const core::TriangleMesh& mesh, std::span<c
   });
   std::vector<VertexType>& types = parts.front();
   if (slices > 1)
-    core::parallel_for(0, rank.size(), std::size_t{1} << 16, [&](std::size_t first, std::size_t last) {
+    core::parallel_for(0, rank.size(), std::size_t{1} << 13, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = 1; k < slices; ++k)
         for (std::size_t v = first; v < last; ++v) types[v].add(parts[k][v]);
     });

@@ -18,10 +18,10 @@ namespace {
 using core::kNone;
 
 /// Vertices a chunk.
-constexpr std::size_t kChunk = std::size_t{1} << 15;
+constexpr std::size_t kChunk = std::size_t{1} << 13;
 
 /// Levels a chunk.
-constexpr std::size_t kLevels = 512;
+constexpr std::size_t kLevels = 128;
 
 class PlateauOrder {
  public:
@@ -165,7 +165,7 @@ class Reranking {
         roles_(roles),
         coming_(find_moves(f, releveled.place)),
         leaving_(coming_.size()),
-        rank_(f.order().size()) {
+        rank_(f.order().size(), kNone) {
     const auto bits = static_cast<unsigned>(std::bit_width(rank_.size()));
     core::parallel_for_each(coming_.size(), [&](std::size_t i) { leaving_[i] = coming_[i].from; });
     core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
@@ -222,11 +222,11 @@ class Reranking {
     const auto& levels = releveled_.levels;
     std::vector<Index> visits(levels.size());
     std::iota(visits.begin(), visits.end(), Index{0});
-    radix_sort(visits, std::bit_width(rank_.size()), [&](Index l) { return f_.order()[levels[l].first]; });
+    radix_sort(visits, std::bit_width(f_.mesh().triangle_count()),
+               [&](Index l) { return f_.mesh().vertex_halfedge(f_.order()[levels[l].first]) / 3; });
     const std::vector<Start> starts = level_starts();
-    std::vector<Index> node(rank_.size(), kNone);
     core::parallel_for(0, visits.size(), kLevels, [&](std::size_t first, std::size_t last) {
-      PlateauOrder plateaus(f_, releveled_.place, roles_, node);
+      PlateauOrder plateaus(f_, releveled_.place, roles_, rank_);
       std::vector<Index> vertices;
       for (std::size_t i = first; i < last; ++i) {
         const Level& level = levels[visits[i]];

@@ -18,7 +18,7 @@ using core::kNone;
 using core::ScalarField;
 
 /// Regions a chunk: most are of a few vertices.
-constexpr std::size_t kRegionGrain = 256;
+constexpr std::size_t kRegionGrain = 128;
 
 /// Basins that are not kept and overflow together, at the saddle of that rank.
 struct Region {
@@ -202,8 +202,10 @@ class Reconstruction {
                             [&](std::size_t i) { levels[i] = level_of(f_, regions.regions[i].saddle); });
     std::vector<Index> visits(levels.size());
     std::iota(visits.begin(), visits.end(), Index{0});
-    const auto place_of = [&](Index i) { return sweep.extremum[regions.basins[regions.regions[i].first]]; };
-    radix_sort(visits, std::bit_width(result_.place.size()), place_of);
+    radix_sort(visits, std::bit_width(mesh_.triangle_count()), [&](Index i) {
+      const Index extremum = sweep.extremum[regions.basins[regions.regions[i].first]];
+      return mesh_.vertex_halfedge(extremum) / 3;
+    });
     return core::parallel_reduce(
         0, visits.size(), kRegionGrain, std::vector<Merge>{},
         [&](std::size_t first, std::size_t last) {

@@ -34,7 +34,7 @@ Index saddle_multiplicity(const core::ScalarField& field, VertexType type, Index
 Critical critical_vertices(const core::ScalarField& field, std::span<const VertexType> types) {
   const auto order = field.order();
   return core::parallel_reduce(
-      0, order.size(), std::size_t{1} << 16, Critical{},
+      0, order.size(), 4 * core::kGrain, Critical{},
       [&](std::size_t begin, std::size_t end) {
         Critical part;
         for (auto r = static_cast<Index>(begin); r < end; ++r) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
 
+#include "morsel/core/link.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
 #include "support/phat_oracle.h"
@@ -22,6 +24,38 @@ using persistence::PersistencePair;
 namespace {
 
 std::string at(Index v) { return " at vertex " + std::to_string(v); }
+
+/// Flooding and carving written down plainly: every vertex is raised to the lowest value over which it reaches
+/// a minimum that stays, then lowered to the highest over which it reaches a maximum that stays or a boundary.
+std::vector<double> flooded_and_carved(const ScalarField& f, const std::set<Index>& minima,
+                                       const std::set<Index>& maxima) {
+  const core::TriangleMesh& mesh = f.mesh();
+  const Index n = mesh.vertex_count();
+  std::vector<double> flooded(n, std::numeric_limits<double>::infinity());
+  std::vector<double> carved(n, -std::numeric_limits<double>::infinity());
+  const auto spread = [&](std::set<Index> changed, std::vector<double>& g, const auto& through) {
+    while (!changed.empty()) {
+      const Index v = *changed.begin();
+      changed.erase(changed.begin());
+      core::for_each_neighbor(mesh, v, [&](Index u) {
+        const double next = through(u, g[v], g[u]);
+        if (next == g[u]) return;
+        g[u] = next;
+        changed.insert(u);
+      });
+    }
+  };
+  for (const Index v : minima) flooded[v] = f.value(v);
+  spread(minima, flooded,
+         [&](Index u, double from, double now) { return std::min(now, std::max(from, f.value(u))); });
+  std::set<Index> tops = maxima;
+  for (Index v = 0; v < n; ++v)
+    if (mesh.is_boundary_vertex(v)) tops.insert(v);
+  for (const Index v : tops) carved[v] = flooded[v];
+  spread(tops, carved,
+         [&](Index u, double from, double now) { return std::max(now, std::min(from, flooded[u])); });
+  return carved;
+}
 
 }  // namespace
 
@@ -139,10 +173,14 @@ std::string cancellation_contradiction(const ScalarField& f, const Diagram& diag
     wanted.emplace(pair.extremum,
                    pair.kind == PairKind::minimum_saddle ? CriticalType::minimum : CriticalType::maximum);
   std::vector<Index> survivors;
+  std::set<Index> minima, maxima;
   for (const auto& [vertex, type] : wanted) {
+    (type == CriticalType::minimum ? minima : maxima).insert(vertex);
     survivors.push_back(vertex);
     if (g.value(vertex) != f.value(vertex)) return "the value of a survivor changed" + at(vertex);
   }
+  if (!std::equal(g.values().begin(), g.values().end(), flooded_and_carved(f, minima, maxima).begin()))
+    return "values that are not those of flooding and carving";
   std::vector<long> euler(mesh.component_count(), 0);
   for (const auto& point : morse::classify(g).points) {
     euler[mesh.component_of_vertex(point.vertex)] +=
