@@ -168,13 +168,13 @@ class Reranking {
         rank_(f.order().size(), kNone) {
     const auto bits = static_cast<unsigned>(std::bit_width(rank_.size()));
     core::parallel_for_each(coming_.size(), [&](std::size_t i) { leaving_[i] = coming_[i].from; });
-    core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
-      if (which == 0) {
+    const std::size_t grain = coming_.size() < core::kGrain ? 2 : 1;  // threads only where they pay
+    core::parallel_for(0, 2, grain, [&](std::size_t first, std::size_t last) {
+      if (first == 0) {
         radix_sort(coming_, bits, [](const Move& move) { return move.from; });
         radix_sort(coming_, bits, [](const Move& move) { return move.to; });
-      } else {
-        radix_sort(leaving_, bits, [](Index rank) { return rank; });
       }
+      if (last == 2) radix_sort(leaving_, bits, [](Index rank) { return rank; });
     });
   }
 

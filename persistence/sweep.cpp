@@ -133,10 +133,11 @@ Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
 
   result.up.merges = collect_merges(field, result.saddles, ends.offset, ends.lower);
   result.down.merges = collect_merges(field, result.saddles, ends.offset, ends.higher);
-  core::parallel_for(0, 2, 1, [&](std::size_t which, std::size_t) {
-    Sweep& sweep = which == 0 ? result.up : result.down;
-    if (which == 1) std::reverse(sweep.merges.begin(), sweep.merges.end());
-    unite(sweep);
+  std::reverse(result.down.merges.begin(), result.down.merges.end());
+  const std::size_t grain = result.saddles.size() < core::kGrain ? 2 : 1;  // threads only where they pay
+  core::parallel_for(0, 2, grain, [&](std::size_t first, std::size_t last) {
+    if (first == 0) unite(result.up);
+    if (last == 2) unite(result.down);
   });
   return result;
 }

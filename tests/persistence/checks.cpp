@@ -25,36 +25,37 @@ namespace {
 
 std::string at(Index v) { return " at vertex " + std::to_string(v); }
 
-/// Flooding and carving written down plainly: every vertex is raised to the lowest value over which it reaches
-/// a minimum that stays, then lowered to the highest over which it reaches a maximum that stays or a boundary.
+/// The lowest value over which each vertex reaches a seed.
+std::vector<double> reached_over(const core::TriangleMesh& mesh, const std::vector<double>& ground,
+                                 const std::set<Index>& seeds) {
+  std::vector<double> reached(ground.size(), std::numeric_limits<double>::infinity());
+  std::set<std::pair<double, Index>> front;
+  for (const Index v : seeds) front.emplace(reached[v] = ground[v], v);
+  while (!front.empty()) {
+    const Index v = front.begin()->second;
+    front.erase(front.begin());
+    core::for_each_neighbor(mesh, v, [&](Index u) {
+      const double over = std::max(reached[v], ground[u]);
+      if (over < reached[u]) front.emplace(reached[u] = over, u);
+    });
+  }
+  return reached;
+}
+
+std::vector<double> negated(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return values;
+}
+
+/// Flooding from the minima that stay, then carving from the maxima that do and from boundaries.
 std::vector<double> flooded_and_carved(const ScalarField& f, const std::set<Index>& minima,
                                        const std::set<Index>& maxima) {
   const core::TriangleMesh& mesh = f.mesh();
-  const Index n = mesh.vertex_count();
-  std::vector<double> flooded(n, std::numeric_limits<double>::infinity());
-  std::vector<double> carved(n, -std::numeric_limits<double>::infinity());
-  const auto spread = [&](std::set<Index> changed, std::vector<double>& g, const auto& through) {
-    while (!changed.empty()) {
-      const Index v = *changed.begin();
-      changed.erase(changed.begin());
-      core::for_each_neighbor(mesh, v, [&](Index u) {
-        const double next = through(u, g[v], g[u]);
-        if (next == g[u]) return;
-        g[u] = next;
-        changed.insert(u);
-      });
-    }
-  };
-  for (const Index v : minima) flooded[v] = f.value(v);
-  spread(minima, flooded,
-         [&](Index u, double from, double now) { return std::min(now, std::max(from, f.value(u))); });
   std::set<Index> tops = maxima;
-  for (Index v = 0; v < n; ++v)
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (mesh.is_boundary_vertex(v)) tops.insert(v);
-  for (const Index v : tops) carved[v] = flooded[v];
-  spread(tops, carved,
-         [&](Index u, double from, double now) { return std::max(now, std::min(from, flooded[u])); });
-  return carved;
+  const auto flooded = reached_over(mesh, {f.values().begin(), f.values().end()}, minima);
+  return negated(reached_over(mesh, negated(flooded), tops));
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "morsel/persistence/pairing.h"
-#include "morsel/persistence/radix_sort.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "checks.h"
 #include "morsel/core/parallel.h"
+#include "morsel/persistence/radix_sort.h"
 #include "support/fields.h"
 #include "support/mean_curvature.h"
 #include "support/meshes.h"
