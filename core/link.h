@@ -9,15 +9,20 @@ namespace morsel::core {
 /// neighbour to the other. O(degree).
 template <class Visit>
 void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
+  const Triangle* const triangles = mesh.triangles().data();
+  const Index* const twins = mesh.twins().data();
   const Index start = mesh.vertex_halfedge(v);
   Index h = start;
-  Index last = start;
+  Index apex = kNone;
   do {
-    visit(mesh.target(h));
-    last = h;
-    h = mesh.next_around(h);
+    const Index t = h / 3;
+    const Index i = h - 3 * t;
+    const Index previous = i == 0 ? 2 : i - 1;
+    visit(triangles[t][3 - i - previous]);
+    apex = triangles[t][previous];
+    h = twins[3 * t + previous];
   } while (h != start && h != kNone);
-  if (h == kNone) visit(mesh.apex(last));
+  if (h == kNone) visit(apex);
 }
 
 /// The part of a link that satisfies a predicate: its lower part, say.

@@ -1,6 +1,8 @@
 #include "morsel/persistence/cancellation.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/persistence/canceller.h"
@@ -15,19 +17,22 @@ CancellationResult cancel(const core::ScalarField& f, const CancellationOptions&
     throw core::InvalidArgument("the number of critical points to cancel down to must be at least 1, not 0");
   progress.update("cancellation", 0);
   const detail::Canceller canceller(f, progress);
-  const Diagram& diagram = canceller.diagram();
   progress.update("cancellation", 0.5);
-  const auto largest = [&](std::size_t cancelled) {
-    return cancelled == 0 ? 0 : diagram.pairs[cancelled - 1].persistence();
-  };
   if (options.count) {
     const detail::CountSearch search(canceller, *options.count, progress);
     progress.update("cancellation", 1);
-    const std::size_t cancelled = search.cancelled_pairs();
-    return {search.field(), cancelled, largest(cancelled), search.reached(), search.note()};
+    return {search.field(), search.cancelled_pairs(), search.largest_cancelled(), search.reached(),
+            search.note()};
   }
-  const std::size_t cancelled = diagram.finite_count - diagram.count_above(threshold);
-  CancellationResult result{canceller.run(cancelled), cancelled, largest(cancelled), 0, {}};
+  std::vector<PersistencePair> staying;
+  double largest = 0;
+  for (const PersistencePair& pair : canceller.diagram().finite_pairs())
+    if (pair.persistence() > threshold)
+      staying.push_back(pair);
+    else
+      largest = std::max(largest, pair.persistence());
+  const std::size_t cancelled = canceller.diagram().finite_count - staying.size();
+  CancellationResult result{canceller.run(staying), cancelled, largest, 0, {}};
   result.reached_count = detail::critical_count(result.field);
   progress.update("cancellation", 1);
   return result;

@@ -2,46 +2,37 @@
 /// Cancelling any number of pairs of one field. For the module's own use.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 #include "morsel/persistence/diagram.h"
-#include "morsel/persistence/plateaus.h"
+#include "morsel/persistence/reconstruction.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence::detail {
 
 /// Keeps what all cancellations of one field share. Refers to field and progress, which must outlive it.
-///
-/// Values are handled as levels: 0, 1, … for the distinct values of f in ascending order. Flooding and
-/// carving only ever give a vertex the value of another.
 class Canceller {
  public:
   /// Sweeps and pairs; O(n) and O(s log s).
   Canceller(const core::ScalarField& f, const core::Progress& progress);
 
   const core::ScalarField& field() const { return f_; }
+  /// Of the field, with unsorted pairs.
   const Diagram& diagram() const { return diagram_; }
 
-  /// The field without the first `cancelled` finite pairs of the diagram; f itself for 0. O(n) and O(s log
-  /// s).
-  core::ScalarField run(std::size_t cancelled) const;
+  /// The field without the finite pairs that do not stay; f itself if all do. O(n) and O(s log s).
+  core::ScalarField run(std::span<const PersistencePair> staying) const;
 
  private:
-  Index level_count() const { return static_cast<Index>(value_of_level_.size()); }
-  std::vector<Role> survivors(std::size_t cancelled) const;
-  bool flood(const std::vector<Role>& roles, std::vector<Index>& level) const;
-  void carve(const Sweep& down, const std::vector<Role>& roles, std::vector<Index>& level) const;
+  std::vector<Role> survivors(std::span<const PersistencePair> staying) const;
 
   const core::ScalarField& f_;
-  const core::TriangleMesh& mesh_;
   const core::Progress& progress_;
-  Sweep up_;
-  Sweep down_;
+  Sweeps sweeps_;
   Diagram diagram_;
-  std::vector<Index> level_;            // per vertex, of f
-  std::vector<double> value_of_level_;  // ascending
 };
 
 /// Minima, saddle vertices and maxima: the total that classification gives. O(n), parallel.

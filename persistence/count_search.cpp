@@ -30,12 +30,18 @@ std::vector<long> estimates(const Diagram& diagram, Index vertex_count) {
   return result;
 }
 
+Diagram sorted(Diagram diagram) {
+  sort_pairs(diagram);
+  return diagram;
+}
+
 }  // namespace
 
 CountSearch::CountSearch(const Canceller& canceller, std::size_t wanted, const core::Progress& progress)
     : canceller_(canceller),
+      diagram_(sorted(canceller.diagram())),
       wanted_(static_cast<long>(std::min<std::size_t>(wanted, std::numeric_limits<long>::max() / 2))),
-      estimate_(estimates(canceller.diagram(), canceller.field().mesh().vertex_count())),
+      estimate_(estimates(diagram_, canceller.field().mesh().vertex_count())),
       tries_left_(
           std::max<std::size_t>(12, (std::size_t{1} << 22) / canceller.field().mesh().vertex_count())) {
   const auto all_tries = static_cast<double>(tries_left_);
@@ -90,7 +96,7 @@ std::size_t CountSearch::nearest_estimate(long off) const {
 }
 
 long CountSearch::measure(std::size_t cancelled) {
-  core::ScalarField field = canceller_.run(cancelled);
+  core::ScalarField field = canceller_.run(diagram_.finite_pairs().subspan(cancelled));
   const auto total = static_cast<long>(critical_count(field));
   totals_[cancelled] = total;
   smallest_off_ = std::min(smallest_off_, total - estimate_[cancelled]);

@@ -26,6 +26,8 @@ class CountSearch {
   std::size_t cancelled_pairs() const { return best_; }
   std::size_t reached() const { return static_cast<std::size_t>(totals_.at(best_)); }
   const core::ScalarField& field() const { return *field_; }
+  /// The largest persistence of a cancelled pair; 0 if there is none.
+  double largest_cancelled() const { return best_ == 0 ? 0 : diagram_.pairs[best_ - 1].persistence(); }
   /// Why another number than the wanted one was reached; empty if it was reached.
   std::string note() const;
 
@@ -36,6 +38,7 @@ class CountSearch {
   bool is_done() const;
 
   const Canceller& canceller_;
+  Diagram diagram_;  // with sorted pairs
   long wanted_;
   std::vector<long> estimate_;          // per number of cancelled pairs, strictly falling
   std::map<std::size_t, long> totals_;  // what was measured

@@ -1,9 +1,11 @@
 #include "morsel/persistence/pairing.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
-#include "morsel/core/parallel_sort.h"
-#include "morsel/core/union_find.h"
+#include "morsel/core/parallel.h"
+#include "morsel/persistence/radix_sort.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence {
@@ -11,100 +13,104 @@ namespace morsel::persistence {
 namespace detail {
 namespace {
 
-/// Calls pair(basin, saddle) for each basin that ends at a saddle and top(basin) for each that never does.
-template <class Pair, class Top>
-void elder_rule(const Sweep& sweep, const Pair& pair, const Top& top) {
-  core::UnionFind components(sweep.basin_count());  // roots are the eldest
-  for (const Merge& merge : sweep.merges) {
-    const Index a = components.find(merge.a);
-    const Index b = components.find(merge.b);
-    if (a == b) continue;
-    pair(std::max(a, b), merge.saddle);
-    components.unite(a, b);
-  }
+/// Calls visit(basin) for each basin that never ends.
+template <class Visit>
+void for_each_essential(const Sweep& sweep, const Visit& visit) {
+  std::vector<bool> ends(sweep.basin_count(), false);
+  for (const Death& death : sweep.deaths) ends[death.basin] = true;
   for (Index b = 0; b < sweep.basin_count(); ++b)
-    if (components.find(b) == b) top(b);
+    if (!ends[b]) visit(b);
 }
 
-/// The order of Diagram::pairs.
-struct Earlier {
-  const core::ScalarField& field;
-  bool operator()(const PersistencePair& a, const PersistencePair& b) const {
-    const bool a_cap = a.kind == PairKind::saddle_cap;
-    const bool b_cap = b.kind == PairKind::saddle_cap;
-    if (a_cap != b_cap) return b_cap;
-    if (!a_cap && a.persistence() != b.persistence()) return a.persistence() < b.persistence();
-    if (a.kind != b.kind) return a.kind < b.kind;
-    const bool up = a.kind == PairKind::minimum_saddle;
-    if (a.saddle != b.saddle) return up == field.is_lower(a.saddle, b.saddle);
-    if (a_cap) return a.extremum < b.extremum;
-    return up == field.is_lower(b.extremum, a.extremum);
+void add_essential_extrema(const core::TriangleMesh& mesh, const Sweeps& sweeps, Diagram& diagram) {
+  const Index n = mesh.vertex_count();
+  diagram.essential_extrema.resize(mesh.component_count());
+  for_each_essential(sweeps.up, [&](Index basin) {
+    const Index minimum = sweeps.up.extremum[basin];
+    diagram.essential_extrema[mesh.component_of_vertex(minimum)].minimum = minimum;
+  });
+  for_each_essential(sweeps.down, [&](Index basin) {
+    const Index top = sweeps.down.extremum[basin];
+    const bool cap = sweeps.down.is_cap(basin);
+    EssentialExtrema& extrema =
+        diagram.essential_extrema[cap ? mesh.component_of_loop(top - n) : mesh.component_of_vertex(top)];
+    extrema.top = cap ? top - n : top;
+    extrema.top_is_cap = cap;
+  });
+}
+
+void add_essential_saddles(const core::ScalarField& field, const Sweeps& sweeps, Diagram& diagram) {
+  auto up = sweeps.up.deaths.begin();
+  auto down = sweeps.down.deaths.rbegin();
+  for (const auto& [rank, multiplicity] : sweeps.saddles) {
+    Index unpaired = multiplicity;
+    for (; up != sweeps.up.deaths.end() && up->saddle == rank; ++up) --unpaired;
+    for (; down != sweeps.down.deaths.rend() && down->saddle == rank; ++down) --unpaired;
+    if (unpaired > 0) diagram.essential_saddles.push_back({field.order()[rank], unpaired});
   }
-};
+  std::sort(diagram.essential_saddles.begin(), diagram.essential_saddles.end(),
+            [](const EssentialSaddle& a, const EssentialSaddle& b) { return a.vertex < b.vertex; });
+}
 
 }  // namespace
 
-Diagram pair_sweeps(const core::ScalarField& field, const Sweep& up, const Sweep& down) {
-  const core::TriangleMesh& mesh = field.mesh();
-  const Index n = mesh.vertex_count();
+Diagram unsorted_diagram(const core::ScalarField& field, const Sweeps& sweeps) {
+  const Sweep& up = sweeps.up;
+  const Sweep& down = sweeps.down;
+  const Index n = field.mesh().vertex_count();
   Diagram diagram;
-  diagram.pairs.reserve(up.saddles.size());
-  diagram.essential_extrema.resize(mesh.component_count());
-  std::vector<Index> unpaired(n, 0);
-  for (const Saddle& saddle : up.saddles) unpaired[saddle.vertex] = saddle.multiplicity;
-
-  elder_rule(
-      up,
-      [&](Index basin, Index saddle) {
-        const Index minimum = up.extremum[basin];
-        diagram.pairs.push_back(
-            {minimum, saddle, PairKind::minimum_saddle, field.value(minimum), field.value(saddle)});
-        --unpaired[saddle];
-      },
-      [&](Index basin) {
-        const Index minimum = up.extremum[basin];
-        diagram.essential_extrema[mesh.component_of_vertex(minimum)].minimum = minimum;
-      });
-  elder_rule(
-      down,
-      [&](Index basin, Index saddle) {
-        const Index top = down.extremum[basin];
-        if (down.is_cap(basin)) {
-          diagram.pairs.push_back({top - n, saddle, PairKind::saddle_cap, field.value(saddle), kInfinite});
-        } else {
-          diagram.pairs.push_back(
-              {top, saddle, PairKind::saddle_maximum, field.value(saddle), field.value(top)});
-        }
-        --unpaired[saddle];
-      },
-      [&](Index basin) {
-        const Index top = down.extremum[basin];
-        const bool cap = down.is_cap(basin);
-        const Index component = cap ? mesh.component_of_loop(top - n) : mesh.component_of_vertex(top);
-        diagram.essential_extrema[component].top = cap ? top - n : top;
-        diagram.essential_extrema[component].top_is_cap = cap;
-      });
-
-  core::parallel_sort(diagram.pairs.begin(), diagram.pairs.end(), Earlier{field});
-  diagram.finite_count = static_cast<std::size_t>(
-      std::partition_point(diagram.pairs.begin(), diagram.pairs.end(),
-                           [](const PersistencePair& pair) { return pair.kind != PairKind::saddle_cap; }) -
-      diagram.pairs.begin());
-  for (const Saddle& saddle : up.saddles)
-    if (unpaired[saddle.vertex] > 0)
-      diagram.essential_saddles.push_back({saddle.vertex, unpaired[saddle.vertex]});
+  // First in the order of the sweeps, caps last.
+  std::vector<Death> capped;
+  std::vector<Death> falling;
+  for (const Death& death : down.deaths) (down.is_cap(death.basin) ? capped : falling).push_back(death);
+  diagram.finite_count = up.deaths.size() + falling.size();
+  diagram.pairs.resize(diagram.finite_count);
+  core::parallel_for_each(up.deaths.size(), [&](std::size_t i) {
+    const Index minimum = up.extremum[up.deaths[i].basin];
+    const Index saddle = field.order()[up.deaths[i].saddle];
+    diagram.pairs[i] = {minimum, saddle, PairKind::minimum_saddle, field.value(minimum), field.value(saddle)};
+  });
+  core::parallel_for_each(falling.size(), [&](std::size_t i) {
+    const Index maximum = down.extremum[falling[i].basin];
+    const Index saddle = field.order()[falling[i].saddle];
+    diagram.pairs[up.deaths.size() + i] = {maximum, saddle, PairKind::saddle_maximum, field.value(saddle),
+                                           field.value(maximum)};
+  });
+  for (const Death& death : capped) {
+    const Index saddle = field.order()[death.saddle];
+    diagram.pairs.push_back(
+        {down.extremum[death.basin] - n, saddle, PairKind::saddle_cap, field.value(saddle), kInfinite});
+  }
+  add_essential_extrema(field.mesh(), sweeps, diagram);
+  add_essential_saddles(field, sweeps, diagram);
   return diagram;
+}
+
+// Among equals the order stays as it is.
+void sort_pairs(Diagram& diagram) {
+  struct Key {
+    std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
+    Index position;
+  };
+  std::vector<Key> keys(diagram.finite_count);
+  core::parallel_for_each(keys.size(), [&](std::size_t i) {
+    const double persistence = diagram.pairs[i].persistence() + 0.0;  // no −0
+    keys[i] = {std::bit_cast<std::uint64_t>(persistence), static_cast<Index>(i)};
+  });
+  radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
+  std::vector<PersistencePair> sorted = diagram.pairs;
+  core::parallel_for_each(keys.size(), [&](std::size_t i) { sorted[i] = diagram.pairs[keys[i].position]; });
+  diagram.pairs = std::move(sorted);
 }
 
 }  // namespace detail
 
 Diagram pair_extrema(const core::ScalarField& field, const core::Progress& progress) {
   progress.update("persistence pairs", 0);
-  const detail::Sweep up = detail::sweep(field.mesh(), field.ranks(), detail::Direction::up, progress);
-  progress.update("persistence pairs", 0.4);
-  const detail::Sweep down = detail::sweep(field.mesh(), field.ranks(), detail::Direction::down, progress);
+  const detail::Sweeps sweeps = detail::sweep(field, progress);
   progress.update("persistence pairs", 0.8);
-  Diagram diagram = detail::pair_sweeps(field, up, down);
+  Diagram diagram = detail::unsorted_diagram(field, sweeps);
+  detail::sort_pairs(diagram);
   progress.update("persistence pairs", 1);
   return diagram;
 }

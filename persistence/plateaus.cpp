@@ -1,140 +1,64 @@
 #include "morsel/persistence/plateaus.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "morsel/core/link.h"
+#include "morsel/core/parallel.h"
+#include "morsel/persistence/radix_sort.h"
+#include "morsel/persistence/st_numbering.h"
 
 namespace morsel::persistence::detail {
 namespace {
 
 using core::kNone;
 
-/// A graph with a source (node 0) and a sink (node 1) that is biconnected once the two are joined.
-struct SourceSinkGraph {
-  std::vector<Index> offset;    // per node from 2 on, then the end: into `adjacent`
-  std::vector<Index> adjacent;  // nodes from 2 on only
-  std::vector<bool> at_source;  // per node
-  std::vector<bool> at_sink;    // per node
+/// Vertices a chunk.
+constexpr std::size_t kChunk = std::size_t{1} << 13;
 
-  void clear() {
-    offset.assign(2, 0);
-    adjacent.clear();
-    at_source.assign(2, false);
-    at_sink.assign(2, false);
-  }
-  Index node_count() const { return static_cast<Index>(at_source.size()); }
-};
-
-/// Tarjan's st-numbering; buffers are kept between uses.
-class StNumbering {
- public:
-  /// Replaces `order` by the nodes from 2 on so that each has a neighbour before and one after it.
-  void run(const SourceSinkGraph& graph, std::vector<Index>& order) {
-    search(graph);
-    // Insert each node beside its parent, on the side where its low point lies.
-    const Index count = graph.node_count();
-    before_.assign(count, kNone);
-    after_.assign(count, kNone);
-    low_side_is_before_.assign(count, false);
-    link(0, 1);
-    low_side_is_before_[0] = true;
-    for (const Index v : preorder_) {
-      const Index parent = parent_[v];
-      const bool insert_before = low_side_is_before_[low_[v]];
-      if (insert_before) {
-        link(before_[parent], v);
-        link(v, parent);
-      } else {
-        link(v, after_[parent]);
-        link(parent, v);
-      }
-      low_side_is_before_[parent] = !insert_before;
-    }
-    order.clear();
-    for (Index v = after_[0]; v != 1; v = after_[v]) order.push_back(v);
-  }
-
- private:
-  void link(Index first, Index second) {
-    after_[first] = second;
-    before_[second] = first;
-  }
-
-  /// Depth-first search from the source over the edge to the sink: parents, preorder (source and sink left
-  /// out) and low points, the first-visited node that a subtree is adjacent to.
-  void search(const SourceSinkGraph& graph) {
-    const Index count = graph.node_count();
-    number_.assign(count, kNone);
-    parent_.assign(count, kNone);
-    low_.assign(count, kNone);
-    cursor_.assign(count, 0);
-    preorder_.clear();
-    number_[0] = 0;
-    number_[1] = 1;
-    parent_[1] = 0;
-    const auto lower_low = [&](Index v, Index candidate) {
-      if (number_[candidate] < number_[low_[v]]) low_[v] = candidate;
-    };
-    const auto discover = [&](Index v, Index parent) {
-      number_[v] = static_cast<Index>(preorder_.size() + 2);
-      parent_[v] = parent;
-      low_[v] = graph.at_source[v] ? 0 : graph.at_sink[v] ? 1 : v;
-      preorder_.push_back(v);
-      stack_.push_back(v);
-      cursor_[v] = graph.offset[v];
-    };
-    for (Index root = 2; root < count; ++root) {
-      if (!graph.at_sink[root] || number_[root] != kNone) continue;
-      discover(root, 1);
-      while (!stack_.empty()) {
-        const Index v = stack_.back();
-        if (cursor_[v] == graph.offset[v + 1]) {
-          stack_.pop_back();
-          if (!stack_.empty()) lower_low(stack_.back(), low_[v]);
-          continue;
-        }
-        const Index u = graph.adjacent[cursor_[v]++];
-        if (number_[u] == kNone)
-          discover(u, v);
-        else
-          lower_low(v, u);
-      }
-    }
-  }
-
-  std::vector<Index> number_, parent_, low_, cursor_, preorder_, stack_;
-  std::vector<Index> before_, after_;
-  std::vector<bool> low_side_is_before_;
-};
+/// Levels a chunk.
+constexpr std::size_t kLevels = 128;
 
 class PlateauOrder {
  public:
-  PlateauOrder(const core::ScalarField& f, std::span<const Index> level, std::span<const Role> roles)
-      : f_(f), mesh_(f.mesh()), level_(level), roles_(roles), node_(mesh_.vertex_count(), kNone) {}
+  /// `node` has an entry a vertex, kNone until its plateau is numbered.
+  PlateauOrder(const core::ScalarField& f, std::span<const Index> place, std::span<const Role> roles,
+               std::span<Index> node)
+      : f_(f), mesh_(f.mesh()), place_(place), roles_(roles), node_(node) {}
 
   /// Reorders the vertices of one level, which come in f's order.
-  void arrange(std::span<Index> vertices) {
-    if (std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return is_fine(v); })) return;
+  void arrange(const Level& level, std::span<Index> vertices) {
+    if (vertices.size() < 2) return;  // as in f
+    level_ = level;
     arranged_.clear();
-    for (const Index v : vertices)
-      if (roles_[v] == Role::minimum) arranged_.push_back(v);
-    for (const Index v : vertices)
-      if (roles_[v] == Role::regular && node_[v] == kNone) append_plateau(v);
-    for (const Index v : vertices)
-      if (roles_[v] == Role::maximum) arranged_.push_back(v);
+    if (roles_[vertices.front()] == Role::regular) append_plateau(vertices.front());
+    if (arranged_.size() < vertices.size()) {  // most levels are one plateau
+      if (std::all_of(vertices.begin(), vertices.end(), [&](Index v) { return is_fine(v); })) return;
+      const auto minima = std::stable_partition(vertices.begin(), vertices.end(),
+                                                [&](Index v) { return roles_[v] == Role::minimum; });
+      arranged_.insert(arranged_.begin(), vertices.begin(), minima);
+      for (const Index v : vertices)
+        if (roles_[v] == Role::regular && node_[v] == kNone) append_plateau(v);
+      for (const Index v : vertices)
+        if (roles_[v] == Role::maximum) arranged_.push_back(v);
+    }
     std::copy(arranged_.begin(), arranged_.end(), vertices.begin());
   }
 
  private:
+  bool is_level(Index u) const { return level_.holds(place_[u]); }
+
   /// Whether v becomes what it should if its level keeps f's order. (Survivors always do.)
   bool is_fine(Index v) const {
     if (roles_[v] != Role::regular) return true;
     bool lower = false;
     bool higher = mesh_.is_boundary_vertex(v);
     core::for_each_neighbor(mesh_, v, [&](Index u) {
-      const bool below = level_[u] != level_[v] ? level_[u] < level_[v] : f_.is_lower(u, v);
+      const bool below = is_level(u) ? f_.is_lower(u, v) : place_[u] < level_.first;
       lower |= below;
       higher |= !below;
     });
@@ -157,21 +81,26 @@ class PlateauOrder {
       bool higher = false;
       graph_.offset.push_back(static_cast<Index>(graph_.adjacent.size()));
       core::for_each_neighbor(mesh_, v, [&](Index u) {
-        if (level_[u] != level_[v]) {
-          (level_[u] < level_[v] ? at_source : at_sink) = true;
-        } else if (roles_[u] != Role::regular) {
+        const bool below = place_[u] < level_.first;
+        const bool above = place_[u] >= level_.last;
+        at_source |= below;
+        at_sink |= above;
+        if (below || above) return;
+        if (roles_[u] != Role::regular) {
           (roles_[u] == Role::minimum ? at_source : at_sink) = true;
-        } else {
-          if (node_[u] == kNone) {
-            node_[u] = static_cast<Index>(plateau_.size() + 2);
-            plateau_.push_back(u);
-          }
-          graph_.adjacent.push_back(node_[u]);
-          (f_.is_lower(u, v) ? lower : higher) = true;
+          return;
         }
+        if (node_[u] == kNone) {
+          node_[u] = static_cast<Index>(plateau_.size() + 2);
+          plateau_.push_back(u);
+        }
+        graph_.adjacent.push_back(node_[u]);
+        const bool is_lower = f_.is_lower(u, v);
+        lower |= is_lower;
+        higher |= !is_lower;
       });
-      graph_.at_source.push_back(at_source);
-      graph_.at_sink.push_back(at_sink);
+      graph_.at_source.push_back(at_source ? 1 : 0);
+      graph_.at_sink.push_back(at_sink ? 1 : 0);
       any_source |= at_source;
       any_sink |= at_sink;
       fine &= (lower || at_source) && (higher || at_sink);
@@ -195,38 +124,159 @@ class PlateauOrder {
 
   const core::ScalarField& f_;
   const core::TriangleMesh& mesh_;
-  std::span<const Index> level_;
+  std::span<const Index> place_;
   std::span<const Role> roles_;
-  std::vector<Index> node_;  // per vertex, kNone until its plateau is numbered
+  std::span<Index> node_;
+  Level level_ = {0, 0};
   std::vector<Index> arranged_, plateau_, order_;
   SourceSinkGraph graph_;
   StNumbering numbering_;
 };
 
-}  // namespace
+/// A vertex that was moved: its rank in f and the first rank of the level it came to.
+struct Move {
+  Index to;
+  Index from;
+  Index vertex;
+};
 
-std::vector<Index> sort_by_level(const core::ScalarField& f, std::span<const Index> level, Index level_count,
-                                 std::vector<Index>& offsets) {
-  offsets.assign(std::size_t{level_count} + 1, 0);
-  for (const Index l : level) ++offsets[l + 1];
-  for (Index l = 0; l < level_count; ++l) offsets[l + 1] += offsets[l];
-  std::vector<Index> cursor(offsets.begin(), offsets.end() - 1);
-  std::vector<Index> sorted(level.size());
-  for (const Index v : f.order()) sorted[cursor[level[v]]++] = v;
-  return sorted;
+std::vector<Move> find_moves(const core::ScalarField& f, std::span<const Index> place) {
+  const auto rank = f.ranks();
+  return core::parallel_reduce(
+      0, rank.size(), kChunk, std::vector<Move>{},
+      [&](std::size_t first, std::size_t last) {
+        std::vector<Move> part;
+        for (std::size_t v = first; v < last; ++v)
+          if (place[v] != rank[v]) part.push_back({place[v], rank[v], static_cast<Index>(v)});
+        return part;
+      },
+      [](std::vector<Move> sum, const std::vector<Move>& part) {
+        sum.insert(sum.end(), part.begin(), part.end());
+        return sum;
+      });
 }
 
-std::vector<Index> order_plateaus(const core::ScalarField& f, std::span<const Index> level, Index level_count,
+/// The new ranks.
+class Reranking {
+ public:
+  Reranking(const core::ScalarField& f, const Releveled& releveled, std::span<const Role> roles)
+      : f_(f),
+        releveled_(releveled),
+        roles_(roles),
+        coming_(find_moves(f, releveled.place)),
+        leaving_(coming_.size()),
+        rank_(f.order().size(), kNone) {
+    const auto bits = static_cast<unsigned>(std::bit_width(rank_.size()));
+    core::parallel_for_each(coming_.size(), [&](std::size_t i) { leaving_[i] = coming_[i].from; });
+    const std::size_t grain = coming_.size() < core::kGrain ? 2 : 1;  // threads only where they pay
+    core::parallel_for(0, 2, grain, [&](std::size_t first, std::size_t last) {
+      if (first == 0) {
+        radix_sort(coming_, bits, [](const Move& move) { return move.from; });
+        radix_sort(coming_, bits, [](const Move& move) { return move.to; });
+      }
+      if (last == 2) radix_sort(leaving_, bits, [](Index rank) { return rank; });
+    });
+  }
+
+  std::vector<Index> run() {
+    arrange();
+    core::parallel_for(0, rank_.size(), kChunk, [&](std::size_t first, std::size_t last) {
+      rerank(static_cast<Index>(first), static_cast<Index>(last));
+    });
+    return std::move(rank_);
+  }
+
+ private:
+  /// For each level the first of what comes to it, and its lowest new rank.
+  struct Start {
+    Index comes;
+    Index rank;
+  };
+
+  std::vector<Start> level_starts() const {
+    std::vector<Start> starts;
+    starts.reserve(releveled_.levels.size());
+    Index leaves = 0;
+    Index comes = 0;
+    for (const Level& level : releveled_.levels) {
+      while (leaves < leaving_.size() && leaving_[leaves] < level.first) ++leaves;
+      while (comes < coming_.size() && coming_[comes].to < level.first) ++comes;
+      starts.push_back({comes, level.first - leaves + comes});
+    }
+    return starts;
+  }
+
+  /// Appends the vertices of a level in f's order; those that come are coming_[comes] and what follows.
+  void collect(const Level& level, Index comes, std::vector<Index>& vertices) const {
+    const auto order = f_.order();
+    const auto is_coming = [&] { return comes < coming_.size() && coming_[comes].to == level.first; };
+    for (; is_coming() && coming_[comes].from < level.first; ++comes)
+      vertices.push_back(coming_[comes].vertex);
+    for (Index r = level.first; r < level.last; ++r)
+      if (releveled_.place[order[r]] == r) vertices.push_back(order[r]);
+    for (; is_coming(); ++comes) vertices.push_back(coming_[comes].vertex);
+  }
+
+  /// Ranks the vertices of the levels that something was moved to, visiting the levels as they lie in memory.
+  void arrange() {
+    const auto& levels = releveled_.levels;
+    std::vector<Index> visits(levels.size());
+    std::iota(visits.begin(), visits.end(), Index{0});
+    radix_sort(visits, std::bit_width(f_.mesh().triangle_count()),
+               [&](Index l) { return f_.mesh().vertex_halfedge(f_.order()[levels[l].first]) / 3; });
+    const std::vector<Start> starts = level_starts();
+    core::parallel_for(0, visits.size(), kLevels, [&](std::size_t first, std::size_t last) {
+      PlateauOrder plateaus(f_, releveled_.place, roles_, rank_);
+      std::vector<Index> vertices;
+      for (std::size_t i = first; i < last; ++i) {
+        const Level& level = levels[visits[i]];
+        vertices.clear();
+        collect(level, starts[visits[i]].comes, vertices);
+        plateaus.arrange(level, vertices);
+        Index next = starts[visits[i]].rank;
+        for (const Index v : vertices) rank_[v] = next++;
+      }
+    });
+  }
+
+  /// Ranks all that stays in [begin, end) and is in no such level.
+  void rerank(Index begin, Index end) {
+    const auto& levels = releveled_.levels;
+    auto level =
+        std::partition_point(levels.begin(), levels.end(), [&](const Level& l) { return l.last <= begin; });
+    auto leaves = std::lower_bound(leaving_.begin(), leaving_.end(), begin);
+    auto comes = std::partition_point(coming_.begin(), coming_.end(),
+                                      [&](const Move& move) { return move.to < begin; });
+    for (Index r = begin; r < end;) {
+      if (level != levels.end() && r >= level->first) {
+        r = level++->last;
+        continue;
+      }
+      while (leaves != leaving_.end() && *leaves < r) ++leaves;
+      while (comes != coming_.end() && comes->to < r) ++comes;
+      auto next = static_cast<Index>(r - (leaves - leaving_.begin()) + (comes - coming_.begin()));
+      for (const Index stop = level != levels.end() ? std::min(end, level->first) : end; r < stop; ++r) {
+        if (leaves != leaving_.end() && *leaves == r)
+          ++leaves;
+        else
+          rank_[f_.order()[r]] = next++;
+      }
+    }
+  }
+
+  const core::ScalarField& f_;
+  const Releveled& releveled_;
+  std::span<const Role> roles_;
+  std::vector<Move> coming_;    // by level, then by rank in f
+  std::vector<Index> leaving_;  // their ranks in f, ascending
+  std::vector<Index> rank_;
+};
+
+}  // namespace
+
+std::vector<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,
                                   std::span<const Role> roles) {
-  std::vector<Index> offsets;
-  std::vector<Index> order = sort_by_level(f, level, level_count, offsets);
-  PlateauOrder plateaus(f, level, roles);
-  for (Index l = 0; l < level_count; ++l)
-    if (offsets[l + 1] - offsets[l] > 1)
-      plateaus.arrange(std::span<Index>(order).subspan(offsets[l], offsets[l + 1] - offsets[l]));
-  std::vector<Index> rank(order.size());
-  for (Index i = 0; i < order.size(); ++i) rank[order[i]] = i;
-  return rank;
+  return Reranking(f, releveled, roles).run();
 }
 
 }  // namespace morsel::persistence::detail

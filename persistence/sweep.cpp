@@ -1,12 +1,11 @@
 #include "morsel/persistence/sweep.h"
 
 #include <algorithm>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
-#include "morsel/core/parallel_sort.h"
 #include "morsel/core/union_find.h"
 
 namespace morsel::persistence::detail {
@@ -14,136 +13,133 @@ namespace {
 
 using core::kNone;
 
-/// What one walk over the links finds, in vertex order; merges hold link vertices (or caps), not yet basins.
-struct Found {
-  std::vector<Index> extrema;
-  std::vector<Merge> merges;
-  std::vector<Saddle> saddles;
-};
-
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Fills `next` with each vertex's steepest neighbour (an extremum's is itself) and collects the rest.
-template <Direction direction>
-Found walk_links(const core::TriangleMesh& mesh, std::span<const Index> rank, std::vector<Index>& next) {
-  constexpr bool kUp = direction == Direction::up;
-  const Index n = mesh.vertex_count();
+/// The critical vertices, each kind by ascending rank.
+struct Critical {
+  std::vector<Index> minima, maxima;
+  std::vector<Saddle> saddles;
+};
+
+Index saddle_multiplicity(const core::ScalarField& field, VertexType type, Index v) {
+  if (type.changes() < VertexType::kMostChanges) return type.changes() / 2 - 1;
+  const auto lower = core::link_part(
+      field.mesh(), v, /*cap_inside=*/false, [&](Index u) { return field.is_lower(u, v); }, [](Index) {});
+  return lower.runs - 1;
+}
+
+Critical critical_vertices(const core::ScalarField& field, std::span<const VertexType> types) {
+  const auto order = field.order();
   return core::parallel_reduce(
-      0, n, core::kGrain, Found{},
+      0, order.size(), 4 * core::kGrain, Critical{},
       [&](std::size_t begin, std::size_t end) {
-        Found part;
-        for (auto v = static_cast<Index>(begin); v < end; ++v) {
-          const Index center = rank[v];
-          Index steepest = center;
-          Index target = v;
-          Index first_run = kNone;
-          Index runs = 0;
-          const auto cap = [&] { return n + mesh.boundary_loop_of_vertex(v); };
-          const core::LinkPart part_of_link = core::link_part(
-              mesh, v, /*cap_inside=*/!kUp,
-              [&](Index u) {
-                const Index r = rank[u];
-                if (kUp ? r < steepest : r > steepest) {
-                  steepest = r;
-                  target = u;
-                }
-                return kUp ? r < center : r > center;
-              },
-              [&](Index u) {
-                const Index element = u == kNone ? cap() : u;
-                if (runs++ == 0)
-                  first_run = element;
-                else
-                  part.merges.push_back({v, first_run, element});
-              });
-          if (!kUp && mesh.is_boundary_vertex(v)) target = cap();
-          next[v] = target;
-          if (part_of_link.empty) part.extrema.push_back(v);
-          if (runs > 1) part.saddles.push_back({v, runs - 1});
+        Critical part;
+        for (auto r = static_cast<Index>(begin); r < end; ++r) {
+          const Index v = order[r];
+          const VertexType type = types[v];
+          if (type.is_regular()) continue;
+          if (type.is_saddle())
+            part.saddles.push_back({r, saddle_multiplicity(field, type, v)});
+          else
+            (type.is_minimum() ? part.minima : part.maxima).push_back(v);
         }
         return part;
       },
-      [](Found sum, const Found& part) {
-        append(sum.extrema, part.extrema);
-        append(sum.merges, part.merges);
+      [](Critical sum, const Critical& part) {
+        append(sum.minima, part.minima);
+        append(sum.maxima, part.maxima);
         append(sum.saddles, part.saddles);
         return sum;
       });
 }
 
-/// Turns steepest neighbours into basins; `basin` comes with the extrema filled in.
-void follow_paths(std::vector<Index>& next, std::vector<Index>& basin) {
-  for (Index v = 0; v < basin.size(); ++v) {
-    Index end = v;
-    while (basin[end] == kNone) end = next[end];
-    const Index found = basin[end];
-    for (Index u = v; basin[u] == kNone; u = next[u]) basin[u] = found;
+void replace_by_basins(const Paths& paths, std::vector<Index>& ends) {
+  core::parallel_for(0, ends.size(), core::kGrain, [&](std::size_t first, std::size_t last) {
+    std::vector<Index> buffer;
+    for (std::size_t i = first; i < last; ++i) ends[i] = paths.find(ends[i], buffer);
+  });
+}
+
+/// What the saddles join, by ascending rank: of the basins that meet at one, the first with each other.
+std::vector<Merge> collect_merges(const core::ScalarField& field, std::span<const Saddle> saddles,
+                                  std::span<const Index> offset, std::span<const Index> basins) {
+  return core::parallel_reduce(
+      0, saddles.size(), core::kGrain, std::vector<Merge>{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<Merge> part;
+        for (const auto& [rank, multiplicity] : saddles.subspan(begin, end - begin)) {
+          const auto meeting = basins.subspan(offset[field.order()[rank]], 2 * multiplicity + 2);
+          const Index first = meeting.front();
+          Index previous = first;
+          for (const Index basin : meeting) {
+            if (basin != first && basin != previous) part.push_back({rank, first, basin});
+            previous = basin;
+          }
+        }
+        return part;
+      },
+      [](std::vector<Merge> sum, const std::vector<Merge>& part) {
+        append(sum, part);
+        return sum;
+      });
+}
+
+/// The elder rule: keeps the merges that join components and notes which basin each of them ends.
+void unite(Sweep& sweep) {
+  core::UnionFind components(sweep.basin_count());  // roots are the eldest
+  std::size_t kept = 0;
+  std::vector<Death>& deaths = sweep.deaths;
+  for (const Merge& merge : sweep.merges) {
+    const Index a = components.find(merge.a);
+    const Index b = components.find(merge.b);
+    if (a == b) continue;
+    components.unite(a, b);
+    sweep.merges[kept++] = {merge.saddle, a, b};
+    deaths.push_back({std::max(a, b), merge.saddle});
+    for (std::size_t i = deaths.size() - 1;
+         i > 0 && deaths[i - 1].saddle == merge.saddle && deaths[i - 1].basin < deaths[i].basin; --i)
+      std::swap(deaths[i - 1], deaths[i]);
   }
+  sweep.merges.resize(kept);
+  sweep.merges.shrink_to_fit();
 }
 
 }  // namespace
 
-Sweep sweep(const core::TriangleMesh& mesh, std::span<const Index> rank, Direction direction,
-            const core::Progress& progress) {
+Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
+  const core::TriangleMesh& mesh = field.mesh();
   const Index n = mesh.vertex_count();
-  const Index caps = direction == Direction::down ? mesh.boundary_loop_count() : 0;
-  Sweep result;
-  result.vertex_count = n;
-  std::vector<Index> next(std::size_t{n} + caps);
-  Found found = direction == Direction::up ? walk_links<Direction::up>(mesh, rank, next)
-                                           : walk_links<Direction::down>(mesh, rank, next);
+  const std::vector<VertexType> types = vertex_types(mesh, field.ranks());
+  Critical critical = critical_vertices(field, types);
   progress.throw_if_cancelled();
 
-  const auto earlier = [&](Index a, Index b) {
-    return direction == Direction::up ? rank[a] < rank[b] : rank[a] > rank[b];
-  };
-  core::parallel_sort(found.extrema.begin(), found.extrema.end(), earlier);
-  for (Index loop = caps; loop-- > 0;) result.extremum.push_back(n + loop);
-  append(result.extremum, found.extrema);
+  Sweeps result;
+  result.saddles = std::move(critical.saddles);
+  result.up.vertex_count = n;
+  result.down.vertex_count = n;
+  result.up.extremum = std::move(critical.minima);
+  for (Index loop = mesh.boundary_loop_count(); loop-- > 0;) result.down.extremum.push_back(n + loop);
+  result.down.extremum.insert(result.down.extremum.end(), critical.maxima.rbegin(), critical.maxima.rend());
+  result.up.paths = std::make_unique<Paths>(mesh, field.ranks(), Direction::up, result.up.extremum);
+  result.down.paths = std::make_unique<Paths>(mesh, field.ranks(), Direction::down, result.down.extremum);
 
-  result.basin.assign(std::size_t{n} + caps, kNone);
-  for (Index b = 0; b < result.basin_count(); ++b) result.basin[result.extremum[b]] = b;
-  follow_paths(next, result.basin);
+  LinkEnds ends = link_ends(field, types, result.saddles, *result.up.paths, *result.down.paths);
+  replace_by_basins(*result.up.paths, ends.lower);
+  replace_by_basins(*result.down.paths, ends.higher);
+  progress.throw_if_cancelled();
 
-  for (Merge& merge : found.merges) {
-    const auto [a, b] = std::minmax(result.basin[merge.a], result.basin[merge.b]);
-    merge = {merge.saddle, a, b};
-  }
-  std::erase_if(found.merges, [](const Merge& merge) { return merge.a == merge.b; });
-  core::parallel_sort(found.merges.begin(), found.merges.end(), [&](const Merge& x, const Merge& y) {
-    if (x.saddle != y.saddle) return earlier(x.saddle, y.saddle);
-    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
+  result.up.merges = collect_merges(field, result.saddles, ends.offset, ends.lower);
+  result.down.merges = collect_merges(field, result.saddles, ends.offset, ends.higher);
+  std::reverse(result.down.merges.begin(), result.down.merges.end());
+  const std::size_t grain = result.saddles.size() < core::kGrain ? 2 : 1;  // threads only where they pay
+  core::parallel_for(0, 2, grain, [&](std::size_t first, std::size_t last) {
+    if (first == 0) unite(result.up);
+    if (last == 2) unite(result.down);
   });
-  result.basin.resize(n);
-  result.merges = std::move(found.merges);
-  result.saddles = std::move(found.saddles);
   return result;
-}
-
-std::vector<Index> overflow_saddles(const Sweep& sweep, const std::vector<bool>& kept) {
-  const Index count = sweep.basin_count();
-  core::UnionFind sets(count);
-  std::vector<bool> holds_kept = kept;  // per root
-  std::vector<Index> overflow(count, kNone);
-  std::vector<Index> follows(count, kNone);  // overflows where that earlier basin does
-  for (const Merge& merge : sweep.merges) {
-    Index a = sets.find(merge.a);
-    Index b = sets.find(merge.b);
-    if (a == b) continue;
-    if (b < a) std::swap(a, b);
-    if (!holds_kept[a] && !holds_kept[b])
-      follows[b] = a;
-    else if (!holds_kept[a] || !holds_kept[b])
-      overflow[holds_kept[a] ? b : a] = merge.saddle;
-    holds_kept[a] = holds_kept[a] || holds_kept[b];
-    sets.unite(a, b);
-  }
-  for (Index b = 0; b < count; ++b)
-    if (follows[b] != kNone) overflow[b] = overflow[follows[b]];
-  return overflow;
 }
 
 }  // namespace morsel::persistence::detail

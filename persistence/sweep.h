@@ -1,55 +1,58 @@
 #pragma once
-/// One sweep over a surface: the basins of its extrema and where they meet. For the module's own use.
+/// The sweeps over a surface, from below and from above: the basins of its extrema and where they meet. For
+/// the module's own use.
 
-#include <cstdint>
-#include <span>
+#include <memory>
 #include <vector>
 
-#include "morsel/core/mesh.h"
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 #include "morsel/persistence/diagram.h"
+#include "morsel/persistence/link_ends.h"
+#include "morsel/persistence/paths.h"
 
 namespace morsel::persistence::detail {
 
-/// Up: basins of minima. Down: basins of maxima and caps.
-enum class Direction : std::uint8_t { up, down };
-
 /// Two basins that meet at a saddle, if nothing joined them before.
 struct Merge {
-  Index saddle;
+  Index saddle;  ///< its rank
   Index a;
   Index b;
 };
 
-struct Saddle {
-  Index vertex;
-  Index multiplicity;
+/// A basin that ends at a saddle, where its component meets an elder one.
+struct Death {
+  Index basin;
+  Index saddle;  ///< its rank
 };
 
-/// Basins are numbered from the eldest: minima by ascending rank, or caps from the last loop to the first and
-/// then maxima by descending rank.
+/// One of the two. Basins are numbered from the eldest: minima by ascending rank, or caps from the last loop
+/// to the first and then maxima by descending rank.
 struct Sweep {
   Index vertex_count = 0;
-  std::vector<Index> basin;     ///< per vertex: where its steepest path ends
   std::vector<Index> extremum;  ///< per basin: a vertex, or vertex_count + loop for a cap
-  std::vector<Merge> merges;    ///< in the order of the sweep
-  std::vector<Saddle> saddles;  ///< by ascending vertex
+  std::vector<Merge> merges;    ///< in the order of the sweep; only those that join components
+  std::vector<Death> deaths;    ///< in the order of the sweep, at one saddle the youngest first
+  std::unique_ptr<Paths> paths;
 
   Index basin_count() const { return static_cast<Index>(extremum.size()); }
   bool is_cap(Index b) const { return extremum[b] >= vertex_count; }
 };
 
-/// `rank` orders the vertices (a permutation). O(n), parallel, and a sort of the merges.
-Sweep sweep(const core::TriangleMesh& mesh, std::span<const Index> rank, Direction direction,
-            const core::Progress& progress = {});
+struct Sweeps {
+  std::vector<Saddle> saddles;  ///< by ascending rank
+  Sweep up;                     ///< the basins of minima
+  Sweep down;                   ///< the basins of maxima and caps
+};
 
-/// For each basin that is not kept: the saddle at which, during the sweep, its component first meets one that
-/// holds a kept basin, that is where it overflows when it is flooded (or carved). kNone for kept basins.
-/// `kept` has one entry a basin, at least one of every component. O(m log m).
-std::vector<Index> overflow_saddles(const Sweep& sweep, const std::vector<bool>& kept);
+/// O(n) and O(s log s) in the number of saddles, all of it parallel but the union-find. The result refers to
+/// the field.
+Sweeps sweep(const core::ScalarField& field, const core::Progress& progress = {});
 
-/// The diagram from both sweeps over the field.
-Diagram pair_sweeps(const core::ScalarField& field, const Sweep& up, const Sweep& down);
+/// The diagram of the field from its sweeps, but with the finite pairs in the order of the sweeps; O(n).
+Diagram unsorted_diagram(const core::ScalarField& field, const Sweeps& sweeps);
+
+/// Brings the pairs of such a diagram into their order; O(s).
+void sort_pairs(Diagram& diagram);
 
 }  // namespace morsel::persistence::detail

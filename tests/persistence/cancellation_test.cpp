@@ -236,6 +236,24 @@ TEST_CASE("any number of threads gives the same cancelled field") {
   CHECK(one.note == four.note);
 }
 
+TEST_CASE("any number of threads gives the same field where much is cancelled") {
+  const TriangleMesh mesh = sphere(6).mesh();
+  for (const std::vector<double>& values :
+       {random_values(mesh.vertex_count(), 8), tied_values(mesh.vertex_count(), 400, 8)}) {
+    const ScalarField f(mesh, values);
+    const auto run = [&](int threads) {
+      const core::ThreadLimit limit(threads);
+      return cancel(f, {Threshold::percent(30), {}}).field;
+    };
+    const ScalarField one = run(1);
+    for (const int threads : {2, 4, 7}) {
+      const ScalarField many = run(threads);
+      CHECK(std::equal(one.ranks().begin(), one.ranks().end(), many.ranks().begin()));
+      CHECK(std::equal(one.values().begin(), one.values().end(), many.values().begin()));
+    }
+  }
+}
+
 TEST_CASE("renumbering the vertices does not change a generic cancelled field") {
   const Soup soup = together(torus(9, 7), grid(9, 8));
   std::vector<Index> number;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
 
+#include "morsel/core/link.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
 #include "support/phat_oracle.h"
@@ -22,6 +24,39 @@ using persistence::PersistencePair;
 namespace {
 
 std::string at(Index v) { return " at vertex " + std::to_string(v); }
+
+/// The lowest value over which each vertex reaches a seed.
+std::vector<double> reached_over(const core::TriangleMesh& mesh, const std::vector<double>& ground,
+                                 const std::set<Index>& seeds) {
+  std::vector<double> reached(ground.size(), std::numeric_limits<double>::infinity());
+  std::set<std::pair<double, Index>> front;
+  for (const Index v : seeds) front.emplace(reached[v] = ground[v], v);
+  while (!front.empty()) {
+    const Index v = front.begin()->second;
+    front.erase(front.begin());
+    core::for_each_neighbor(mesh, v, [&](Index u) {
+      const double over = std::max(reached[v], ground[u]);
+      if (over < reached[u]) front.emplace(reached[u] = over, u);
+    });
+  }
+  return reached;
+}
+
+std::vector<double> negated(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  return values;
+}
+
+/// Flooding from the minima that stay, then carving from the maxima that do and from boundaries.
+std::vector<double> flooded_and_carved(const ScalarField& f, const std::set<Index>& minima,
+                                       const std::set<Index>& maxima) {
+  const core::TriangleMesh& mesh = f.mesh();
+  std::set<Index> tops = maxima;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (mesh.is_boundary_vertex(v)) tops.insert(v);
+  const auto flooded = reached_over(mesh, {f.values().begin(), f.values().end()}, minima);
+  return negated(reached_over(mesh, negated(flooded), tops));
+}
 
 }  // namespace
 
@@ -139,10 +174,14 @@ std::string cancellation_contradiction(const ScalarField& f, const Diagram& diag
     wanted.emplace(pair.extremum,
                    pair.kind == PairKind::minimum_saddle ? CriticalType::minimum : CriticalType::maximum);
   std::vector<Index> survivors;
+  std::set<Index> minima, maxima;
   for (const auto& [vertex, type] : wanted) {
+    (type == CriticalType::minimum ? minima : maxima).insert(vertex);
     survivors.push_back(vertex);
     if (g.value(vertex) != f.value(vertex)) return "the value of a survivor changed" + at(vertex);
   }
+  if (!std::equal(g.values().begin(), g.values().end(), flooded_and_carved(f, minima, maxima).begin()))
+    return "values that are not those of flooding and carving";
   std::vector<long> euler(mesh.component_count(), 0);
   for (const auto& point : morse::classify(g).points) {
     euler[mesh.component_of_vertex(point.vertex)] +=

@@ -1,10 +1,13 @@
 #include "morsel/persistence/pairing.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "checks.h"
 #include "morsel/core/parallel.h"
+#include "morsel/persistence/radix_sort.h"
 #include "support/fields.h"
 #include "support/mean_curvature.h"
 #include "support/meshes.h"
@@ -151,6 +154,19 @@ TEST_CASE("negating a field on a closed mesh mirrors its diagram") {
     }
     CHECK(mirrored.essential_saddles == diagram.essential_saddles);
   }
+}
+
+TEST_CASE("sorting by whole numbers keeps the order of equal ones") {
+  std::mt19937_64 random(3);
+  for (const std::size_t count : {0U, 1U, 200U, 5000U})
+    for (const unsigned bits : {4U, 21U, 64U}) {
+      std::vector<std::pair<std::uint64_t, std::size_t>> items(count);
+      for (std::size_t i = 0; i < count; ++i) items[i] = {random() >> (64 - bits), i};
+      auto expected = items;
+      std::sort(expected.begin(), expected.end());
+      persistence::detail::radix_sort(items, bits, [](const auto& item) { return item.first; });
+      CHECK(items == expected);
+    }
 }
 
 TEST_CASE("any number of threads gives the same diagram") {
