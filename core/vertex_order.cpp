@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/parallel.h"
-#include "morsel/core/partition.h"
+#include "morsel/core/radix_sort.h"
 
 namespace morsel::core {
 namespace {
@@ -40,19 +40,11 @@ class VertexSort {
     const KeyRange range = key_range(vertices);
     if (range.least >= range.greatest) return;
     const int shift = std::max(0, static_cast<int>(std::bit_width(range.greatest - range.least)) - 32);
-    constexpr int kDigits[] = {11, 11, 10};
-    FlatArray<Entry> entries =
-        partition<Entry>(vertices.size(), std::size_t{1} << kDigits[0], kChunk,
-                         [&](std::size_t first, std::size_t last, const auto& emit) {
-                           for (std::size_t i = first; i < last; ++i) {
-                             const auto leading =
-                                 static_cast<std::uint32_t>((key(vertices[i]) - range.least) >> shift);
-                             emit(leading & ((1U << kDigits[0]) - 1), Entry{leading, vertices[i]});
-                           }
-                         })
-            .items;
-    entries = by_digit(std::move(entries), kDigits[0], kDigits[1]);
-    entries = by_digit(std::move(entries), kDigits[0] + kDigits[1], kDigits[2]);
+    FlatArray<Entry> entries(vertices.size());
+    parallel_for_each(entries.size(), [&](std::size_t i) {
+      entries[i] = {static_cast<std::uint32_t>((key(vertices[i]) - range.least) >> shift), vertices[i]};
+    });
+    radix_sort(entries, 32, [](const Entry& entry) { return entry.leading; });
     parallel_for_each(entries.size(), [&](std::size_t i) { vertices[i] = entries[i].vertex; });
     if (shift == 0) return;
     for (const auto& [first, last] : sort_short_runs(entries, vertices))
@@ -78,17 +70,6 @@ class VertexSort {
         [](const KeyRange& a, const KeyRange& b) {
           return KeyRange{std::min(a.least, b.least), std::max(a.greatest, b.greatest)};
         });
-  }
-
-  /// Orders the entries by `bits` bits of `leading` from `shift` on.
-  static FlatArray<Entry> by_digit(FlatArray<Entry> entries, int shift, int bits) {
-    const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
-    return partition<Entry>(entries.size(), std::size_t{mask} + 1, kChunk,
-                            [&](std::size_t first, std::size_t last, const auto& emit) {
-                              for (std::size_t i = first; i < last; ++i)
-                                emit(entries[i].leading >> shift & mask, entries[i]);
-                            })
-        .items;
   }
 
   /// Orders each run of vertices whose leading bits are equal, but for those of more than a chunk: returns these.
