@@ -50,8 +50,8 @@ struct Saddle {
   Index multiplicity;
 };
 
-/// For the saddles of the field, in any order; O(n) and parallel. Where there are many of them, so that it pays, tells the paths an
-/// element below or above of every vertex.
+/// For the saddles of the field; O(n), parallel. Where there are many of them it is another pass over the
+/// triangles, which then also tells the paths an element below or above each vertex; few are walked around.
 LinkEnds link_ends(const core::ScalarField& field, std::span<const VertexType> types,
                    std::span<const Saddle> saddles, Paths& down_to_minima, Paths& up_to_maxima);
 

@@ -30,8 +30,8 @@ class Paths {
   /// `to` is a neighbour of v (or its cap) in the paths' direction. Before the first find().
   void set_next(Index v, Index to) { entry(v).store(to | kNext, std::memory_order_relaxed); }
 
-  /// The basin of a vertex, or of a cap (given as in `extremum`). Each thread brings a buffer of its own, whose
-  /// contents do not matter. Amortised O(degree).
+  /// The basin of a vertex, or of a cap (given as in `extremum`). Each thread brings a buffer of its own,
+  /// whose contents do not matter. Amortised O(degree).
   Index find(Index v, std::vector<Index>& buffer) const;
 
  private:

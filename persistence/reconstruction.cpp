@@ -99,8 +99,8 @@ class Reconstruction {
     std::vector<Merge> merges;
   };
 
-  // Regions are disjoint; a neighbour in another one that is moved at the same time is on the same side of the
-  // level before and after.
+  // Regions are disjoint; a neighbour in another one that is moved at the same time is on the same side of
+  // the level before and after.
   Index place(Index v) const {
     return std::atomic_ref<Index>(result_.place[v]).load(std::memory_order_relaxed);
   }
