@@ -2,9 +2,10 @@
 /// Sorting by whole numbers.
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "morsel/core/flat_array.h"
 #include "morsel/core/parallel.h"
@@ -15,8 +16,8 @@ namespace morsel::core {
 /// Sorts by key(item), an unsigned whole number below 2^bits; items of equal keys keep their order. By digits, from the last
 /// one: O(bits · n) time and a copy of the items; for few items by comparisons. Parallel, the same for every number of
 /// threads.
-template <class T, class Key>
-void radix_sort(FlatArray<T>& items, unsigned bits, const Key& key) {
+template <class T, class Allocator, class Key>
+void radix_sort(std::vector<T, Allocator>& items, unsigned bits, const Key& key) {
   constexpr unsigned kDigit = 11;
   constexpr std::size_t kFew = 256;
   constexpr std::size_t kChunk = std::size_t{1} << 16;
@@ -39,12 +40,18 @@ void radix_sort(FlatArray<T>& items, unsigned bits, const Key& key) {
     const unsigned width = std::min(kDigit, bits - shift);
     const std::size_t mask = (std::size_t{1} << width) - 1;
     if ((static_cast<std::size_t>(differing >> shift) & mask) == 0) continue;
-    items = partition<T>(items.size(), mask + 1, kChunk,
-                         [&](std::size_t first, std::size_t last, const auto& emit) {
-                           for (std::size_t i = first; i < last; ++i)
-                             emit(static_cast<std::size_t>(key(items[i]) >> shift) & mask, items[i]);
-                         })
-                .items;
+    FlatArray<T> sorted =
+        partition<T>(items.size(), mask + 1, kChunk,
+                     [&](std::size_t first, std::size_t last, const auto& emit) {
+                       for (std::size_t i = first; i < last; ++i)
+                         emit(static_cast<std::size_t>(key(items[i]) >> shift) & mask, items[i]);
+                     })
+            .items;
+    if constexpr (std::is_same_v<Allocator, FlatAllocator<T>>) {
+      items = std::move(sorted);
+    } else {
+      items.assign(sorted.begin(), sorted.end());
+    }
   }
 }
 

@@ -20,7 +20,7 @@ ScalarField Canceller::run(std::span<const PersistencePair> staying) const {
   const std::vector<Role> roles = survivors(staying);
   const Releveled releveled = reconstruct(f_, sweeps_, roles, progress_);
   progress_.throw_if_cancelled();
-  std::vector<Index> rank = order_plateaus(f_, releveled, roles);
+  core::FlatArray<Index> rank = order_plateaus(f_, releveled, roles);
   std::vector<double> values(f_.values().begin(), f_.values().end());
   core::parallel_for_each(values.size(), [&](std::size_t v) {
     const Index place = releveled.place[v];

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "morsel/core/parallel.h"
-#include "morsel/persistence/radix_sort.h"
+#include "morsel/core/radix_sort.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence {
@@ -92,12 +92,12 @@ void sort_pairs(Diagram& diagram) {
     std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
     Index position;
   };
-  std::vector<Key> keys(diagram.finite_count);
+  core::FlatArray<Key> keys(diagram.finite_count);
   core::parallel_for_each(keys.size(), [&](std::size_t i) {
     const double persistence = diagram.pairs[i].persistence() + 0.0;  // no −0
     keys[i] = {std::bit_cast<std::uint64_t>(persistence), static_cast<Index>(i)};
   });
-  radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
+  core::radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
   std::vector<PersistencePair> sorted = diagram.pairs;
   core::parallel_for_each(keys.size(), [&](std::size_t i) { sorted[i] = diagram.pairs[keys[i].position]; });
   diagram.pairs = std::move(sorted);

@@ -9,7 +9,7 @@
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
-#include "morsel/persistence/radix_sort.h"
+#include "morsel/core/radix_sort.h"
 #include "morsel/persistence/st_numbering.h"
 
 namespace morsel::persistence::detail {
@@ -171,14 +171,14 @@ class Reranking {
     const std::size_t grain = coming_.size() < core::kGrain ? 2 : 1;  // threads only where they pay
     core::parallel_for(0, 2, grain, [&](std::size_t first, std::size_t last) {
       if (first == 0) {
-        radix_sort(coming_, bits, [](const Move& move) { return move.from; });
-        radix_sort(coming_, bits, [](const Move& move) { return move.to; });
+        core::radix_sort(coming_, bits, [](const Move& move) { return move.from; });
+        core::radix_sort(coming_, bits, [](const Move& move) { return move.to; });
       }
-      if (last == 2) radix_sort(leaving_, bits, [](Index rank) { return rank; });
+      if (last == 2) core::radix_sort(leaving_, bits, [](Index rank) { return rank; });
     });
   }
 
-  std::vector<Index> run() {
+  core::FlatArray<Index> run() {
     arrange();
     core::parallel_for(0, rank_.size(), kChunk, [&](std::size_t first, std::size_t last) {
       rerank(static_cast<Index>(first), static_cast<Index>(last));
@@ -220,10 +220,10 @@ class Reranking {
   /// Ranks the vertices of the levels that something was moved to, visiting the levels as they lie in memory.
   void arrange() {
     const auto& levels = releveled_.levels;
-    std::vector<Index> visits(levels.size());
+    core::FlatArray<Index> visits(levels.size());
     std::iota(visits.begin(), visits.end(), Index{0});
-    radix_sort(visits, std::bit_width(f_.mesh().triangle_count()),
-               [&](Index l) { return f_.mesh().vertex_halfedge(f_.order()[levels[l].first]) / 3; });
+    core::radix_sort(visits, std::bit_width(f_.mesh().triangle_count()),
+                     [&](Index l) { return f_.mesh().vertex_halfedge(f_.order()[levels[l].first]) / 3; });
     const std::vector<Start> starts = level_starts();
     core::parallel_for(0, visits.size(), kLevels, [&](std::size_t first, std::size_t last) {
       PlateauOrder plateaus(f_, releveled_.place, roles_, rank_);
@@ -267,15 +267,15 @@ class Reranking {
   const core::ScalarField& f_;
   const Releveled& releveled_;
   std::span<const Role> roles_;
-  std::vector<Move> coming_;    // by level, then by rank in f
-  std::vector<Index> leaving_;  // their ranks in f, ascending
-  std::vector<Index> rank_;
+  std::vector<Move> coming_;        // by level, then by rank in f
+  core::FlatArray<Index> leaving_;  // their ranks in f, ascending
+  core::FlatArray<Index> rank_;
 };
 
 }  // namespace
 
-std::vector<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,
-                                  std::span<const Role> roles) {
+core::FlatArray<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,
+                                      std::span<const Role> roles) {
   return Reranking(f, releveled, roles).run();
 }
 

@@ -22,7 +22,7 @@ namespace morsel::persistence::detail {
 /// something higher, which flooding and carving see to; std::logic_error is thrown if one does not.
 ///
 /// `roles` has one entry a vertex. Returns the ranks. O(n + k log k) for k vertices moved, parallel.
-std::vector<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,
-                                  std::span<const Role> roles);
+core::FlatArray<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,
+                                      std::span<const Role> roles);
 
 }  // namespace morsel::persistence::detail

@@ -8,8 +8,8 @@
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
+#include "morsel/core/radix_sort.h"
 #include "morsel/core/union_find.h"
-#include "morsel/persistence/radix_sort.h"
 
 namespace morsel::persistence::detail {
 namespace {
@@ -121,7 +121,7 @@ class Reconstruction {
           if (flood_from(minimum, level, scratch.part) != 1) join_around(level, scratch);
         });
     const auto n = static_cast<Index>(result_.place.size());
-    radix_sort(joined, std::bit_width(n), [&](const Merge& merge) { return n - merge.saddle; });
+    core::radix_sort(joined, std::bit_width(n), [&](const Merge& merge) { return n - merge.saddle; });
     return joined;
   }
 
@@ -200,9 +200,9 @@ class Reconstruction {
     levels.resize(regions.regions.size());
     core::parallel_for_each(levels.size(),
                             [&](std::size_t i) { levels[i] = level_of(f_, regions.regions[i].saddle); });
-    std::vector<Index> visits(levels.size());
+    core::FlatArray<Index> visits(levels.size());
     std::iota(visits.begin(), visits.end(), Index{0});
-    radix_sort(visits, std::bit_width(mesh_.triangle_count()), [&](Index i) {
+    core::radix_sort(visits, std::bit_width(mesh_.triangle_count()), [&](Index i) {
       const Index extremum = sweep.extremum[regions.basins[regions.regions[i].first]];
       return mesh_.vertex_halfedge(extremum) / 3;
     });

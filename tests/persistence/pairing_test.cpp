@@ -7,7 +7,6 @@
 
 #include "checks.h"
 #include "morsel/core/parallel.h"
-#include "morsel/persistence/radix_sort.h"
 #include "support/fields.h"
 #include "support/mean_curvature.h"
 #include "support/meshes.h"
@@ -118,7 +117,7 @@ TEST_CASE("pairs with an explicit order follow it") {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const ScalarField other(mesh, random_values(mesh.vertex_count(), seed));
     const ScalarField flat(mesh, std::vector<double>(mesh.vertex_count(), 2),
-                           std::vector<Index>(other.ranks().begin(), other.ranks().end()));
+                           core::FlatArray<Index>(other.ranks().begin(), other.ranks().end()));
     CHECK(oracle_contradiction(flat, pair_extrema(flat)).empty());
     CHECK(pair_extrema(flat).largest() == 0);
     CHECK(pair_extrema(flat).finite_count == pair_extrema(other).finite_count);
@@ -154,19 +153,6 @@ TEST_CASE("negating a field on a closed mesh mirrors its diagram") {
     }
     CHECK(mirrored.essential_saddles == diagram.essential_saddles);
   }
-}
-
-TEST_CASE("sorting by whole numbers keeps the order of equal ones") {
-  std::mt19937_64 random(3);
-  for (const std::size_t count : {0U, 1U, 200U, 5000U})
-    for (const unsigned bits : {4U, 21U, 64U}) {
-      std::vector<std::pair<std::uint64_t, std::size_t>> items(count);
-      for (std::size_t i = 0; i < count; ++i) items[i] = {random() >> (64 - bits), i};
-      auto expected = items;
-      std::sort(expected.begin(), expected.end());
-      persistence::detail::radix_sort(items, bits, [](const auto& item) { return item.first; });
-      CHECK(items == expected);
-    }
 }
 
 TEST_CASE("any number of threads gives the same diagram") {
