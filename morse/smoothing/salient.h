@@ -101,7 +101,8 @@ struct SalientResult {
 /// 0. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
 /// that nothing overflows or vanishes on the way.
 ///
-/// O(iterations · n · neighbours), or about n^1.25 in place of n · neighbours if `accuracy` lets it, parallel, the same bits for every number of threads, and for AVX2 and AVX-512;
+/// O(iterations · n · neighbours), or a sum over cells and their rims in place of neighbours if `accuracy` lets
+/// it; parallel, the same bits for every number of threads, and for AVX2 and AVX-512;
 /// without fused multiply-adds results differ by rounding. Throws InvalidArgument on options out of range, and if
 /// the saliency of no iteration is asked for; BadInput if σ comes to nothing on a mesh whose vertices all
 /// coincide.
