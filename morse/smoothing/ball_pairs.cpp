@@ -12,34 +12,6 @@ namespace {
 
 using Run = std::pair<std::uint32_t, std::uint32_t>;
 
-double largest_square(double radius) {
-  double square = std::min(radius * radius, std::numeric_limits<double>::max());
-  while (std::sqrt(square) > radius) square = std::nextafter(square, 0.0);
-  for (;;) {
-    const double next = std::nextafter(square, std::numeric_limits<double>::infinity());
-    if (!std::isfinite(next) || std::sqrt(next) > radius) return square;
-    square = next;
-  }
-}
-
-/// The squares of the smallest and of the largest distance that points of two boxes may have.
-struct Span {
-  double least, most;
-};
-
-Span span_between(const BlockBox& a, const BlockBox& b) {
-  Span span{0, 0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double up = b.high[axis] - a.low[axis];
-    const double down = a.high[axis] - b.low[axis];
-    const double gap = std::max(0.0, -std::min(up, down));
-    const double reach = std::max(up, down);
-    span.least += gap * gap;
-    span.most += reach * reach;
-  }
-  return span;
-}
-
 /// Set bits of `lanes` masks, 8 bytes at a time: not every processor counts bits by itself.
 template <class Mask>
 unsigned count_bits(const Mask* masks, std::size_t lanes) {
@@ -85,8 +57,9 @@ struct BallSearch<Mask>::Tile {
 };
 
 template <class Mask>
-BallSearch<Mask>::BallSearch(const BlockTree& tree, double radius, const PairKernels& kernels)
-    : tree_(tree), square_(largest_square(std::ldexp(radius, -tree.exponent()))) {
+BallSearch<Mask>::BallSearch(const BlockTree& tree, double radius, const PairKernels& kernels,
+                             const CellPairs* shared)
+    : tree_(tree), shared_(shared), square_(largest_square(std::ldexp(radius, -tree.exponent()))) {
   if constexpr (std::is_same_v<Mask, std::uint8_t>)
     cut_ = kernels.cut8;
   else
@@ -103,11 +76,17 @@ void BallSearch<Mask>::collect(std::size_t tile, Tile& found) const {
   const BlockBox& own = tree_.box(tile, tile + 1);
   found.runs.clear();
   found.blocks.clear();
-  found.ranges.assign(1, {0, static_cast<std::uint32_t>(tree_.block_count())});
+  if (shared_ != nullptr) {
+    shared_->rest(tile, found.ranges);
+    std::reverse(found.ranges.begin(), found.ranges.end());
+  } else {
+    found.ranges.assign(1, {0, static_cast<std::uint32_t>(tree_.block_count())});
+  }
   while (!found.ranges.empty()) {
     const auto [first, last] = found.ranges.back();
     found.ranges.pop_back();
-    const Span span = span_between(own, tree_.box(first, last));
+    if (last <= self) continue;
+    const SquareSpan span = squares_between(own, tree_.box(first, last));
     if (span.least > outside) continue;
     if (first > self && last <= full_blocks && span.most < inside) {
       if (!found.runs.empty() && found.runs.back().second == first)
@@ -122,7 +101,7 @@ void BallSearch<Mask>::collect(std::size_t tile, Tile& found) const {
     }
     const std::uint32_t middle = (first + last) / 2;
     found.ranges.emplace_back(middle, last);
-    if (middle > self) found.ranges.emplace_back(first, middle);
+    found.ranges.emplace_back(first, middle);
   }
 }
 

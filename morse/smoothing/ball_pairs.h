@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "morsel/morse/smoothing/block_tree.h"
+#include "morsel/morse/smoothing/cell_pairs.h"
 #include "morsel/morse/smoothing/pair_kernels.h"
 
 namespace morsel::morse {
@@ -34,8 +35,10 @@ struct BallPairs {
 template <class Mask>
 class BallSearch {
  public:
-  /// Mask has a bit for each of the tree's lanes. The tree must outlive this.
-  BallSearch(const BlockTree& tree, double radius, const PairKernels& kernels);
+  /// Mask has a bit for each of the tree's lanes. Pairs of `shared`, if not null, are left out. The tree and
+  /// they must outlive this.
+  BallSearch(const BlockTree& tree, double radius, const PairKernels& kernels,
+             const CellPairs* shared = nullptr);
 
   /// The pairs of the tiles first … last − 1. Takes about as long as one pass over the pairs.
   BallPairs<Mask> find(std::size_t first, std::size_t last) const;
@@ -46,6 +49,7 @@ class BallSearch {
   void decide(std::size_t tile, Tile& found) const;
 
   const BlockTree& tree_;
+  const CellPairs* shared_;
   CutFunction<Mask> cut_;
   double square_;  // the largest s whose square root, as computed, is at most the radius
 };

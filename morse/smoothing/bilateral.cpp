@@ -15,6 +15,7 @@
 #include "morsel/morse/smoothing/ball_pairs.h"
 #include "morsel/morse/smoothing/block_tree.h"
 #include "morsel/morse/smoothing/pair_kernels.h"
+#include "morsel/morse/smoothing/shared_sums.h"
 
 namespace morsel::morse {
 namespace {
@@ -52,6 +53,8 @@ class BilateralFilter::Engine {
   virtual ~Engine() = default;
   virtual void apply(std::span<const double> values, std::optional<double> sigma_s, std::span<double> result,
                      const Report& report) = 0;
+  virtual std::optional<double> gain(std::span<const double> values, double sigma_s) const = 0;
+  virtual double error() const = 0;
   virtual std::uint64_t pairs() const = 0;
 };
 
@@ -64,17 +67,22 @@ class BilateralFilter::EngineOf final : public Engine {
       : progress_(progress),
         kernels_(pair_kernels(options.instructions)),
         tree_(points, kLanes, progress),
-        search_(tree_, options.radius, kernels_),
+        shared_(options.tolerance > 0
+                    ? std::make_unique<SharedSums>(
+                          tree_, SharedSums::Options{options.radius, options.sigma, options.tolerance},
+                          kernels_, progress)
+                    : nullptr),
+        search_(tree_, options.radius, kernels_, shared_ ? &shared_->pairs() : nullptr),
         memory_left_(options.memory),
         per_sigma_(std::min(kUnit / std::ldexp(options.sigma, -tree_.exponent()), 1e300)),
-        values_(points.size()) {
+        values_(tree_.block_count() * kLanes) {
     if (tree_.block_count() > 0) divide(0, tree_.block_count(), chunk_size(points.size()) / kLanes);
   }
 
   void apply(std::span<const double> values, std::optional<double> sigma_s, std::span<double> result,
              const Report& report) override {
     const std::span<const core::Index> order = tree_.order();
-    core::parallel_for_each(order.size(), [&](std::size_t i) { values_[i] = values[order[i]]; });
+    sort(values, values_);
     numerators_.assign(order.size(), 0);
     choose_step(sigma_s);
     if (!sigma_s) {
@@ -91,6 +99,8 @@ class BilateralFilter::EngineOf final : public Engine {
           [&](double done) { report(sigma_s ? done : 0.25 + 0.75 * done); });
     else if (!counted_)
       run(Pass::spread, 1, report);
+    if (shared_ && !(sigma_s && shared_->complete(values_, *sigma_s, numerators_, denominators_)))
+      failed_ = true;
     core::parallel_for_each(order.size(), [&](std::size_t i) {
       const bool none = sigma_s ? *sigma_s == 0 : units_[i] == 0;
       result[order[i]] = none ? 0 : numerators_[i] / denominators_[i];
@@ -100,7 +110,19 @@ class BilateralFilter::EngineOf final : public Engine {
   std::uint64_t pairs() const override {
     std::uint64_t sum = tree_.size();
     for (const Chunk& chunk : chunks_) sum += chunk.pair_count;
-    return sum;
+    return shared_ ? sum + shared_->pairs().point_pairs() : sum;
+  }
+
+  std::optional<double> gain(std::span<const double> values, double sigma_s) const override {
+    if (!shared_) return std::nullopt;
+    AlignedVector<double> sorted(values_.size());
+    sort(values, sorted);
+    return shared_->gain(sorted, sigma_s);
+  }
+
+  double error() const override {
+    if (failed_) return std::numeric_limits<double>::infinity();
+    return shared_ ? shared_->error() : 0;
   }
 
  private:
@@ -117,6 +139,13 @@ class BilateralFilter::EngineOf final : public Engine {
     AlignedVector<double> values;
     double step = 1;  // their unit
   };
+
+  /// Brings values in the tree's order, with room for all lanes of the last block.
+  void sort(std::span<const double> values, AlignedVector<double>& sorted) const {
+    const std::span<const core::Index> order = tree_.order();
+    core::parallel_for_each(sorted.size(),
+                            [&](std::size_t i) { sorted[i] = values[order[std::min(i, order.size() - 1)]]; });
+  }
 
   /// Steps of values for the float32 kernels, relative to the middle of the values. Where σ_s is fixed, its unit is
   /// a power of two in steps, which a float holds exactly.
@@ -285,6 +314,7 @@ class BilateralFilter::EngineOf final : public Engine {
   const core::Progress& progress_;
   const PairKernels& kernels_;
   BlockTree tree_;
+  std::unique_ptr<SharedSums> shared_;
   BallSearch<Mask> search_;
   std::vector<Chunk> chunks_;
   std::atomic<std::size_t> memory_left_;
@@ -292,8 +322,9 @@ class BilateralFilter::EngineOf final : public Engine {
   double middle_ = 0;
   double step_ = 1;
   bool counted_ = false;
+  bool failed_ = false;
   // In the tree's order:
-  std::vector<double> values_;
+  AlignedVector<double> values_;    // with all lanes of the last block
   std::vector<double> numerators_;  // or the largest differences
   std::vector<double> denominators_;
   std::vector<double> units_;  // kUnit / σ_s(v)
@@ -301,7 +332,7 @@ class BilateralFilter::EngineOf final : public Engine {
 
 BilateralFilter::BilateralFilter(std::span<const core::Point> points, const Options& options,
                                  const core::Progress& progress) {
-  if (options.precision == Precision::float64)
+  if (options.precision == Precision::float64 && !(options.tolerance > 0))
     engine_ = std::make_unique<EngineOf<std::uint8_t, double>>(points, options, progress);
   else
     engine_ = std::make_unique<EngineOf<std::uint16_t, float>>(points, options, progress);
@@ -313,6 +344,12 @@ void BilateralFilter::apply(std::span<const double> values, std::optional<double
                             std::span<double> result, const Report& report) {
   engine_->apply(values, sigma_s, result, report);
 }
+
+std::optional<double> BilateralFilter::gain(std::span<const double> values, double sigma_s) const {
+  return engine_->gain(values, sigma_s);
+}
+
+double BilateralFilter::error() const { return engine_->error(); }
 
 std::uint64_t BilateralFilter::pairs() const { return engine_->pairs(); }
 

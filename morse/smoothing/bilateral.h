@@ -36,6 +36,8 @@ class BilateralFilter {
     double sigma;  ///< σ
     Precision precision = Precision::float64;
     InstructionSet instructions = InstructionSet::baseline;  ///< one that the processor has
+    /// Above 0: float32, and pairs of cells share work (see SharedSums) whose expansions are within this, relatively.
+    double tolerance = 0;
     std::size_t memory =
         0;  ///< most bytes for keeping pairs between calls; without it they are found each time
   };
@@ -53,6 +55,11 @@ class BilateralFilter {
   /// none. 0 where σ_s is 0. Values are of order 1. O(pairs), parallel.
   void apply(std::span<const double> values, std::optional<double> sigma_s, std::span<double> result,
              const Report& report);
+
+  /// With a tolerance: about how many times faster that makes a call for such a field; none if it cannot be done.
+  std::optional<double> gain(std::span<const double> values, double sigma_s) const;
+  /// With a tolerance: what the values may be off by, as SharedSums::error() has it; infinite if a call could not be done.
+  double error() const;
 
   /// Pairs (v, x) that a call visits, v itself included; known after the first.
   std::uint64_t pairs() const;

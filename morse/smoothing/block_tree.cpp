@@ -49,6 +49,29 @@ std::size_t longest_axis(const BlockBox& box) {
 
 }  // namespace
 
+SquareSpan squares_between(const BlockBox& a, const BlockBox& b) {
+  SquareSpan span{0, 0};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double up = b.high[axis] - a.low[axis];
+    const double down = a.high[axis] - b.low[axis];
+    const double gap = std::max(0.0, -std::min(up, down));
+    const double reach = std::max(up, down);
+    span.least += gap * gap;
+    span.most += reach * reach;
+  }
+  return span;
+}
+
+double largest_square(double radius) {
+  double square = std::min(radius * radius, std::numeric_limits<double>::max());
+  while (std::sqrt(square) > radius) square = std::nextafter(square, 0.0);
+  for (;;) {
+    const double next = std::nextafter(square, std::numeric_limits<double>::infinity());
+    if (!std::isfinite(next) || std::sqrt(next) > radius) return square;
+    square = next;
+  }
+}
+
 BlockTree::BlockTree(std::span<const Point> points, std::size_t lanes, const core::Progress& progress)
     : lanes_(lanes), exponent_(exponent_of(points)), order_(points.size()) {
   const std::size_t blocks = (points.size() + lanes - 1) / lanes;

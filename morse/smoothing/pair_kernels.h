@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "morsel/morse/smoothing/cell_kernels.h"
 #include "morsel/morse/smoothing/instruction_set.h"
 
 namespace morsel::morse {
@@ -73,6 +74,7 @@ struct PairKernels {
   PairFunctions<double, std::uint8_t> double8;    ///< blocks of 8
   PairFunctions<double, std::uint16_t> double16;  ///< blocks of 16
   PairFunctions<float, std::uint16_t> float16;
+  CellKernels cells;
 };
 
 /// The kernels for an instruction set that the processor has.

@@ -8,6 +8,8 @@ namespace morsel::morse {
 namespace {
 
 #include "morsel/morse/smoothing/pair_kernels.inc"
+// after it:
+#include "morsel/morse/smoothing/cell_kernels.inc"
 
 struct Doubles {
   using Real = double;

@@ -6,6 +6,8 @@ namespace morsel::morse {
 namespace {
 
 #include "morsel/morse/smoothing/pair_kernels.inc"
+// after it:
+#include "morsel/morse/smoothing/cell_kernels.inc"
 
 using Double2 = double __attribute__((vector_size(16)));
 using Int2 = std::int64_t __attribute__((vector_size(16)));

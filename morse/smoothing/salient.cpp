@@ -34,19 +34,33 @@ double standard_deviation(std::span<const double> values) {
   return std::sqrt(sum([&](double g) { return (g - mean) * (g - mean); }) / n);
 }
 
-BilateralFilter::Options filter_options(const SalientOptions& options, double sigma) {
+/// Relative errors of the expansions, over the accuracy: their errors mostly cancel in a sum, and may grow from
+/// iteration to iteration.
+constexpr double kToleranceOverAccuracy = 10;
+/// What single precision keeps well enough.
+constexpr double kLeastAccuracy = 1e-5;
+/// From here on the estimate of the gain is sure to be one.
+constexpr double kLeastGain = 1.25;
+
+BilateralFilter::Options filter_options(const SalientOptions& options, double sigma,
+                                        SalientAlgorithm algorithm) {
   const bool repeated = options.iterations > 1 || options.range.kind == ValueRange::Kind::local;
-  return {options.support * sigma, sigma, options.precision,
-          options.instructions.value_or(best_instruction_set()), repeated ? options.memory : 0};
+  const bool shared = algorithm == SalientAlgorithm::near_linear;
+  return {options.support * sigma,
+          sigma,
+          options.accuracy >= kLeastAccuracy ? Precision::float32 : options.precision,
+          options.instructions.value_or(best_instruction_set()),
+          shared ? kToleranceOverAccuracy * options.accuracy : 0,
+          repeated ? options.memory : 0};
 }
 
 class Filter {
  public:
   Filter(const core::ScalarField& input, const SalientOptions& options, double sigma,
-         const core::Progress& progress)
+         SalientAlgorithm algorithm, const core::Progress& progress)
       : options_(options),
         progress_(progress),
-        filter_(input.mesh().positions(), filter_options(options, sigma), progress) {
+        filter_(input.mesh().positions(), filter_options(options, sigma, algorithm), progress) {
     const std::size_t n = input.values().size();
     const double largest = std::max(std::abs(input.min()), std::abs(input.max()));
     // A power of two changes no digit, and keeps differences and squares in range.
@@ -55,6 +69,8 @@ class Filter {
     saliency_.assign(n, 0.0);
     core::parallel_for_each(n,
                             [&](std::size_t v) { values_[v] = std::ldexp(input.values()[v], -exponent_); });
+    const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
+    if (*most > *least) extent_ = *most - *least;
     const ValueRange& range = options.range;
     if (range.kind == ValueRange::Kind::local) return;
     if (range.kind == ValueRange::Kind::deviations) {
@@ -70,7 +86,33 @@ class Filter {
   std::vector<double> values() const { return unscaled(values_); }
   std::vector<double> saliency() const { return unscaled(saliency_); }
   std::uint64_t pairs() const { return filter_.pairs(); }
+  /// Single precision because of the accuracy.
+  bool rounded() const { return options_.accuracy >= kLeastAccuracy; }
+  /// See BilateralFilter; over the input's extent.
+  double error() const { return filter_.error() / extent_; }
 
+  /// Why the near-linear algorithm is not for this input; empty if it is.
+  std::string why_exact() const {
+    const std::optional<double> gain = filter_.gain(values_, scaled_sigma_s_.value_or(0));
+    if (!gain)
+      return "cells as small as the accuracy asks for hold too few vertices, or values spread too far";
+    return *gain < kLeastGain && !options_.always_near_linear ? "it is the faster one" : "";
+  }
+
+  /// All iterations; false if the error was found to be above the accuracy.
+  bool run() {
+    for (int iteration = 0; iteration < options_.iterations; ++iteration) {
+      iterate(iteration);
+      if (options_.accuracy > 0 && !(error() <= options_.accuracy)) return false;
+      if (!options_.on_iteration) continue;
+      const std::vector<double> values = this->values();
+      const std::vector<double> saliency = this->saliency();
+      options_.on_iteration({iteration + 1, values, saliency});
+    }
+    return true;
+  }
+
+ private:
   void iterate(int iteration) {
     filter_.apply(values_, scaled_sigma_s_, saliency_, [&](double done) {
       progress_.update("salient smoothing", (iteration + done) / options_.iterations);
@@ -78,7 +120,6 @@ class Filter {
     core::parallel_for_each(values_.size(), [&](std::size_t v) { values_[v] += saliency_[v]; });
   }
 
- private:
   std::vector<double> unscaled(std::vector<double> values) const {
     core::parallel_for_each(values.size(),
                             [&](std::size_t v) { values[v] = std::ldexp(values[v], exponent_); });
@@ -90,6 +131,7 @@ class Filter {
   BilateralFilter filter_;
   std::optional<double> sigma_s_;  // none if local
   int exponent_ = 0;               // what follows is the field's, divided by 2^exponent_
+  double extent_ = 1;
   std::optional<double> scaled_sigma_s_;
   std::vector<double> values_;
   std::vector<double> saliency_;
@@ -107,6 +149,8 @@ void check(const SalientOptions& options) {
     throw InvalidArgument("there is no saliency without an iteration: iterations must be at least 1");
   if (!is_positive(options.sigma.value))
     throw InvalidArgument("sigma must be finite and above 0, not " + core::to_string(options.sigma));
+  if (!(options.accuracy >= 0 && options.accuracy <= 1))
+    throw InvalidArgument("accuracy must be between 0 and 1, not " + core::shortest(options.accuracy));
   if (!is_positive(options.support))
     throw InvalidArgument("support must be finite and above 0, not " + core::shortest(options.support));
   const bool has_value =
@@ -117,6 +161,14 @@ void check(const SalientOptions& options) {
   if (options.instructions && std::find(sets.begin(), sets.end(), *options.instructions) == sets.end())
     throw InvalidArgument("this processor, or this build, does not have the instruction set " +
                           std::string(to_string(*options.instructions)));
+}
+
+/// Why the options alone rule out the near-linear algorithm; empty if they do not.
+std::string why_exact(const SalientOptions& options) {
+  if (options.range.kind == ValueRange::Kind::local) return "a local range needs every pair";
+  if (options.accuracy < kLeastAccuracy)
+    return "an accuracy below " + core::shortest(kLeastAccuracy) + " needs every pair";
+  return "";
 }
 
 double sigma_on(const core::TriangleMesh& mesh, const SalientOptions& options) {
@@ -145,11 +197,17 @@ class Salient final : public core::Method {
                                    {"range", to_string(options_.range)},
                                    {"support", options_.support},
                                    {"classify", options_.return_saliency ? "saliency" : "smoothed"},
-                                   {"precision", to_string(options_.precision)}};
+                                   {"precision", to_string(options_.precision)},
+                                   {"accuracy", options_.accuracy}};
     if (result.sigma_s) parameters.emplace_back("sigma_s", *result.sigma_s);
-    return {result.field,
-            std::move(parameters),
-            {{"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)}}};
+    core::Parameters details = {
+        {"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)},
+        {"algorithm", result.algorithm == SalientAlgorithm::exact ? "exact" : "near-linear"},
+        {"promised_error", result.promised_error}};
+    if (result.estimated_error > 0 && std::isfinite(result.estimated_error))
+      details.emplace_back("estimated_error", result.estimated_error);
+    if (!result.reason.empty()) details.emplace_back("exact_because", result.reason);
+    return {result.field, std::move(parameters), std::move(details)};
   }
 
  private:
@@ -188,18 +246,37 @@ SalientResult salient(const core::ScalarField& input, const SalientOptions& opti
   check(options);
   const double sigma = sigma_on(input.mesh(), options);
   progress.update("salient smoothing", 0);
-  Filter filter(input, options, sigma, progress);
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    filter.iterate(iteration);
-    if (!options.on_iteration) continue;
-    const std::vector<double> values = filter.values();
-    const std::vector<double> saliency = filter.saliency();
-    options.on_iteration({iteration + 1, values, saliency});
+  std::string reason;
+  double estimate = 0;
+  const auto result = [&](const Filter& filter, SalientAlgorithm algorithm) {
+    progress.update("salient smoothing", 1);
+    const bool promised = filter.rounded() || algorithm == SalientAlgorithm::near_linear;
+    return SalientResult{keep_order(input, options.return_saliency ? filter.saliency() : filter.values()),
+                         sigma,
+                         filter.sigma_s(),
+                         filter.pairs(),
+                         algorithm,
+                         promised ? options.accuracy : 0,
+                         estimate,
+                         reason};
+  };
+  if (options.accuracy > 0 && options.iterations > 0) {
+    reason = why_exact(options);
+    if (reason.empty()) {
+      Filter filter(input, options, sigma, SalientAlgorithm::near_linear, progress);
+      reason = filter.why_exact();
+      if (reason.empty()) {
+        const bool kept = filter.run();
+        estimate = filter.error();
+        if (kept) return result(filter, SalientAlgorithm::near_linear);
+        reason = "the near-linear algorithm may have erred by more than the accuracy";
+      }
+    }
   }
-  progress.update("salient smoothing", 1);
-  if (options.iterations == 0) return {input, sigma, filter.sigma_s(), 0};
-  return {keep_order(input, options.return_saliency ? filter.saliency() : filter.values()), sigma,
-          filter.sigma_s(), filter.pairs()};
+  Filter filter(input, options, sigma, SalientAlgorithm::exact, progress);
+  filter.run();
+  if (options.iterations == 0) return {input, sigma, filter.sigma_s()};
+  return result(filter, SalientAlgorithm::exact);
 }
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
@@ -216,10 +293,15 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
       reader.number("support", 2, core::kPositive, "radius of the neighbourhood, in multiples of sigma");
   options.return_saliency = reader.choice("classify", "smoothed", {"smoothed", "saliency"},
                                           "the field to return: f, or the last S instead") == "saliency";
-  if (reader.choice("precision", "double", {"double", "single"},
-                    "of weights and sums; single is faster, up to 4e-6 of the extent off after 10 iterations") ==
+  if (reader.choice(
+          "precision", "double", {"double", "single"},
+          "of weights and sums; single is faster, up to 2e-6 of the extent off after 10 iterations") ==
       "single")
     options.precision = Precision::float32;
+  options.accuracy =
+      reader.number("accuracy", 0, {0, false, 1},
+                    "share of the field's extent by which the "
+                    "result may be off, so that large meshes take less time; 0 for an exact result");
   check(options);
   return std::make_unique<Salient>(std::move(options));
 }

@@ -44,19 +44,34 @@ struct SalientIteration {
   std::span<const double> saliency;  ///< the S that it added
 };
 
+/// How the sums over pairs are computed.
+enum class SalientAlgorithm : std::uint8_t {
+  exact,       ///< pair by pair
+  near_linear  ///< cells of near vertices share what they add to one another: see SharedSums
+};
+
 struct SalientOptions {
   int iterations = 10;                             ///< 0 returns the input as it is
   core::Length sigma = core::Length::epsilons(8);  ///< σ, above 0
   ValueRange range = {};                           ///< σ_s
   double support = 2;                              ///< the neighbourhood's radius in σ, above 0
   bool return_saliency = false;                    ///< return the last S instead of f
+  /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The
+  /// near-linear algorithm runs where it is the faster one by an estimate, which depends on the input alone. It
+  /// measures its error at 512 vertices in each iteration and follows what becomes of it (SharedSums::error()).
+  /// If it cannot be done (with a local range, or an accuracy below 1e-5), or if that comes to more than the
+  /// accuracy, the exact algorithm runs; if the accuracy is at least 1e-5, in single precision.
+  double accuracy = 0;
+  /// Not only where it is the faster one: to test and to measure.
+  bool always_near_linear = false;
   /// Called after each iteration, by the calling thread; the spans live as long as the call. Observing costs
-  /// no second run: a run of 20 iterations passes through the results of 1 … 19.
+  /// no second run: a run of 20 iterations passes through the results of 1 … 19. Numbers begin at 1 again if the
+  /// near-linear algorithm is given up.
   std::function<void(const SalientIteration&)> on_iteration = {};
   /// Most bytes for storing neighbours between iterations; without enough of it they are searched for in
   /// every iteration, which takes longer and gives the same bits.
   std::size_t memory = std::size_t{1} << 30;
-  /// What weights and sums are computed in. float32 takes half the time and stays within about 4e-6 (as seen) of the field's
+  /// What weights and sums are computed in. float32 takes half the time and stays within about 2e-6 (as seen) of the field's
   /// extent after 10 iterations; neighbourhoods are decided in double precision all the same.
   Precision precision = Precision::float64;
   /// The processor's best if not given. Only one of instruction_sets().
@@ -67,7 +82,13 @@ struct SalientResult {
   core::ScalarField field;
   double sigma;                   ///< σ in the mesh's unit
   std::optional<double> sigma_s;  ///< σ_s in the field's unit where it is fixed, that is unless local
-  std::uint64_t pairs = 0;        ///< pairs (v, x) that an iteration visits, v itself included
+  std::uint64_t pairs = 0;        ///< pairs (v, x) within reach, v itself included
+  SalientAlgorithm algorithm = SalientAlgorithm::exact;
+  double promised_error =
+      0;  ///< of the input's extent: the accuracy if pairs were not summed in double precision
+  double estimated_error =
+      0;                    ///< the same, as estimated by the near-linear algorithm, even if it was given up
+  std::string reason = {};  ///< why the exact algorithm ran though an accuracy was given
 };
 
 /// Iterates f(v) ← f(v) + S(v), for all v at once, with
@@ -80,14 +101,15 @@ struct SalientResult {
 /// 0. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
 /// that nothing overflows or vanishes on the way.
 ///
-/// O(iterations · n · neighbours), parallel, the same bits for every number of threads, and for AVX2 and AVX-512;
+/// O(iterations · n · neighbours), or a sum over cells and their rims in place of neighbours if `accuracy` lets
+/// it; parallel, the same bits for every number of threads, and for AVX2 and AVX-512;
 /// without fused multiply-adds results differ by rounding. Throws InvalidArgument on options out of range, and if
 /// the saliency of no iteration is asked for; BadInput if σ comes to nothing on a mesh whose vertices all
 /// coincide.
 SalientResult salient(const core::ScalarField& input, const SalientOptions& options = {},
                       const core::Progress& progress = {});
 
-/// Keys: iterations, sigma, range, support, classify=smoothed|saliency, precision=double|single.
+/// Keys: iterations, sigma, range, support, classify=smoothed|saliency, precision=double|single, accuracy.
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

@@ -52,8 +52,17 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                               {"support", 2.0},
                                               {"classify", "smoothed"},
                                               {"precision", "double"},
+                                              {"accuracy", 0.0},
                                               {"sigma_s", *direct.sigma_s}});
-  CHECK(result.details == core::Parameters{{"pairs_per_iteration", static_cast<std::int64_t>(direct.pairs)}});
+  CHECK(result.details == core::Parameters{{"pairs_per_iteration", static_cast<std::int64_t>(direct.pairs)},
+                                           {"algorithm", "exact"},
+                                           {"promised_error", 0.0}});
+  const core::MethodResult small = apply(field, {{"accuracy", "1e-4"}, {"iterations", "1"}});
+  CHECK(small.parameters[6] == core::Parameters::value_type{"accuracy", 1e-4});
+  REQUIRE(small.details.size() == 4);
+  CHECK(small.details[1] == core::Parameters::value_type{"algorithm", "exact"});
+  CHECK(small.details[2] == core::Parameters::value_type{"promised_error", 1e-4});
+  CHECK(small.details[3].first == "exact_because");
 
   const core::MethodResult local = apply(field, {{"iterations", "2"},
                                                  {"sigma", "0.25"},
@@ -65,7 +74,8 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                              {"range", "local"},
                                              {"support", 1.5},
                                              {"classify", "saliency"},
-                                             {"precision", "double"}});
+                                             {"precision", "double"},
+                                             {"accuracy", 0.0}});
   morse::SalientOptions options{
       2, core::Length::absolute(0.25), {morse::ValueRange::Kind::local, 1}, 1.5, true};
   CHECK(values_of(local.field) == values_of(morse::salient(field, options).field));
@@ -87,7 +97,8 @@ TEST_CASE("salient keys are checked when the method is made") {
       {"sigma", "0"},        {"sigma", "-8eps"},    {"sigma", "infeps"},
       {"precision", "half"}, {"sigma", "8 eps"},    {"range", "2sd"},
       {"range", "0"},        {"support", "0"},      {"support", "nan"},
-      {"classify", "both"},  {"sigmas", "3"}};
+      {"classify", "both"},  {"sigmas", "3"},       {"accuracy", "-1e-4"},
+      {"accuracy", "2"},     {"accuracy", "exact"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
     CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
@@ -96,7 +107,7 @@ TEST_CASE("salient keys are checked when the method is made") {
   CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
-  REQUIRE(help.declared().size() == 6);
+  REQUIRE(help.declared().size() == 7);
   const std::vector<std::pair<std::string, std::string>> defaults = {
       {"iterations", "10"}, {"sigma", "8eps"}, {"range", "1std"}, {"support", "2"}, {"classify", "smoothed"}};
   for (std::size_t i = 0; i < defaults.size(); ++i) {

@@ -1,0 +1,84 @@
+#pragma once
+/// The bilateral filter's sums over pairs of cells, shared between the points of a cell.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/morse/smoothing/aligned.h"
+#include "morsel/morse/smoothing/block_tree.h"
+#include "morsel/morse/smoothing/cell_pairs.h"
+#include "morsel/morse/smoothing/pair_kernels.h"
+
+namespace morsel::morse {
+
+/// Sums over all points x of a cell's partners (see CellPairs) at all points v of the cell, in time that does not
+/// grow with their product. Both weights become products of a function of v and one of x:
+///
+///   exp(−(a − b)²/2) = c Σ_k exp(−(a − s_k)²) exp(−(b − s_k)²) for places s_k = s_0 + k h in units of σ_s. With h =
+///   0.575 this holds to 7e-7, relatively, wherever (a + b)/2 lies 2.25 from the ends of the grid (Poisson's sum);
+///
+///   exp(−‖A + p − q‖²/2), with A the offset of the cells' centres and p, q those of the points, by its Taylor
+///   polynomial in p − q (the fast Gauss transform of Greengard and Strain 1991 with Taylor series on both sides).
+///
+/// So a cell keeps Σ_x (−q)^m/m! exp(−(b − s_k)²) per monomial m and place k, and its partners take from it.
+/// Points whose value is too near the grid's ends, or whose own weight could be upset by a small error, are summed
+/// up exactly, point by point, and so are a few hundred more, to measure the error.
+///
+/// All is in the order of the tree. Reading tree and pairs only; the same bits for any number of threads.
+class SharedSums {
+ public:
+  struct Options {
+    double radius;
+    double sigma;
+    double tolerance;  ///< as in CellPairs
+  };
+  /// O(n). The tree must outlive this.
+  SharedSums(const BlockTree& tree, const Options& options, const PairKernels& kernels,
+             const core::Progress& progress);
+
+  const CellPairs& pairs() const { return pairs_; }
+  /// Roughly how many times faster than visiting all pairs; none if it cannot be done for these values.
+  std::optional<double> gain(std::span<const double> values, double sigma_s) const;
+  /// Adds to Σ w d and Σ w, which hold the pairs not shared, what is missing in them, and keeps account of the error.
+  /// `values` begins at a cache line and has room for all lanes of the last block. False, with nothing of use done, if it cannot be done.
+  bool complete(std::span<const double> values, double sigma_s, std::span<double> numerators,
+                std::span<double> denominators);
+  /// What the largest error of the values may be by now, if after each complete() every value grew by Σ w d / Σ w,
+  /// in their unit. To first order: the standard error measured in each step, grown as each value's own error grows
+  /// in the steps that follow and as the average of its neighbours' does.
+  double error() const;
+
+ private:
+  struct Grid {
+    double first;  // value of the first place
+    int panels;
+    double low, high;  // the values that it serves
+    double outside;    // how many it does not
+  };
+  struct Point;
+  class Pass;
+  std::optional<Grid> grid_for(std::span<const double> values, double sigma_s) const;
+  void add(const Grid& grid, std::span<const double> values, double sigma_s, std::span<double> numerators,
+           std::span<double> denominators);
+  void account(std::span<const double> values, double sigma_s, std::span<const double> numerators,
+               std::span<const double> denominators, std::span<const double> growth,
+               std::span<const std::uint8_t> done);
+  Point exact(std::size_t point, std::span<const double> values, double sigma_s) const;
+
+  const BlockTree& tree_;
+  const CellKernels& kernels_;
+  const core::Progress& progress_;
+  CellPairs pairs_;
+  double square_;                  // of the radius, in the tree's coordinates
+  double per_sigma_;               // 1 / σ in them
+  std::vector<double> shared_;     // Σ w of pairs of cells
+  std::vector<double> squares_;    // Σ w (d / σ_s)² of these
+  std::vector<double> variances_;  // of the values' errors by now
+  double drift_ = 0;               // of the error of a mean of neighbours
+};
+
+}  // namespace morsel::morse
