@@ -39,7 +39,8 @@ Listing time_listing(const core::ScalarField& field, double sigma, double sigma_
 
 double largest_difference(const core::ScalarField& a, const core::ScalarField& b) {
   double most = 0;
-  for (std::size_t v = 0; v < a.values().size(); ++v) most = std::max(most, std::abs(a.values()[v] - b.values()[v]));
+  for (std::size_t v = 0; v < a.values().size(); ++v)
+    most = std::max(most, std::abs(a.values()[v] - b.values()[v]));
   return most;
 }
 
@@ -60,7 +61,6 @@ void run_salient(const Plan& plan, const Report& report) {
     const morse::SalientResult resolved = morse::salient(field, {.iterations = 0});
     const Listing listing = time_listing(field, resolved.sigma, resolved.sigma_s.value(), 40000);
     std::optional<core::ScalarField> exact;
-    std::optional<std::vector<double>> reference;  // by the listing itself where that takes seconds
     const auto run = [&](const std::string& name, int threads, const morse::SalientOptions& options) {
       const core::ThreadLimit limit(threads);
       std::optional<morse::SalientResult> result;
@@ -81,6 +81,8 @@ void run_salient(const Plan& plan, const Report& report) {
       if (!exact) exact = result->field;
       row.error = largest_difference(result->field, *exact) / extent;
       row.note = std::to_string(morse::classify(result->field).total()) + " critical points";
+      if (options.accuracy > 0 && result->algorithm == morse::SalientAlgorithm::exact)
+        row.note += ", exact: " + result->reason;
       if (listing.sampled < field.values().size())
         row.note += ", listing on " + std::to_string(listing.sampled) + " vertices";
       report(row);
@@ -91,8 +93,8 @@ void run_salient(const Plan& plan, const Report& report) {
           {.iterations = kIterations, .sigma = resolved.sigma, .support = 2, .sigma_s = resolved.sigma_s});
       exact = core::ScalarField(work.mesh, values);
     }
-    const bool large = pieces > 4;  // exact smoothing takes minutes there
     for (const int threads : plan.threads) {
+      const bool large = pieces > 2;  // more than one run would take minutes
       if (large && threads != plan.threads.back()) continue;
       for (const morse::Precision precision : {morse::Precision::float64, morse::Precision::float32})
         for (const morse::InstructionSet set : morse::instruction_sets()) {
@@ -105,6 +107,11 @@ void run_salient(const Plan& plan, const Report& report) {
                   std::string(to_string(set)),
               threads, options);
         }
+      if (pieces < 4) continue;
+      morse::SalientOptions options;
+      options.accuracy = 1e-4;
+      options.always_near_linear = true;
+      run("salient accuracy=1e-4", threads, options);
     }
   }
 }
