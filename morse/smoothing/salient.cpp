@@ -34,6 +34,9 @@ double standard_deviation(std::span<const double> values) {
   return std::sqrt(sum([&](double g) { return (g - mean) * (g - mean); }) / n);
 }
 
+/// Relative errors of the expansions, over the accuracy: they mostly cancel in a sum, and what is left may grow
+/// from iteration to iteration.
+constexpr double kToleranceOverAccuracy = 5;
 /// What single precision keeps well enough.
 constexpr double kLeastAccuracy = 1e-5;
 /// The gain is estimated too high by up to this (the cells' part waits for memory).
@@ -47,7 +50,7 @@ BilateralFilter::Options filter_options(const SalientOptions& options, double si
           sigma,
           options.accuracy >= kLeastAccuracy ? Precision::float32 : options.precision,
           options.instructions.value_or(best_instruction_set()),
-          shared ? options.accuracy : 0,
+          shared ? kToleranceOverAccuracy * options.accuracy : 0,
           repeated ? options.memory : 0};
 }
 

@@ -58,11 +58,11 @@ struct SalientOptions {
   bool return_saliency = false;                    ///< return the last S instead of f
   /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The near-linear
   /// algorithm runs where it is the faster one by an estimate, which depends on the input alone. The expansions it
-  /// uses err by less than this in each weight, relatively; what comes of that in the values is measured at 512
+  /// uses err by less than 5 times this in each weight, relatively; what comes of that in the values is measured at 512
   /// vertices in each iteration, followed through the iterations and taken eightfold (SharedSums::error(), an
   /// estimate, no bound). If that is more than the accuracy, or with a local range, or below 1e-5, the exact
-  /// algorithm runs; if the accuracy is at least 1e-5, in single precision. Fields with heavy-tailed noise, whose
-  /// errors grow a thousandfold in ten iterations, mostly end up there.
+  /// algorithm runs; if the accuracy is at least 1e-5, in single precision. With heavy-tailed noise
+  /// errors may grow a thousandfold in ten iterations, so that an accuracy of 1e-4 may be out of reach.
   double accuracy = 0;
   /// Not only where it is the faster one: to test and to measure.
   bool always_near_linear = false;
