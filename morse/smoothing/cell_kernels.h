@@ -56,7 +56,7 @@ struct PointBlocks {
 };
 
 struct CellKernels {
-  /// weights[i] = e^{−y²} on the grid, for 16 values in steps of the grid from its first place.
+  /// weights[i] = e^{−y²} on the grid, for 16 values in steps of the grid from its middle place (number 8 · panels).
   void (*weigh)(const CellKernelOptions& options, const float* values, float* weights);
   /// moments[m] += Σ over the points of monomial m of −at, times their weights.
   void (*gather)(const CellKernelOptions& options, const CellPoints& points, const float* weights,

@@ -61,7 +61,7 @@ void flatten(const std::vector<Found>& found, std::vector<std::uint32_t> Found::
   core::parallel_for(0, found.size(), 64, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c)
       std::copy((found[c].*list).begin(), (found[c].*list).end(),
-                &all[0] + (ends[c] - (found[c].*list).size()));
+                all.data() + (ends[c] - (found[c].*list).size()));
   });
 }
 

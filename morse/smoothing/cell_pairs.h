@@ -24,7 +24,7 @@ struct CellLayer {
   std::size_t size() const { return pair_ends.size(); }
   std::span<const std::uint32_t> partners_of(std::size_t cell) const {
     const std::size_t begin = cell == 0 ? 0 : pair_ends[cell - 1];
-    return {&partners[0] + begin, pair_ends[cell] - begin};
+    return {partners.data() + begin, pair_ends[cell] - begin};
   }
 };
 

@@ -34,13 +34,13 @@ double standard_deviation(std::span<const double> values) {
   return std::sqrt(sum([&](double g) { return (g - mean) * (g - mean); }) / n);
 }
 
-/// Relative errors of the expansions, over the accuracy: their errors mostly cancel in a sum, and may grow from
-/// iteration to iteration.
-constexpr double kToleranceOverAccuracy = 10;
+/// Relative errors of the expansions, over the accuracy: they mostly cancel in a sum, and what is left may grow
+/// from iteration to iteration.
+constexpr double kToleranceOverAccuracy = 5;
 /// What single precision keeps well enough.
 constexpr double kLeastAccuracy = 1e-5;
-/// From here on the estimate of the gain is sure to be one.
-constexpr double kLeastGain = 1.25;
+/// The gain is estimated too high by up to this (the cells' part waits for memory).
+constexpr double kLeastGain = 1.75;
 
 BilateralFilter::Options filter_options(const SalientOptions& options, double sigma,
                                         SalientAlgorithm algorithm) {

@@ -56,11 +56,13 @@ struct SalientOptions {
   ValueRange range = {};                           ///< σ_s
   double support = 2;                              ///< the neighbourhood's radius in σ, above 0
   bool return_saliency = false;                    ///< return the last S instead of f
-  /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The
-  /// near-linear algorithm runs where it is the faster one by an estimate, which depends on the input alone. It
-  /// measures its error at 512 vertices in each iteration and follows what becomes of it (SharedSums::error()).
-  /// If it cannot be done (with a local range, or an accuracy below 1e-5), or if that comes to more than the
-  /// accuracy, the exact algorithm runs; if the accuracy is at least 1e-5, in single precision.
+  /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The near-linear
+  /// algorithm runs where it is the faster one by an estimate, which depends on the input alone. The expansions it
+  /// uses err by less than 5 times this in each weight, relatively; what comes of that in the values is measured at 512
+  /// vertices in each iteration, followed through the iterations and taken eightfold (SharedSums::error(), an
+  /// estimate, no bound). If that is more than the accuracy, or with a local range, or below 1e-5, the exact
+  /// algorithm runs; if the accuracy is at least 1e-5, in single precision. With heavy-tailed noise
+  /// errors may grow a thousandfold in ten iterations, so that an accuracy of 1e-4 may be out of reach.
   double accuracy = 0;
   /// Not only where it is the faster one: to test and to measure.
   bool always_near_linear = false;

@@ -11,8 +11,8 @@
 namespace morsel::morse {
 namespace {
 
-constexpr double kStep = 0.54;  // of the grid, in σ_s
-constexpr double kMargin = 3;   // in σ_s: nearer to the grid's ends no sum is taken from it
+constexpr double kStep = 0.5;  // of the grid, in σ_s
+constexpr double kMargin = 3;  // in σ_s: nearer to the grid's ends no sum is taken from it
 constexpr double kLog2E = 1.4426950408889634;
 /// Whose own error grows by more than this in a step is summed up exactly.
 constexpr double kUnstable = 1.2;
@@ -149,6 +149,7 @@ class SharedSums::Pass {
         values_(values),
         per_sigma_(sums.per_sigma_),
         per_place_(1 / (kStep * sigma_s)),
+        middle_(grid.first + kPanel / 2 * grid.panels * kStep * sigma_s),
         width_(static_cast<std::size_t>(grid.panels) * kPanel) {}
 
   std::size_t width() const { return width_; }
@@ -172,7 +173,7 @@ class SharedSums::Pass {
   void places(std::size_t block, float* result) const {
     for (std::size_t i = 0; i < kLanes; ++i)
       result[i] =
-          static_cast<float>(std::clamp((values_[block * kLanes + i] - grid_.first) * per_place_, -1e4, 1e4));
+          static_cast<float>(std::clamp((values_[block * kLanes + i] - middle_) * per_place_, -1e4, 1e4));
   }
 
  private:
@@ -182,6 +183,7 @@ class SharedSums::Pass {
   std::span<const double> values_;
   double per_sigma_;
   double per_place_;
+  double middle_;  // of the grid's places: most values are near it, where floats are fine
   std::size_t width_;
 };
 

@@ -19,7 +19,8 @@ namespace morsel::morse {
 /// grow with their product. Both weights become products of a function of v and one of x:
 ///
 ///   exp(−(a − b)²/2) = c Σ_k exp(−(a − s_k)²) exp(−(b − s_k)²) for places s_k = s_0 + k h in units of σ_s. With h =
-///   0.575 this holds to 7e-7, relatively, wherever (a + b)/2 lies 2.25 from the ends of the grid (Poisson's sum);
+///   0.5 this holds to 6e-9, relatively, for pairs with (a + b)/2 far from the ends of the grid (Poisson's sum), and
+///   to 2e-5 of the largest weight for all those it is used for;
 ///
 ///   exp(−‖A + p − q‖²/2), with A the offset of the cells' centres and p, q those of the points, by its Taylor
 ///   polynomial in p − q (the fast Gauss transform of Greengard and Strain 1991 with Taylor series on both sides).
@@ -48,8 +49,9 @@ class SharedSums {
   bool complete(std::span<const double> values, double sigma_s, std::span<double> numerators,
                 std::span<double> denominators);
   /// What the largest error of the values may be by now, if after each complete() every value grew by Σ w d / Σ w,
-  /// in their unit. To first order: the standard error measured in each step, grown as each value's own error grows
-  /// in the steps that follow and as the average of its neighbours' does.
+  /// in their unit: 8 times the largest standard error of a value. An estimate, no bound: to first order, with the
+  /// error measured in each step at 512 points, and grown as each value's own error grows in the steps that follow
+  /// and as a mean of its neighbours' may.
   double error() const;
 
  private:

@@ -82,6 +82,9 @@ bool check_promise(const NamedField& entry, const SalientOptions& chosen) {
   CHECK(found.reason.empty() == near_linear);
   if (near_linear) CHECK(found.estimated_error <= chosen.accuracy);
   if (near_linear) CHECK(error > 0);
+  if (near_linear) CHECK(error <= 1e-4);
+  // An estimate that is no bound, but no less than half of the truth.
+  if (near_linear) CHECK(error <= 2 * found.estimated_error);
   return near_linear;
 }
 
@@ -92,7 +95,7 @@ TEST_CASE("near linear smoothing keeps its promise on a closed surface") {
   int near_linear = 0;
   for (const NamedField& entry : fields_of(mesh))
     for (const char* range : {"1std", "0.5std", "literal"})
-      near_linear += check_promise(entry, options(1e-3, 0.8, range));
+      near_linear += check_promise(entry, options(2e-3, 0.8, range));
   CHECK(near_linear >= 9);
 }
 
@@ -101,7 +104,7 @@ TEST_CASE("near linear smoothing keeps its promise with other supports") {
   int near_linear = 0;
   for (const NamedField& entry : fields_of(mesh))
     for (const double support : {1.0, 3.0})
-      near_linear += check_promise(entry, options(1e-3, support > 2 ? 0.6 : 1, "1std", support));
+      near_linear += check_promise(entry, options(2e-3, support > 2 ? 0.6 : 1, "1std", support));
   CHECK(near_linear >= 6);
 }
 
@@ -114,7 +117,7 @@ TEST_CASE("near linear smoothing keeps its promise with borders and several comp
         noisy(punctured_sphere(5, 9), 0.001, 6).mesh()}) {
     const double sigma = 0.2 * mesh.bounding_box().diagonal();
     for (const NamedField& entry : fields_of(mesh))
-      near_linear += check_promise(entry, options(1e-3, sigma, "1std"));
+      near_linear += check_promise(entry, options(2e-3, sigma, "1std"));
   }
   CHECK(near_linear >= 8);
 }
@@ -126,7 +129,7 @@ TEST_CASE("near linear smoothing gives the same bits for every number of threads
   for (const int threads : {1, 2, 5})
     for (const std::size_t memory : {std::size_t{0}, std::size_t{1'000'000}, std::size_t{1} << 30}) {
       const core::ThreadLimit limit(threads);
-      SalientOptions chosen = options(1e-3, 0.7, "1std", 2, 2);
+      SalientOptions chosen = options(2e-3, 0.7, "1std", 2, 2);
       chosen.memory = memory;
       const auto result = morse::salient(field, chosen);
       CHECK(result.algorithm == SalientAlgorithm::near_linear);
@@ -142,7 +145,7 @@ TEST_CASE("every instruction set keeps the promise and fused ones give the same 
   std::vector<double> expected;
   for (const morse::InstructionSet set : morse::instruction_sets()) {
     INFO(to_string(set));
-    SalientOptions chosen = options(1e-3, 0.7, "1std", 2, 3);
+    SalientOptions chosen = options(2e-3, 0.7, "1std", 2, 3);
     chosen.instructions = set;
     const auto result = morse::salient(field, chosen);
     CHECK(result.algorithm == SalientAlgorithm::near_linear);
@@ -172,9 +175,9 @@ TEST_CASE("an accuracy gives way to the exact algorithm where it must and says w
   };
   CHECK_THAT(why(options(1e-4, 0.8, "local")), Catch::Contains("local"));
   CHECK_THAT(why(options(1e-6, 0.8, "1std")), Catch::Contains("1e-05"));
-  CHECK_THAT(why(options(1e-3, 0.05, "1std")), Catch::Contains("too few vertices"));
-  CHECK_THAT(why(options(1e-3, 0.8, "1e-9")), Catch::Contains("spread too far"));
-  SalientOptions small = options(1e-2, 1, "1std");
+  CHECK_THAT(why(options(2e-3, 0.05, "1std")), Catch::Contains("too few vertices"));
+  CHECK_THAT(why(options(2e-3, 0.8, "1e-9")), Catch::Contains("spread too far"));
+  SalientOptions small = options(0.02, 1, "1std");
   small.always_near_linear = false;
   CHECK_THAT(why(small), Catch::Contains("faster"));
   // A constant field has no values to share.
