@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
+#include <string_view>
 
 #include "benchmark/published.h"
 #include "benchmark/suites.h"
@@ -11,6 +12,7 @@
 using namespace morsel::benchmark;
 
 int main(int argc, char** argv) {
+  if (argc > 2 && argv[1] == std::string_view(kWatch)) return watch_process(argv + 2);
   CLI::App app("Times every step beside its baselines");
   std::vector<std::string> suites = {"steps", "memory", "salient", "files", "scaling"};
   const std::vector<std::string> known = suites;

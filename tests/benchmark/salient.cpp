@@ -100,6 +100,7 @@ void run_salient(const Plan& plan, const Report& report) {
         for (const morse::InstructionSet set : morse::instruction_sets()) {
           if (set != morse::best_instruction_set() && (pieces > 2 || threads != plan.threads.back()))
             continue;
+          if (precision == morse::Precision::float32 && pieces > 4) continue;  // minutes
           morse::SalientOptions options;
           options.precision = precision;
           options.instructions = set;

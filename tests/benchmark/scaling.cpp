@@ -27,7 +27,7 @@ void run_scaling(const Plan& plan, const Report& report) {
       const core::ScalarField field = field_of(work.mesh, "mean-curvature");
       for (const Step& step : steps(work.mesh, field)) {
         row.step = step.name;
-        row.cost = measured(step.run, 1);
+        row.cost = measured(step.run, 1, 1, step.prepare);
         report(row);
       }
     }

@@ -1,3 +1,4 @@
+#include <memory>
 #include <stdexcept>
 
 #include "benchmark/plain.h"
@@ -36,30 +37,36 @@ std::vector<Step> steps(const core::TriangleMesh& mesh, const core::ScalarField&
   // Bytes that cannot be avoided, per vertex of a closed mesh: 24 for positions, 8 for values, 4 for ranks or order, 24 for
   // triangles (two a vertex), 4 or 8 for a label or number per vertex or triangle.
   const auto n = static_cast<double>(mesh.vertex_count());
-  return {
-      {"build mesh", 24 * n + (24 + 24 + 12 + 4) * n,
-       [&mesh] {
-         return core::TriangleMesh({mesh.positions().begin(), mesh.positions().end()},
-                                   {mesh.triangles().begin(), mesh.triangles().end()})
-             .edge_count();
-       }},
-      {"order", (8 + 4 + 4) * n,
-       [&field] {
-         return core::ScalarField(field.mesh(), {field.values().begin(), field.values().end()}).order()[0];
-       }},
-      {"critical points", (24 + 4) * n, [&field] { return morse::classify(field).total(); }},
-      {"diagram", (24 + 4 + 8) * n, [&field] { return persistence::pair_extrema(field).pairs.size(); }},
-      {"cancel 1 %", (24 + 4 + 8) * n + (8 + 4 + 4) * n,
-       [&field] {
-         return persistence::cancel(field, {.threshold = persistence::Threshold::percent(1), .count = {}})
-             .cancelled_pairs;
-       }},
-      {"gradient", (24 + 4) * n + (4 + 2) * n,
-       [&field] { return mscomplex::DiscreteGradient(field).saddles().size(); }},
-      {"complex", (24 + 4) * n + (4 + 2) * n + 3 * (4 + 8) * n, [&field] {
-         const mscomplex::MorseSmaleComplex complex(field);
-         return trace_all(complex) + mscomplex::segment(field, complex.gradient()).morse_smale.count;
-       }}};
+  struct Input {
+    std::vector<core::Point> positions;
+    std::vector<core::Triangle> triangles;
+    std::vector<double> values;
+  };
+  const auto input = std::make_shared<Input>();
+  return {{"build mesh", 24 * n + (24 + 24 + 12 + 4) * n,
+           [input] {
+             return core::TriangleMesh(std::move(input->positions), std::move(input->triangles)).edge_count();
+           },
+           [input, &mesh] {
+             input->positions.assign(mesh.positions().begin(), mesh.positions().end());
+             input->triangles.assign(mesh.triangles().begin(), mesh.triangles().end());
+           }},
+          {"order", (8 + 4 + 4) * n,
+           [input, &mesh] { return core::ScalarField(mesh, std::move(input->values)).order()[0]; },
+           [input, &field] { input->values.assign(field.values().begin(), field.values().end()); }},
+          {"critical points", (24 + 4) * n, [&field] { return morse::classify(field).total(); }},
+          {"diagram", (24 + 4 + 8) * n, [&field] { return persistence::pair_extrema(field).pairs.size(); }},
+          {"cancel 1 %", (24 + 4 + 8) * n + (8 + 4 + 4) * n,
+           [&field] {
+             return persistence::cancel(field, {.threshold = persistence::Threshold::percent(1), .count = {}})
+                 .cancelled_pairs;
+           }},
+          {"gradient", (24 + 4) * n + (4 + 2) * n,
+           [&field] { return mscomplex::DiscreteGradient(field).saddles().size(); }},
+          {"complex", (24 + 4) * n + (4 + 2) * n + 3 * (4 + 8) * n, [&field] {
+             const mscomplex::MorseSmaleComplex complex(field);
+             return trace_all(complex) + mscomplex::segment(field, complex.gradient()).morse_smale.count;
+           }}};
 }
 
 void run_steps(const Plan& plan, double machine_factor, const Report& report) {
@@ -91,7 +98,7 @@ void run_steps(const Plan& plan, double machine_factor, const Report& report) {
         row.field = name;
         row.threads = threads;
         row.bytes_moved = step.bytes_moved;
-        row.cost = measured(step.run);
+        row.cost = measured(step.run, 3, 1, step.prepare);
         for (const auto& [plain_step, seconds] : plain_seconds)
           if (plain_step == step.name) row.baselines.push_back({"plain", seconds});
         if (const auto seconds = plan.quick ? std::nullopt : ttk_seconds(step.name, name, threads))

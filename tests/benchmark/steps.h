@@ -13,6 +13,7 @@ struct Step {
   std::string name;
   double bytes_moved;  ///< that it cannot avoid: its input read once, its result written once
   std::function<std::size_t()> run;
+  std::function<void()> prepare = {};  ///< what is not timed: copies of what run() takes for itself
 };
 
 /// In the order of a comparison. Refers to both.
