@@ -78,13 +78,13 @@ class TriangleMesh::Builder {
            });
   }
 
-  /// A half-edge, and the larger of its vertices with its direction: an edge's half-edges are those whose `end` differs in
-  /// the last bit at most.
+  /// A half-edge with its vertices and direction: an edge's half-edges are those with one `start` whose `end` differs in the
+  /// last bit at most.
   struct Entry {
-    Index end;  ///< 2 · larger vertex, and one if it is the origin: a vertex number has 31 bits at most
+    Index start;  ///< the smaller vertex
+    Index end;    ///< 2 · larger vertex, and one if it is the origin: a vertex number has 31 bits at most
     Index halfedge;
   };
-  Index smaller(Index h) const { return std::min(origin(h), target(h)); }
 
   /// Brings the half-edges into the lexicographic order of their edges and makes neighbours twins: distributes them to
   /// blocks of consecutive smaller vertices, small enough for a cache, and sorts these.
@@ -99,8 +99,8 @@ class TriangleMesh::Builder {
             for (std::size_t i = 0; i < 3; ++i) {
               const Index a = data_.triangles[t][i];
               const Index b = data_.triangles[t][i == 2 ? 0 : i + 1];
-              emit(std::min(a, b) >> shift,
-                   Entry{2 * std::max(a, b) + (a > b ? 1 : 0), static_cast<Index>(3 * t + i)});
+              emit(std::min(a, b) >> shift, Entry{std::min(a, b), 2 * std::max(a, b) + (a > b ? 1 : 0),
+                                                  static_cast<Index>(3 * t + i)});
             }
         });
     const auto block = [&](std::size_t b) {
@@ -135,18 +135,11 @@ class TriangleMesh::Builder {
   /// Makes the twins among the entries of the smaller vertices first, first + 1, …, numbers their edges from 0 on, and leaves
   /// a half-edge of each at the front. Returns the number of edges, or kNone if one has two half-edges of a direction.
   Index link_block(std::span<Entry> entries, Index first, Index vertices) {
-    struct Local {
-      Index vertex;
-      Entry entry;
-    };
-    std::vector<Local> unsorted(entries.size());
+    const std::vector<Entry> unsorted(entries.begin(), entries.end());
     std::vector<Index> offset(std::size_t{vertices} + 1, 0);
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      unsorted[i] = {smaller(entries[i].halfedge) - first, entries[i]};
-      ++offset[unsorted[i].vertex + 1];
-    }
+    for (const Entry& entry : unsorted) ++offset[entry.start - first + 1];
     for (Index v = 0; v < vertices; ++v) offset[v + 1] += offset[v];
-    for (const Local& local : unsorted) entries[offset[local.vertex]++] = local.entry;
+    for (const Entry& entry : unsorted) entries[offset[entry.start - first]++] = entry;
     Index edges = 0;
     Index begin = 0;
     for (Index v = 0; v < vertices; ++v) {
@@ -154,7 +147,8 @@ class TriangleMesh::Builder {
       begin = offset[v];
       sort_group(group);
       for (std::size_t i = 0; i < group.size(); ++edges) {
-        const auto [end, halfedge] = group[i];
+        const auto [start, end, halfedge] = group[i];
+        if (end == kNone) return kNone;
         const auto continues = [&](std::size_t k) { return k < group.size() && (group[k].end ^ end) <= 1; };
         if (continues(i + 1)) {
           const Entry other = group[i + 1];
@@ -188,17 +182,18 @@ class TriangleMesh::Builder {
       return;
     }
     // Most groups have about six entries: each goes where the number of smaller ones says, without a branch to mispredict.
+    // Equal ones, which are an error, leave a place free.
     std::array<Entry, kFew> unsorted;
     std::array<Index, kFew> ends;
     ends.fill(kNone);
     for (std::size_t i = 0; i < group.size(); ++i) {
       unsorted[i] = group[i];
       ends[i] = unsorted[i].end;
+      group[i].end = kNone;
     }
     for (std::size_t i = 0; i < group.size(); ++i) {
       Index place = 0;
       for (const Index end : ends) place += end < ends[i] ? 1 : 0;
-      for (std::size_t k = 0; k < i; ++k) place += ends[k] == ends[i] ? 1 : 0;
       group[place] = unsorted[i];
     }
   }
