@@ -16,6 +16,7 @@ using core::kNone;
 /// Slices of triangles are counted apart and added; as sums are cut off, their number makes no difference.
 constexpr std::size_t kMostSlices = 8;
 constexpr std::size_t kTriangles = std::size_t{1} << 13;  // a chunk
+constexpr std::size_t kSaddles = 128;                     // whose links are walked, a chunk
 
 /// The corners of a triangle from the lowest to the highest, by whether 0 is below 1, 1 below 2, 0 below 2.
 constexpr std::array<std::array<std::uint8_t, 3>, 8> kAscending = {
@@ -125,16 +126,10 @@ void fill(const core::ScalarField& field, std::span<const VertexType> types, Lin
 
 }  // namespace
 
-void VertexType::add(VertexType other) {
-  const Index sum = std::min(kMostChanges, changes() + other.changes());
-  bits_ = static_cast<std::uint8_t>((2 * sum) | ((bits_ | other.bits_) & 1));
-}
-
 std::vector<VertexType> vertex_types(const core::TriangleMesh& mesh, std::span<const Index> rank) {
   const std::size_t triangles = mesh.triangle_count();
   const auto threads = static_cast<std::size_t>(core::thread_count());
-  const std::size_t slices =
-      threads == 1 || triangles < core::kGrain ? 1 : std::min(2 * threads, kMostSlices);
+  const std::size_t slices = triangles < core::kGrain ? 1 : std::min(threads, kMostSlices);
   std::vector<std::vector<VertexType>> parts(slices);
   core::parallel_for(0, slices, 1, [&](std::size_t k, std::size_t) {
     parts[k].resize(rank.size());
@@ -159,13 +154,15 @@ LinkEnds link_ends(const core::ScalarField& field, std::span<const VertexType> t
                    std::span<const Saddle> saddles, Paths& down_to_minima, Paths& up_to_maxima) {
   LinkEnds ends = make_room(field, types, saddles);
   if (saddles.size() < types.size() / 16) {  // walking their links is less than walking over all triangles
-    core::parallel_for_each(saddles.size(), [&](std::size_t s) {
-      const Index v = field.order()[saddles[s].rank];
-      Index place = ends.offset[v];
-      for_each_change(field, v, [&](Index lowest, Index, Index highest) {
-        ends.lower[place] = lowest;
-        ends.higher[place++] = highest;
-      });
+    core::parallel_for(0, saddles.size(), kSaddles, [&](std::size_t first, std::size_t last) {
+      for (std::size_t s = first; s < last; ++s) {
+        const Index v = field.order()[saddles[s].rank];
+        Index place = ends.offset[v];
+        for_each_change(field, v, [&](Index lowest, Index, Index highest) {
+          ends.lower[place] = lowest;
+          ends.higher[place++] = highest;
+        });
+      }
     });
     return ends;
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// Critical vertices and what their links look like, by passes over the triangles. For the module's own use.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,7 +29,10 @@ class VertexType {
 
   void add_change() { bits_ = static_cast<std::uint8_t>(bits_ + (bits_ < 2 * kMostChanges ? 2 : 0)); }
   void set_above() { bits_ |= 1; }  ///< it is the highest corner of a triangle
-  void add(VertexType other);
+  void add(VertexType other) {
+    const Index sum = std::min(2 * kMostChanges, 2 * changes() + 2 * other.changes());
+    bits_ = static_cast<std::uint8_t>(sum | ((bits_ | other.bits_) & 1));
+  }
 
  private:
   std::uint8_t bits_ = 0;

@@ -56,8 +56,11 @@ Critical critical_vertices(const core::ScalarField& field, std::span<const Verte
       });
 }
 
+/// Ends of links a chunk: few, as the first paths that are followed are long.
+constexpr std::size_t kEnds = 128;
+
 void replace_by_basins(const Paths& paths, std::vector<Index>& ends) {
-  core::parallel_for(0, ends.size(), core::kGrain, [&](std::size_t first, std::size_t last) {
+  core::parallel_for(0, ends.size(), kEnds, [&](std::size_t first, std::size_t last) {
     std::vector<Index> buffer;
     for (std::size_t i = first; i < last; ++i) ends[i] = paths.find(ends[i], buffer);
   });
