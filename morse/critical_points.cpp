@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "morsel/core/link.h"
+#include "morsel/core/link_changes.h"
 #include "morsel/core/parallel.h"
 
 namespace morsel::morse {
@@ -32,82 +33,18 @@ CriticalPoint classify_vertex(const core::ScalarField& field, Index v) {
 
 namespace {
 
-/// How often lower and higher neighbours alternate round each vertex: 2k times for k runs of lower neighbours.
-/// Counted triangle by triangle, in the order in which they lie in memory: of a triangle's three vertices the
-/// middle one sees a lower and a higher neighbour side by side, the other two do not. At a boundary edge the
-/// cap is the third, so the higher vertex of the two is the middle one.
-class Changes {
- public:
-  /// Twice the number of changes, and 1 if the vertex is the highest of some triangle. From kMany on, where
-  /// counting ends, the vertex is a saddle.
-  using Tally = std::uint8_t;
-  static constexpr Tally kMany = 254;
+/// LinkChanges::bits() from which on a vertex is a saddle whose link must be walked.
+constexpr std::uint8_t kMany = 2 * core::LinkChanges::kMostChanges;
 
-  explicit Changes(const core::ScalarField& field)
-      : vertices_(field.mesh().vertex_count()),
-        lanes_(std::min<std::size_t>(core::thread_count(), kMostLanes)),
-        tally_(lanes_ * vertices_, 0) {
-    const core::TriangleMesh& mesh = field.mesh();
-    const auto rank = field.ranks();
-    const auto triangles = mesh.triangles();
-    core::parallel_for(0, lanes_, 1, [&](std::size_t lane, std::size_t) {
-      Tally* tally = tally_.data() + lane * vertices_;
-      const std::size_t last = triangles.size() * (lane + 1) / lanes_;
-      for (std::size_t t = triangles.size() * lane / lanes_; t < last; ++t) {
-        const core::Triangle& corner = triangles[t];
-        const Index a = rank[corner[0]];
-        const Index b = rank[corner[1]];
-        const Index c = rank[corner[2]];
-        const unsigned order = unsigned{a < b} | unsigned{b < c} << 1 | unsigned{c < a} << 2;
-        count_change(tally[corner[kMiddle[order]]]);
-        tally[corner[kHighest[order]]] |= 1;
-      }
-    });
-    for (Index k = 0; k < mesh.boundary_loop_count(); ++k)
-      for (const Index h : mesh.boundary_loop(k)) {
-        const Index a = mesh.origin(h);
-        const Index b = mesh.target(h);
-        count_change(tally_[rank[a] < rank[b] ? b : a]);
-      }
-  }
-
-  /// Adds the lanes up for vertices first … last − 1, once, and returns how many of them are critical.
-  std::size_t add_up(std::size_t first, std::size_t last) {
-    for (std::size_t lane = 1; lane < lanes_; ++lane) {
-      const Tally* more = tally_.data() + lane * vertices_;
-      for (std::size_t v = first; v < last; ++v) {
-        const int changes = (tally_[v] & kMany) + (more[v] & kMany);
-        tally_[v] = static_cast<Tally>(std::min<int>(changes, kMany) | ((tally_[v] | more[v]) & 1));
-      }
-    }
-    return last - first -
-           std::count_if(tally_.begin() + first, tally_.begin() + last, [](Tally t) { return t / 4 == 1; });
-  }
-
-  Tally operator[](std::size_t v) const { return tally_[v]; }
-
- private:
-  static constexpr std::size_t kMostLanes = 8;  // each with tallies of its own, so that threads never meet
-  // By (a < b) + 2 (b < c) + 4 (c < a), which is never 0 nor 7.
-  static constexpr std::array<std::uint8_t, 8> kMiddle = {0, 2, 0, 1, 1, 0, 2, 0};
-  static constexpr std::array<std::uint8_t, 8> kHighest = {0, 1, 2, 2, 0, 1, 0, 0};
-
-  static void count_change(Tally& tally) { tally += tally < kMany ? 2 : 0; }
-
-  std::size_t vertices_;
-  std::size_t lanes_;
-  std::vector<Tally> tally_;  // per lane and vertex
-};
-
-/// What a tally below kMany says about its vertex.
+/// What bits below kMany say about its vertex.
 struct Verdict {
   CriticalType type = CriticalType::regular;
   bool is_critical = false;
   std::uint8_t multiplicity = 1;
 };
 
-constexpr std::array<Verdict, Changes::kMany> make_verdicts() {
-  std::array<Verdict, Changes::kMany> verdicts{};
+constexpr std::array<Verdict, kMany> make_verdicts() {
+  std::array<Verdict, kMany> verdicts{};
   for (unsigned tally = 0; tally < verdicts.size(); ++tally) {
     const unsigned runs = tally / 4;
     if (runs == 0) verdicts[tally] = {tally == 0 ? CriticalType::minimum : CriticalType::maximum, true, 1};
@@ -118,15 +55,15 @@ constexpr std::array<Verdict, Changes::kMany> make_verdicts() {
 
 /// Fills `points` with the critical points from vertex v on, and returns their counts alone. Which vertices
 /// are critical is as good as random, so nothing branches on it.
-CriticalPoints find_critical(const core::ScalarField& field, const Changes& changes, Index v,
-                             std::span<CriticalPoint> points) {
+CriticalPoints find_critical(const core::ScalarField& field, std::span<const core::LinkChanges> changes,
+                             Index v, std::span<CriticalPoint> points) {
   static constexpr auto kVerdicts = make_verdicts();
   for (std::size_t found = 0; found < points.size(); ++v) {
-    if (changes[v] >= Changes::kMany) {
+    if (changes[v].bits() >= kMany) {
       points[found++] = classify_vertex(field, v);
       continue;
     }
-    const Verdict verdict = kVerdicts[changes[v]];
+    const Verdict verdict = kVerdicts[changes[v].bits()];
     points[found] = {v, verdict.type, verdict.multiplicity};
     found += verdict.is_critical ? 1 : 0;
   }
@@ -145,13 +82,16 @@ CriticalPoints find_critical(const core::ScalarField& field, const Changes& chan
 
 CriticalPoints classify(const core::ScalarField& field, const core::Progress& progress) {
   progress.update("critical points", 0);
-  Changes changes(field);
+  const std::vector<core::LinkChanges> changes = core::link_changes(field.mesh(), field.ranks());
   progress.update("critical points", 0.6);
 
   const std::size_t vertices = field.mesh().vertex_count();
   std::vector<std::size_t> offset((vertices + core::kGrain - 1) / core::kGrain + 1, 0);
   core::parallel_for(0, vertices, core::kGrain, [&](std::size_t first, std::size_t last) {
-    offset[first / core::kGrain + 1] = changes.add_up(first, last);
+    offset[first / core::kGrain + 1] =
+        static_cast<std::size_t>(std::count_if(changes.begin() + static_cast<std::ptrdiff_t>(first),
+                                               changes.begin() + static_cast<std::ptrdiff_t>(last),
+                                               [](core::LinkChanges c) { return !c.is_regular(); }));
   });
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
   std::vector<CriticalPoint> points(offset.back());

@@ -42,9 +42,9 @@ std::vector<Role> Canceller::survivors(std::span<const PersistencePair> staying)
 }
 
 std::size_t critical_count(const ScalarField& field) {
-  const std::vector<VertexType> types = vertex_types(field.mesh(), field.ranks());
+  const std::vector<core::LinkChanges> types = core::link_changes(field.mesh(), field.ranks());
   return static_cast<std::size_t>(
-      std::count_if(types.begin(), types.end(), [](VertexType type) { return !type.is_regular(); }));
+      std::count_if(types.begin(), types.end(), [](core::LinkChanges type) { return !type.is_regular(); }));
 }
 
 }  // namespace morsel::persistence::detail

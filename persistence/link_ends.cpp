@@ -13,43 +13,10 @@ namespace {
 
 using core::kNone;
 
-/// Slices of triangles are counted apart and added; as sums are cut off, their number makes no difference.
-constexpr std::size_t kMostSlices = 8;
 constexpr std::size_t kTriangles = std::size_t{1} << 13;  // a chunk
 constexpr std::size_t kSaddles = 128;                     // whose links are walked, a chunk
 
-/// The corners of a triangle from the lowest to the highest, by whether 0 is below 1, 1 below 2, 0 below 2.
-constexpr std::array<std::array<std::uint8_t, 3>, 8> kAscending = {
-    {{2, 1, 0}, {2, 0, 1}, {1, 2, 0}, {}, {}, {0, 2, 1}, {1, 0, 2}, {0, 1, 2}}};
-
-/// Calls visit(lowest, middle, highest) for some triangles. (Looked up since branches would be mispredicted.)
-template <class Visit>
-void for_each_triangle(const core::TriangleMesh& mesh, std::span<const Index> rank, std::size_t first,
-                       std::size_t last, const Visit& visit) {
-  for (const core::Triangle& corner : mesh.triangles().subspan(first, last - first)) {
-    const Index a = rank[corner[0]];
-    const Index b = rank[corner[1]];
-    const Index c = rank[corner[2]];
-    const auto& [lowest, middle, highest] =
-        kAscending[static_cast<unsigned>(a < b) | static_cast<unsigned>(b < c) << 1 |
-                   static_cast<unsigned>(a < c) << 2];
-    visit(corner[lowest], corner[middle], corner[highest]);
-  }
-}
-
-/// The same for the triangles of the caps, which are higher than all vertices.
-template <class Visit>
-void for_each_cap_triangle(const core::TriangleMesh& mesh, std::span<const Index> rank, const Visit& visit) {
-  for (Index loop = 0; loop < mesh.boundary_loop_count(); ++loop)
-    for (const Index h : mesh.boundary_loop(loop)) {
-      const Index a = mesh.origin(h);
-      const Index b = mesh.target(h);
-      const bool ab = rank[a] < rank[b];
-      visit(ab ? a : b, ab ? b : a, mesh.vertex_count() + loop);
-    }
-}
-
-/// The same for those around v of which it is the middle.
+/// Calls visit(lowest, middle, highest) for the triangles around v, of the surface and of its cap, of which it is the middle.
 template <class Visit>
 void for_each_change(const core::ScalarField& field, Index v, const Visit& visit) {
   const core::TriangleMesh& mesh = field.mesh();
@@ -76,16 +43,16 @@ void for_each_change(const core::ScalarField& field, Index v, const Visit& visit
 }
 
 /// A place for each change of each saddle, in the order of the vertices.
-LinkEnds make_room(const core::ScalarField& field, std::span<const VertexType> types,
+LinkEnds make_room(const core::ScalarField& field, std::span<const core::LinkChanges> types,
                    std::span<const Saddle> saddles) {
   LinkEnds result;
   result.offset.resize(types.size());
   for (const Saddle& saddle : saddles)
-    if (const Index v = field.order()[saddle.rank]; types[v].changes() == VertexType::kMostChanges)
+    if (const Index v = field.order()[saddle.rank]; types[v].changes() == core::LinkChanges::kMostChanges)
       result.offset[v] = 2 * saddle.multiplicity + 2;
   Index end = 0;
   for (std::size_t v = 0; v < types.size(); ++v) {
-    const bool cut_off = types[v].changes() == VertexType::kMostChanges;
+    const bool cut_off = types[v].changes() == core::LinkChanges::kMostChanges;
     const Index count = cut_off ? result.offset[v] : types[v].is_saddle() ? types[v].changes() : 0;
     result.offset[v] = end;
     end += count;
@@ -97,7 +64,7 @@ LinkEnds make_room(const core::ScalarField& field, std::span<const VertexType> t
 
 /// One more pass over the triangles. Afterwards offsets are at the ends of their places.
 template <bool kShared>
-void fill(const core::ScalarField& field, std::span<const VertexType> types, LinkEnds& ends,
+void fill(const core::ScalarField& field, std::span<const core::LinkChanges> types, LinkEnds& ends,
           Paths& down_to_minima, Paths& up_to_maxima) {
   const core::TriangleMesh& mesh = field.mesh();
   const auto change = [&](Index lowest, Index middle, Index highest) {
@@ -109,7 +76,7 @@ void fill(const core::ScalarField& field, std::span<const VertexType> types, Lin
     ends.higher[place] = highest;
   };
   core::parallel_for(0, mesh.triangle_count(), kTriangles, [&](std::size_t first, std::size_t last) {
-    for_each_triangle(mesh, field.ranks(), first, last, [&](Index lowest, Index middle, Index highest) {
+    core::for_each_triangle(mesh, field.ranks(), first, last, [&](Index lowest, Index middle, Index highest) {
       down_to_minima.set_next(middle, lowest);
       down_to_minima.set_next(highest, lowest);
       up_to_maxima.set_next(lowest, highest);
@@ -117,7 +84,7 @@ void fill(const core::ScalarField& field, std::span<const VertexType> types, Lin
       change(lowest, middle, highest);
     });
   });
-  for_each_cap_triangle(mesh, field.ranks(), [&](Index lowest, Index middle, Index cap) {
+  core::for_each_cap_triangle(mesh, field.ranks(), [&](Index lowest, Index middle, Index cap) {
     up_to_maxima.set_next(lowest, cap);
     up_to_maxima.set_next(middle, cap);
     change(lowest, middle, cap);
@@ -126,31 +93,7 @@ void fill(const core::ScalarField& field, std::span<const VertexType> types, Lin
 
 }  // namespace
 
-std::vector<VertexType> vertex_types(const core::TriangleMesh& mesh, std::span<const Index> rank) {
-  const std::size_t triangles = mesh.triangle_count();
-  const auto threads = static_cast<std::size_t>(core::thread_count());
-  const std::size_t slices = triangles < core::kGrain ? 1 : std::min(threads, kMostSlices);
-  std::vector<std::vector<VertexType>> parts(slices);
-  core::parallel_for(0, slices, 1, [&](std::size_t k, std::size_t) {
-    parts[k].resize(rank.size());
-    VertexType* const types = parts[k].data();
-    for_each_triangle(mesh, rank, triangles * k / slices, triangles * (k + 1) / slices,
-                      [&](Index, Index middle, Index highest) {
-                        types[middle].add_change();
-                        types[highest].set_above();
-                      });
-  });
-  std::vector<VertexType>& types = parts.front();
-  if (slices > 1)
-    core::parallel_for(0, rank.size(), std::size_t{1} << 13, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = 1; k < slices; ++k)
-        for (std::size_t v = first; v < last; ++v) types[v].add(parts[k][v]);
-    });
-  for_each_cap_triangle(mesh, rank, [&](Index, Index middle, Index) { types[middle].add_change(); });
-  return std::move(types);
-}
-
-LinkEnds link_ends(const core::ScalarField& field, std::span<const VertexType> types,
+LinkEnds link_ends(const core::ScalarField& field, std::span<const core::LinkChanges> types,
                    std::span<const Saddle> saddles, Paths& down_to_minima, Paths& up_to_maxima) {
   LinkEnds ends = make_room(field, types, saddles);
   if (saddles.size() < types.size() / 16) {  // walking their links is less than walking over all triangles

@@ -24,14 +24,14 @@ struct Critical {
   std::vector<Saddle> saddles;
 };
 
-Index saddle_multiplicity(const core::ScalarField& field, VertexType type, Index v) {
-  if (type.changes() < VertexType::kMostChanges) return type.changes() / 2 - 1;
+Index saddle_multiplicity(const core::ScalarField& field, core::LinkChanges type, Index v) {
+  if (type.changes() < core::LinkChanges::kMostChanges) return type.changes() / 2 - 1;
   const auto lower = core::link_part(
       field.mesh(), v, /*cap_inside=*/false, [&](Index u) { return field.is_lower(u, v); }, [](Index) {});
   return lower.runs - 1;
 }
 
-Critical critical_vertices(const core::ScalarField& field, std::span<const VertexType> types) {
+Critical critical_vertices(const core::ScalarField& field, std::span<const core::LinkChanges> types) {
   const auto order = field.order();
   return core::parallel_reduce(
       0, order.size(), 4 * core::kGrain, Critical{},
@@ -39,7 +39,7 @@ Critical critical_vertices(const core::ScalarField& field, std::span<const Verte
         Critical part;
         for (auto r = static_cast<Index>(begin); r < end; ++r) {
           const Index v = order[r];
-          const VertexType type = types[v];
+          const core::LinkChanges type = types[v];
           if (type.is_regular()) continue;
           if (type.is_saddle())
             part.saddles.push_back({r, saddle_multiplicity(field, type, v)});
@@ -115,7 +115,7 @@ void unite(Sweep& sweep) {
 Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
   const core::TriangleMesh& mesh = field.mesh();
   const Index n = mesh.vertex_count();
-  const std::vector<VertexType> types = vertex_types(mesh, field.ranks());
+  const std::vector<core::LinkChanges> types = core::link_changes(mesh, field.ranks());
   Critical critical = critical_vertices(field, types);
   progress.throw_if_cancelled();
 
