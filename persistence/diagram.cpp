@@ -33,4 +33,17 @@ std::vector<double> vertex_persistence(const Diagram& diagram, Index vertex_coun
   return result;
 }
 
+std::vector<Index> persistent_extrema(const Diagram& diagram, std::size_t count) {
+  std::vector<Index> extrema;
+  for (const EssentialExtrema& essential : diagram.essential_extrema) {
+    extrema.push_back(essential.minimum);
+    if (!essential.top_is_cap) extrema.push_back(essential.top);
+  }
+  const auto finite = diagram.finite_pairs();
+  for (std::size_t i = finite.size(); i-- > 0 && extrema.size() < count;)
+    extrema.push_back(finite[i].extremum);
+  if (extrema.size() > count) extrema.resize(count);
+  return extrema;
+}
+
 }  // namespace morsel::persistence

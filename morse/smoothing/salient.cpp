@@ -107,7 +107,7 @@ class Filter {
       if (!options_.on_iteration) continue;
       const std::vector<double> values = this->values();
       const std::vector<double> saliency = this->saliency();
-      options_.on_iteration({iteration + 1, values, saliency});
+      if (!options_.on_iteration({iteration + 1, values, saliency})) break;
     }
     return true;
   }
@@ -137,31 +137,7 @@ class Filter {
   std::vector<double> saliency_;
 };
 
-std::string to_string(Precision precision) { return precision == Precision::float64 ? "double" : "single"; }
-
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
-
-void check(const SalientOptions& options) {
-  if (options.iterations < 0)
-    throw InvalidArgument("salient smoothing cannot run " + std::to_string(options.iterations) +
-                          " iterations");
-  if (options.iterations == 0 && options.return_saliency)
-    throw InvalidArgument("there is no saliency without an iteration: iterations must be at least 1");
-  if (!is_positive(options.sigma.value))
-    throw InvalidArgument("sigma must be finite and above 0, not " + core::to_string(options.sigma));
-  if (!(options.accuracy >= 0 && options.accuracy <= 1))
-    throw InvalidArgument("accuracy must be between 0 and 1, not " + core::shortest(options.accuracy));
-  if (!is_positive(options.support))
-    throw InvalidArgument("support must be finite and above 0, not " + core::shortest(options.support));
-  const bool has_value =
-      options.range.kind == ValueRange::Kind::deviations || options.range.kind == ValueRange::Kind::fixed;
-  if (has_value && !is_positive(options.range.value))
-    throw InvalidArgument("range must be finite and above 0, not " + to_string(options.range));
-  const std::vector<InstructionSet> sets = instruction_sets();
-  if (options.instructions && std::find(sets.begin(), sets.end(), *options.instructions) == sets.end())
-    throw InvalidArgument("this processor, or this build, does not have the instruction set " +
-                          std::string(to_string(*options.instructions)));
-}
 
 /// Why the options alone rule out the near-linear algorithm; empty if they do not.
 std::string why_exact(const SalientOptions& options) {
@@ -184,35 +160,6 @@ double sigma_on(const core::TriangleMesh& mesh, const SalientOptions& options) {
   }
   return sigma;
 }
-
-class Salient final : public core::Method {
- public:
-  explicit Salient(SalientOptions options) : options_(std::move(options)) {}
-
-  core::MethodResult apply(const core::ScalarField& input,
-                           const core::MethodContext& context) const override {
-    const SalientResult result = salient(input, options_, context.progress);
-    core::Parameters parameters = {{"iterations", std::int64_t{options_.iterations}},
-                                   {"sigma", result.sigma},
-                                   {"range", to_string(options_.range)},
-                                   {"support", options_.support},
-                                   {"classify", options_.return_saliency ? "saliency" : "smoothed"},
-                                   {"precision", to_string(options_.precision)},
-                                   {"accuracy", options_.accuracy}};
-    if (result.sigma_s) parameters.emplace_back("sigma_s", *result.sigma_s);
-    core::Parameters details = {
-        {"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)},
-        {"algorithm", result.algorithm == SalientAlgorithm::exact ? "exact" : "near-linear"},
-        {"promised_error", result.promised_error}};
-    if (result.estimated_error > 0 && std::isfinite(result.estimated_error))
-      details.emplace_back("estimated_error", result.estimated_error);
-    if (!result.reason.empty()) details.emplace_back("exact_because", result.reason);
-    return {result.field, std::move(parameters), std::move(details)};
-  }
-
- private:
-  SalientOptions options_;
-};
 
 }  // namespace
 
@@ -239,6 +186,28 @@ std::string to_string(const ValueRange& range) {
       break;
   }
   return core::shortest(range.value) + "std";
+}
+
+void check(const SalientOptions& options) {
+  if (options.iterations < 0)
+    throw InvalidArgument("salient smoothing cannot run " + std::to_string(options.iterations) +
+                          " iterations");
+  if (options.iterations == 0 && options.return_saliency)
+    throw InvalidArgument("there is no saliency without an iteration: iterations must be at least 1");
+  if (!is_positive(options.sigma.value))
+    throw InvalidArgument("sigma must be finite and above 0, not " + core::to_string(options.sigma));
+  if (!(options.accuracy >= 0 && options.accuracy <= 1))
+    throw InvalidArgument("accuracy must be between 0 and 1, not " + core::shortest(options.accuracy));
+  if (!is_positive(options.support))
+    throw InvalidArgument("support must be finite and above 0, not " + core::shortest(options.support));
+  const bool has_value =
+      options.range.kind == ValueRange::Kind::deviations || options.range.kind == ValueRange::Kind::fixed;
+  if (has_value && !is_positive(options.range.value))
+    throw InvalidArgument("range must be finite and above 0, not " + to_string(options.range));
+  const std::vector<InstructionSet> sets = instruction_sets();
+  if (options.instructions && std::find(sets.begin(), sets.end(), *options.instructions) == sets.end())
+    throw InvalidArgument("this processor, or this build, does not have the instruction set " +
+                          std::string(to_string(*options.instructions)));
 }
 
 SalientResult salient(const core::ScalarField& input, const SalientOptions& options,
@@ -277,33 +246,6 @@ SalientResult salient(const core::ScalarField& input, const SalientOptions& opti
   filter.run();
   if (options.iterations == 0) return {input, sigma, filter.sigma_s()};
   return result(filter, SalientAlgorithm::exact);
-}
-
-std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
-  SalientOptions options;
-  options.iterations =
-      static_cast<int>(reader.count("iterations", 10, 0, 1'000'000, "how often the filter runs"));
-  options.sigma = reader.length("sigma", core::Length::epsilons(8), core::kPositive,
-                                "standard deviation of the weight of distances");
-  options.range = parse_value_range(reader.text("range", "1std",
-                                                "standard deviation of the weight of values: a multiple of "
-                                                "the field's (1std), local, literal (sigma), or a number"),
-                                    reader.owner() + ":range");
-  options.support =
-      reader.number("support", 2, core::kPositive, "radius of the neighbourhood, in multiples of sigma");
-  options.return_saliency = reader.choice("classify", "smoothed", {"smoothed", "saliency"},
-                                          "the field to return: f, or the last S instead") == "saliency";
-  if (reader.choice(
-          "precision", "double", {"double", "single"},
-          "of weights and sums; single is faster, up to 2e-6 of the extent off after 10 iterations") ==
-      "single")
-    options.precision = Precision::float32;
-  options.accuracy =
-      reader.number("accuracy", 0, {0, false, 1},
-                    "share of the field's extent by which the "
-                    "result may be off, so that large meshes take less time; 0 for an exact result");
-  check(options);
-  return std::make_unique<Salient>(std::move(options));
 }
 
 }  // namespace morsel::morse

@@ -68,8 +68,8 @@ struct SalientOptions {
   bool always_near_linear = false;
   /// Called after each iteration, by the calling thread; the spans live as long as the call. Observing costs
   /// no second run: a run of 20 iterations passes through the results of 1 … 19. Numbers begin at 1 again if the
-  /// near-linear algorithm is given up.
-  std::function<void(const SalientIteration&)> on_iteration = {};
+  /// near-linear algorithm is given up. False: it is to be the last one.
+  std::function<bool(const SalientIteration&)> on_iteration = {};
   /// Most bytes for storing neighbours between iterations; without enough of it they are searched for in
   /// every iteration, which takes longer and gives the same bits.
   std::size_t memory = std::size_t{1} << 30;
@@ -79,6 +79,10 @@ struct SalientOptions {
   /// The processor's best if not given. Only one of instruction_sets().
   std::optional<InstructionSet> instructions = {};
 };
+
+/// Throws InvalidArgument, naming the value, if an option is out of range, and if the saliency of no iteration is
+/// asked for.
+void check(const SalientOptions& options);
 
 struct SalientResult {
   core::ScalarField field;
@@ -105,13 +109,12 @@ struct SalientResult {
 ///
 /// O(iterations · n · neighbours), or a sum over cells and their rims in place of neighbours if `accuracy` lets
 /// it; parallel, the same bits for every number of threads, and for AVX2 and AVX-512;
-/// without fused multiply-adds results differ by rounding. Throws InvalidArgument on options out of range, and if
-/// the saliency of no iteration is asked for; BadInput if σ comes to nothing on a mesh whose vertices all
-/// coincide.
+/// without fused multiply-adds results differ by rounding. Throws what check() throws, and BadInput if σ comes to
+/// nothing on a mesh whose vertices all coincide.
 SalientResult salient(const core::ScalarField& input, const SalientOptions& options = {},
                       const core::Progress& progress = {});
 
-/// Keys: iterations, sigma, range, support, classify=smoothed|saliency, precision=double|single, accuracy.
+/// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single, accuracy.
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

@@ -56,10 +56,12 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                               {"sigma_s", *direct.sigma_s}});
   CHECK(result.details == core::Parameters{{"pairs_per_iteration", static_cast<std::int64_t>(direct.pairs)},
                                            {"algorithm", "exact"},
-                                           {"promised_error", 0.0}});
+                                           {"promised_error", 0.0},
+                                           {"iterations_run", std::int64_t{10}},
+                                           {"stopped_by", "iterations"}});
   const core::MethodResult small = apply(field, {{"accuracy", "1e-4"}, {"iterations", "1"}});
   CHECK(small.parameters[6] == core::Parameters::value_type{"accuracy", 1e-4});
-  REQUIRE(small.details.size() == 4);
+  REQUIRE(small.details.size() == 6);
   CHECK(small.details[1] == core::Parameters::value_type{"algorithm", "exact"});
   CHECK(small.details[2] == core::Parameters::value_type{"promised_error", 1e-4});
   CHECK(small.details[3].first == "exact_because");
@@ -107,9 +109,10 @@ TEST_CASE("salient keys are checked when the method is made") {
   CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
-  REQUIRE(help.declared().size() == 7);
+  REQUIRE(help.declared().size() == 10);
   const std::vector<std::pair<std::string, std::string>> defaults = {
-      {"iterations", "10"}, {"sigma", "8eps"}, {"range", "1std"}, {"support", "2"}, {"classify", "smoothed"}};
+      {"iterations", "10"}, {"until-count", "none"}, {"until-stable", "none"}, {"until-change", "none"},
+      {"sigma", "8eps"},    {"range", "1std"},       {"support", "2"},         {"classify", "smoothed"}};
   for (std::size_t i = 0; i < defaults.size(); ++i) {
     CHECK(help.declared()[i].key == defaults[i].first);
     CHECK(help.declared()[i].default_value == defaults[i].second);

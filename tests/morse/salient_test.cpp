@@ -301,6 +301,7 @@ TEST_CASE("every iteration can be observed and is what fewer iterations return")
     CHECK(iteration.number == static_cast<int>(seen.size()));
     seen.emplace_back(iteration.values.begin(), iteration.values.end());
     saliency.emplace_back(iteration.saliency.begin(), iteration.saliency.end());
+    return true;
   };
   morse::salient(field, chosen);
   REQUIRE(seen.size() == 6);
@@ -464,6 +465,7 @@ TEST_CASE("salient smoothing reports its progress and can be cancelled") {
   chosen.on_iteration = [&](const morse::SalientIteration& iteration) {
     CHECK(iteration.number <= 2);
     if (iteration.number == 2) stop.request_stop();
+    return true;
   };
   CHECK_THROWS_AS(morse::salient(field, chosen, core::Progress({}, stop.get_token())), core::Cancelled);
 }

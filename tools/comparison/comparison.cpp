@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "morsel/persistence/cancellation.h"
+
 namespace morsel::tools {
 
 FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
@@ -14,11 +16,17 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
 core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
                               const NamedFunction& function, const core::ScalarField& field,
                               const core::Progress& progress, std::vector<StepOutcome>* steps) {
-  const core::MethodContext context{
-      [&](const core::TriangleMesh& mesh) {
-        return function.function->evaluate(mesh, {&loaded.source, progress}).field;
-      },
-      progress};
+  core::MethodContext context;
+  context.progress = progress;
+  context.morse_function = [&](const core::TriangleMesh& mesh) {
+    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
+  };
+  context.persistent_extrema = [&](const core::ScalarField& on, std::size_t count) {
+    return persistence::persistent_extrema(persistence::pair_extrema(on, progress), count);
+  };
+  context.cancel = [&](const core::ScalarField& on, double threshold) {
+    return persistence::cancel(on, {persistence::Threshold::absolute(threshold), {}}, progress).field;
+  };
   core::ScalarField current = field;
   for (const MethodStep& step : chain.steps) {
     core::MethodResult result = step.method->apply(current, context);

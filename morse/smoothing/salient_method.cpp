@@ -1,0 +1,85 @@
+/// Salient smoothing as a method that is chosen by name.
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/morse/smoothing/iteration.h"
+#include "morsel/morse/smoothing/salient.h"
+
+namespace morsel::morse {
+namespace {
+
+std::string to_string(Precision precision) { return precision == Precision::float64 ? "double" : "single"; }
+
+class Salient final : public core::Method {
+ public:
+  Salient(SalientOptions options, const StopCriteria& criteria)
+      : options_(std::move(options)), criteria_(criteria) {}
+
+  core::MethodResult apply(const core::ScalarField& input,
+                           const core::MethodContext& context) const override {
+    IterationControl control(input, criteria_, context);
+    SalientOptions options = options_;
+    options.iterations = control.more() ? criteria_.iterations : 0;
+    options.on_iteration = [&](const SalientIteration& iteration) {
+      if (iteration.number <= control.iterations_run()) control.restart();
+      control.record({iteration.values.begin(), iteration.values.end()});
+      return control.more();
+    };
+    SalientResult salient = morse::salient(input, options, context.progress);
+    core::Parameters parameters = {{"sigma", salient.sigma},
+                                   {"range", to_string(options.range)},
+                                   {"support", options.support},
+                                   {"classify", options.return_saliency ? "saliency" : "smoothed"},
+                                   {"precision", to_string(options.precision)},
+                                   {"accuracy", options.accuracy}};
+    if (salient.sigma_s) parameters.emplace_back("sigma_s", *salient.sigma_s);
+    core::Parameters details = {
+        {"pairs_per_iteration", static_cast<std::int64_t>(salient.pairs)},
+        {"algorithm", salient.algorithm == SalientAlgorithm::exact ? "exact" : "near-linear"},
+        {"promised_error", salient.promised_error}};
+    if (salient.estimated_error > 0 && std::isfinite(salient.estimated_error))
+      details.emplace_back("estimated_error", salient.estimated_error);
+    if (!salient.reason.empty()) details.emplace_back("exact_because", salient.reason);
+    core::MethodResult result = control.result(std::move(parameters), std::move(details));
+    result.field = std::move(salient.field);
+    return result;
+  }
+
+ private:
+  SalientOptions options_;
+  StopCriteria criteria_;
+};
+
+}  // namespace
+
+std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
+  SalientOptions options;
+  const StopCriteria criteria = read_stop_criteria(reader, options.iterations);
+  options.iterations = criteria.iterations;
+  options.sigma = reader.length("sigma", core::Length::epsilons(8), core::kPositive,
+                                "standard deviation of the weight of distances");
+  options.range = parse_value_range(reader.text("range", "1std",
+                                                "standard deviation of the weight of values: a multiple of "
+                                                "the field's (1std), local, literal (sigma), or a number"),
+                                    reader.owner() + ":range");
+  options.support =
+      reader.number("support", 2, core::kPositive, "radius of the neighbourhood, in multiples of sigma");
+  options.return_saliency = reader.choice("classify", "smoothed", {"smoothed", "saliency"},
+                                          "the field to return: f, or the last S instead") == "saliency";
+  if (reader.choice(
+          "precision", "double", {"double", "single"},
+          "of weights and sums; single is faster, up to 2e-6 of the extent off after 10 iterations") ==
+      "single")
+    options.precision = Precision::float32;
+  options.accuracy =
+      reader.number("accuracy", 0, {0, false, 1},
+                    "share of the field's extent by which the "
+                    "result may be off, so that large meshes take less time; 0 for an exact result");
+  check(options);
+  return std::make_unique<Salient>(std::move(options), criteria);
+}
+
+}  // namespace morsel::morse

@@ -1,0 +1,110 @@
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "morsel/core/error.h"
+#include "morsel/core/parallel.h"
+#include "morsel/morse/operators/cholesky.h"
+#include "morsel/morse/operators/laplacian.h"
+#include "support/fields.h"
+#include "support/meshes.h"
+
+using namespace morsel;
+using namespace morsel::test;
+using morse::EdgeWeights;
+using morse::VertexArea;
+
+namespace {
+
+double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const core::Triangle& t : mesh.triangles())
+    sum +=
+        (mesh.position(t[1]) - mesh.position(t[0])).cross(mesh.position(t[2]) - mesh.position(t[0])).norm() /
+        2;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("cotangent weights of a right isosceles triangle") {
+  const Soup soup{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const TriangleMesh mesh = soup.mesh();
+  const std::vector<double> weights = morse::edge_weights(mesh, EdgeWeights::cotangent);
+  for (Index e = 0; e < 3; ++e) {
+    const bool hypotenuse = mesh.edge_vertices(e) == std::array<Index, 2>{1, 2};
+    CHECK(weights[e] == Approx(hypotenuse ? 0 : 0.5).margin(1e-15));
+  }
+  CHECK(morse::edge_weights(mesh, EdgeWeights::uniform) == std::vector<double>(3, 1.0));
+  const std::vector<double> mixed = morse::vertex_areas(mesh, VertexArea::mixed);
+  CHECK(mixed[0] == Approx(0.25));
+  CHECK(mixed[1] == Approx(0.125));
+  CHECK(mixed[2] == Approx(0.125));
+}
+
+TEST_CASE("clamped weights are the cotangents that are large enough") {
+  for (const auto& [name, mesh] : mesh_zoo()) {
+    INFO(name);
+    const std::vector<double> plain = morse::edge_weights(mesh, EdgeWeights::cotangent);
+    const std::vector<double> clamped = morse::edge_weights(mesh, EdgeWeights::clamped);
+    for (std::size_t e = 0; e < plain.size(); ++e)
+      CHECK(clamped[e] == std::max(plain[e], morse::kLeastWeight));
+  }
+}
+
+TEST_CASE("the Laplacian is symmetric and has constants in its kernel") {
+  for (const auto& [name, mesh] : mesh_zoo()) {
+    INFO(name);
+    const morse::SparseMatrix l = morse::laplacian(mesh, morse::edge_weights(mesh, EdgeWeights::cotangent));
+    CHECK(l.nonZeros() == static_cast<long>(mesh.vertex_count() + 2 * mesh.edge_count()));
+    CHECK(morse::SparseMatrix(l.transpose()).isApprox(l));
+    const Eigen::VectorXd one = Eigen::VectorXd::Ones(mesh.vertex_count());
+    CHECK((l * one).cwiseAbs().maxCoeff() < 1e-12 * l.coeffs().cwiseAbs().maxCoeff());
+    double asymmetry = 0;
+    for (int column = 0; column < l.outerSize(); ++column)
+      for (morse::SparseMatrix::InnerIterator it(l, column); it; ++it)
+        asymmetry = std::max(asymmetry, std::abs(it.value() - l.coeff(column, it.row())));
+    CHECK(asymmetry == 0);
+  }
+}
+
+TEST_CASE("the cotangent Laplacian of a linear function vanishes inside a plane") {
+  const TriangleMesh mesh = grid(7, 5).mesh();
+  const morse::SparseMatrix l = morse::laplacian(mesh, morse::edge_weights(mesh, EdgeWeights::cotangent));
+  Eigen::VectorXd f(mesh.vertex_count());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) f[v] = 3 * mesh.position(v).x() - 2 * mesh.position(v).y();
+  const Eigen::VectorXd result = l * f;
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (!mesh.is_boundary_vertex(v)) CHECK(std::abs(result[v]) < 1e-12);
+}
+
+TEST_CASE("vertex areas sum to the surface") {
+  for (const auto& [name, mesh] : mesh_zoo()) {
+    INFO(name);
+    for (const VertexArea kind : {VertexArea::barycentric, VertexArea::mixed}) {
+      const std::vector<double> areas = morse::vertex_areas(mesh, kind);
+      CHECK(std::accumulate(areas.begin(), areas.end(), 0.0) == Approx(area(mesh)));
+      CHECK(*std::min_element(areas.begin(), areas.end()) > 0);
+    }
+  }
+}
+
+TEST_CASE("Cholesky solves what it has factorised at any number of threads") {
+  for (const auto& [name, mesh] : mesh_zoo()) {
+    INFO(name);
+    morse::SparseMatrix l = morse::laplacian(mesh, morse::edge_weights(mesh, EdgeWeights::clamped));
+    for (int v = 0; v < l.rows(); ++v) l.coeffRef(v, v) += 0.1;
+    const std::vector<double> b = random_values(mesh.vertex_count(), 5);
+    const std::vector<double> x = morse::Cholesky(l, "test").solve(b);
+    const Eigen::VectorXd back = l * Eigen::Map<const Eigen::VectorXd>(x.data(), l.rows());
+    for (std::size_t v = 0; v < b.size(); ++v)
+      CHECK(back[static_cast<long>(v)] == Approx(b[v]).margin(1e-11));
+  }
+}
+
+TEST_CASE("Cholesky refuses a singular matrix by name") {
+  const morse::SparseMatrix nothing(3, 3);
+  CHECK_THROWS_WITH(morse::Cholesky(nothing, "heat"), Catch::Contains("heat"));
+  CHECK_THROWS_AS(morse::Cholesky(nothing, "heat"), core::BadInput);
+}
