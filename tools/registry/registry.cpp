@@ -8,6 +8,7 @@
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
+#include "morsel/morse/smoothing/diffusion.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "morsel/persistence/cancellation.h"
 
@@ -24,6 +25,9 @@ constexpr std::array kFunctions = {
 
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
+    MethodEntry{"laplacian",
+                "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
+                morse::make_laplacian},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
