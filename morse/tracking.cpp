@@ -64,7 +64,9 @@ Index CriticalPointTracker::previous(const CriticalPoint& point, std::span<const
   if (same_type(point.vertex)) return point.vertex;
   if (point.type == CriticalType::saddle) return nearest(field_.mesh(), point.vertex, reach_, same_type);
   const Index end = climb(field_, point.vertex, point.type == CriticalType::maximum);
-  return same_type(end) ? end : kNone;
+  const core::TriangleMesh& mesh = field_.mesh();
+  const bool near = (mesh.position(end) - mesh.position(point.vertex)).norm() <= reach_;
+  return near && same_type(end) ? end : kNone;
 }
 
 void CriticalPointTracker::advance(const core::ScalarField& next) {

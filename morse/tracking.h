@@ -15,7 +15,8 @@ namespace morsel::morse {
 ///
 ///   – to itself, if that vertex had the same type there;
 ///   – else, a maximum, up the hill that it stood on there: along highest neighbours to a maximum; a minimum likewise
-///     down. The way is lost where it ends at a boundary that is no extremum (the virtual maximum of a boundary loop);
+///     down. The way is lost where it ends at a boundary that is no extremum (the virtual maximum of a boundary loop),
+///     and if the end is further than `reach` away: then it is a new one on the side of a large hill;
 ///   – else, a saddle, to the nearest saddle along the mesh's edges, of equally near ones the one of smaller number; it
 ///     is lost if there is none within `reach`.
 ///

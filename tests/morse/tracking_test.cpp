@@ -73,12 +73,15 @@ TEST_CASE("a peak that wanders is followed from field to field") {
 
 TEST_CASE("peaks that come apart share their origin and one at the boundary has none") {
   const TriangleMesh mesh = grid(24, 12).mesh();
-  CriticalPointTracker tracker(bumps(mesh, {{{8, 6, 0}, 1}}), 1);
+  CriticalPointTracker tracker(bumps(mesh, {{{8, 6, 0}, 1}}), 3);
   tracker.advance(bumps(mesh, {{{8, 6, 0}, 1}, {{9, 6, 0}, 0.1}, {{8, 8, 0}, 1}, {{20, 6, 0}, 1}}));
   const auto maxima = origins(tracker, CriticalType::maximum);
   CHECK(maxima.at(vertex_at(mesh, 8, 6)) == vertex_at(mesh, 8, 6));
   CHECK(maxima.at(vertex_at(mesh, 8, 8)) == vertex_at(mesh, 8, 6));
   CHECK(maxima.at(vertex_at(mesh, 20, 6)) == kNone);  // uphill from there lay the boundary
+  CriticalPointTracker shorter(bumps(mesh, {{{8, 6, 0}, 1}}), 1.5);
+  shorter.advance(bumps(mesh, {{{8, 6, 0}, 1}, {{8, 8, 0}, 1}}));
+  CHECK(origins(shorter, CriticalType::maximum).at(vertex_at(mesh, 8, 8)) == kNone);  // a new one on its side
 }
 
 TEST_CASE("saddles come from the nearest saddle within reach") {

@@ -31,7 +31,7 @@ constexpr std::array kMethods = {
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
-                persistence::make_tps},
+                persistence::make_tps, true},
 };
 
 template <class Entries>
@@ -85,7 +85,7 @@ MethodChain make_method(std::string_view specification) {
   for (core::Specification& link : core::parse_chain(specification, "--method")) {
     const MethodEntry& entry = find_entry(kMethods, link.name, "method");
     chain.name += (chain.name.empty() ? "" : "+") + link.name;
-    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link))});
+    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link)), entry.cancels});
   }
   return chain;
 }
