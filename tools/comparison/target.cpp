@@ -15,6 +15,7 @@ namespace morsel::tools {
 namespace {
 
 constexpr int kHalvings = 12;
+constexpr double kLeastRemainder = -40;  // as a power of two
 
 core::ScalarField blended(const core::ScalarField& from, const core::ScalarField& to, double share) {
   if (share == 0) return from;
@@ -75,15 +76,15 @@ bool TargetSearch::offer(const core::ScalarField& field) {
 
 /// The largest share found that leaves enough critical points.
 double TargetSearch::furthest_blend() const {
+  // Of what remains of the field before, the logarithm is halved: a little noise makes many critical points.
   double enough = 0;
-  double too_few = 1;
+  double too_few = kLeastRemainder;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (enough + too_few) / 2;
-    const bool leaves_enough =
-        morse::classify(blended(reached_, *beyond_, middle), progress_).total() >= wanted_;
-    (leaves_enough ? enough : too_few) = middle;
+    const core::ScalarField field = blended(reached_, *beyond_, 1 - std::exp2(middle));
+    (morse::classify(field, progress_).total() >= wanted_ ? enough : too_few) = middle;
   }
-  return enough;
+  return 1 - std::exp2(enough);
 }
 
 TargetSearch::Result TargetSearch::finish() const {
@@ -106,7 +107,13 @@ TargetSearch::Result TargetSearch::finish() const {
                              diagram.pairs.begin() + static_cast<std::ptrdiff_t>(cancelled.cancelled_pairs));
   }
   unfold(cancelled.field, outcome);
-  if (outcome.reached != wanted_) outcome.note = std::move(cancelled.note);
+  if (outcome.reached != wanted_) {
+    outcome.note = std::move(cancelled.note);
+    const long euler = smoothed.mesh().euler_characteristic();
+    if ((euler - static_cast<long>(wanted_)) % 2 != 0)
+      outcome.note += "; with simple saddles totals are " + std::string(euler % 2 != 0 ? "odd" : "even") +
+                      " on this mesh, as its Euler characteristic";
+  }
   return {std::move(smoothed), std::move(cancelled.field), std::move(outcome)};
 }
 

@@ -32,7 +32,7 @@ struct TargetOutcome {
 
 /// The way of a method, watched field by field. Fields count as long as they have at least the wanted number of critical
 /// points. If the next one has fewer, the furthest point on the straight line to it is looked for that has not (by
-/// halving, 12 times). What is left above the number is cancelled in the order of persistence. Each pair takes two
+/// halving, 12 times, the logarithm of what is left to it). What is left above the number is cancelled in the order of persistence. Each pair takes two
 /// critical points away, unless its saddle is a multiple one: if that leaves too few, multiple saddles are unfolded
 /// (morse::unfold_saddle()), those first that need the least change of value.
 class TargetSearch {
