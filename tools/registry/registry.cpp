@@ -5,16 +5,20 @@
 
 #include "morsel/core/error.h"
 #include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/salient.h"
+#include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
 
 namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
+                  morse::make_eigenfunction},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
     FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
                   morse::make_mean_curvature},
@@ -26,6 +30,7 @@ constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
+    MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
                 persistence::make_tps},
 };
