@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
@@ -16,15 +18,10 @@ using core::TriangleMesh;
 /// By how much two sides are to be longer than the third, in mean lengths.
 constexpr double kMargin = 1e-6;
 
-/// Twice the area of a triangle times the cotangent that faces side c is half of this.
+/// a² + b² − c²: four times a triangle's area times the cotangent of the angle that faces c.
 double squares(double a, double b, double c) {
   if (a > b) std::swap(a, b);
   return a * a + (b - c) * (b + c);  // no cancellation where b and c are the long sides of a needle
-}
-
-/// Of the angle that side i faces.
-double facing_cotangent(const std::array<double, 3>& sides, int i) {
-  return squares(sides[(i + 1) % 3], sides[(i + 2) % 3], sides[i]) / (4 * triangle_area(sides));
 }
 
 }  // namespace
@@ -36,6 +33,12 @@ double triangle_area(const std::array<double, 3>& sides) {
   if (a < b) std::swap(a, b);
   const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
   return std::sqrt(std::max(product, 0.0)) / 4;
+}
+
+std::array<double, 3> half_cotangents(const std::array<double, 3>& sides) {
+  const auto [a, b, c] = sides;
+  const double eightfold = 8 * triangle_area(sides);
+  return {squares(b, c, a) / eightfold, squares(c, a, b) / eightfold, squares(a, b, c) / eightfold};
 }
 
 EdgeLengths edge_lengths(const TriangleMesh& mesh) {
@@ -78,7 +81,7 @@ std::vector<double> cotangent_weights(const TriangleMesh& mesh, const EdgeLength
   core::parallel_for_each(weights.size(), [&](std::size_t e) {
     const auto half = [&](Index h) {
       const Index t = TriangleMesh::triangle_of(h);
-      return facing_cotangent(lengths.sides(mesh, t), static_cast<int>(h % 3)) / 2;
+      return half_cotangents(lengths.sides(mesh, t))[h % 3];
     };
     const Index h = mesh.edge_halfedge(static_cast<Index>(e));
     weights[e] = half(h) + (mesh.twin(h) == core::kNone ? 0 : half(mesh.twin(h)));

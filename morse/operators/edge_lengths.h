@@ -30,6 +30,9 @@ EdgeLengths edge_lengths(const core::TriangleMesh& mesh);
 /// Of a triangle with the given sides, in the unit of their square; by Kahan's formula, accurate for needles too.
 double triangle_area(const std::array<double, 3>& sides);
 
+/// Half the cotangents of the angles that face the sides of such a triangle.
+std::array<double, 3> half_cotangents(const std::array<double, 3>& sides);
+
 /// (cot α + cot β)/2 with the angles that face the edge, by edge. Their Laplacian (laplacian.h) is that of linear finite
 /// elements (Pinkall, Polthier 1993), positive semi-definite on every mesh. O(edges), parallel.
 std::vector<double> cotangent_weights(const core::TriangleMesh& mesh, const EdgeLengths& lengths);

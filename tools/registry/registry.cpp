@@ -6,6 +6,7 @@
 #include "morsel/core/error.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/eigenfunction.h"
+#include "morsel/morse/functions/geodesic.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr std::array kFunctions = {
     FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
                   morse::make_eigenfunction},
+    FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
+                  morse::make_geodesic},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
     FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
                   morse::make_mean_curvature},
