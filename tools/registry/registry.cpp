@@ -5,17 +5,24 @@
 
 #include "morsel/core/error.h"
 #include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/eigenfunction.h"
+#include "morsel/morse/functions/geodesic.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/diffusion.h"
 #include "morsel/morse/smoothing/salient.h"
+#include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
 
 namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
+                  morse::make_eigenfunction},
+    FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
+                  morse::make_geodesic},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
     FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
                   morse::make_mean_curvature},
@@ -30,6 +37,7 @@ constexpr std::array kMethods = {
                 morse::make_laplacian},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
+    MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
                 persistence::make_tps, true},
 };
