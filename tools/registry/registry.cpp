@@ -4,7 +4,7 @@
 #include <array>
 
 #include "morsel/core/error.h"
-#include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
@@ -15,9 +15,16 @@ namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
+                  morse::make_curvedness},
+    FunctionEntry{"gaussian-curvature", "Gaussian curvature, the angle defect (Meyer et al. 2003)",
+                  morse::make_gaussian_curvature},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
-    FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
-                  morse::make_mean_curvature},
+    FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
+    FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
+                  morse::make_principal_curvature},
+    FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
+                  morse::make_shape_index},
     FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
                   morse::make_vertex_scalar},
 };
