@@ -4,7 +4,7 @@
 #include <array>
 
 #include "morsel/core/error.h"
-#include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/functions/geodesic.h"
 #include "morsel/morse/functions/height.h"
@@ -19,13 +19,20 @@ namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
+                  morse::make_curvedness},
     FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
                   morse::make_eigenfunction},
+    FunctionEntry{"gaussian-curvature", "Gaussian curvature, the angle defect (Meyer et al. 2003)",
+                  morse::make_gaussian_curvature},
     FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
                   morse::make_geodesic},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
-    FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
-                  morse::make_mean_curvature},
+    FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
+    FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
+                  morse::make_principal_curvature},
+    FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
+                  morse::make_shape_index},
     FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
                   morse::make_vertex_scalar},
 };
