@@ -10,6 +10,7 @@
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
+#include "morsel/morse/smoothing/fair.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
@@ -31,6 +32,7 @@ constexpr std::array kFunctions = {
 
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
+    MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
     MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
