@@ -11,6 +11,7 @@
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/diffusion.h"
+#include "morsel/morse/smoothing/fair.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
@@ -39,6 +40,7 @@ constexpr std::array kFunctions = {
 
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
+    MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
     MethodEntry{"laplacian",
                 "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
                 morse::make_laplacian},
