@@ -4,6 +4,7 @@
 #include <array>
 
 #include "morsel/core/error.h"
+#include "morsel/morse/functions/atomic_density.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
@@ -15,6 +16,8 @@ namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"atomic-density", "density of the atoms around a molecular surface (Natarajan et al. 2006)",
+                  morse::make_atomic_density},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
     FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
                   morse::make_mean_curvature},
