@@ -1,54 +1,13 @@
 #include "morsel/core/mesh_io.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <memory>
-#include <system_error>
 #include <utility>
 
+#include "morsel/core/file_bytes.h"
 #include "morsel/core/mesh_formats.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
-namespace {
-
-/// All bytes of a file. Read, not mapped: a mapped file that is cut while it is parsed kills the program.
-class FileBytes {
- public:
-  FileBytes(const std::filesystem::path& path, const std::string& name) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) fail_reading(name, std::generic_category().message(errno));
-    const struct Closer {
-      int file;
-      ~Closer() { ::close(file); }
-    } closer{file};
-    struct stat status {};
-    if (::fstat(file, &status) != 0) fail_reading(name, std::generic_category().message(errno));
-    if (S_ISDIR(status.st_mode)) fail_reading(name, "it is a directory");
-    if (!S_ISREG(status.st_mode)) fail_reading(name, "it is not a regular file");
-    const auto size = static_cast<std::size_t>(status.st_size);
-    bytes_ = std::make_unique_for_overwrite<char[]>(size);
-    while (size_ < size) {
-      const ssize_t got = ::read(file, bytes_.get() + size_, std::min<std::size_t>(size - size_, 1 << 28));
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) fail_reading(name, std::generic_category().message(errno));
-      if (got == 0) break;
-      size_ += static_cast<std::size_t>(got);
-    }
-  }
-  std::string_view view() const { return {bytes_.get(), size_}; }
-
- private:
-  std::unique_ptr<char[]> bytes_;
-  std::size_t size_ = 0;
-};
-
-}  // namespace
-
 MeshFormat mesh_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -7,6 +7,8 @@
 #include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/functions/geodesic.h"
+#include "morsel/morse/functions/atomic_density.h"
+#include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
@@ -20,6 +22,8 @@ namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"atomic-density", "density of the atoms around a molecular surface (Natarajan et al. 2006)",
+                  morse::make_atomic_density},
     FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
                   morse::make_curvedness},
     FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",

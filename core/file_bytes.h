@@ -1,0 +1,24 @@
+#pragma once
+/// A file in memory: what all readers begin with. Internal.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace morsel::core {
+
+/// All bytes of a file. Read, not mapped: a mapped file that is cut while it is parsed kills the program.
+class FileBytes {
+ public:
+  /// Throws BadInput, naming the file as `name`, if it is missing, unreadable or not a regular file.
+  FileBytes(const std::filesystem::path& path, const std::string& name);
+  std::string_view view() const { return {bytes_.get(), size_}; }
+
+ private:
+  std::unique_ptr<char[]> bytes_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace morsel::core

@@ -1,0 +1,162 @@
+// morsel molecule: the surface of a molecule.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_writer.h"
+#include "morsel/core/mesh_writer.h"
+#include "morsel/core/molecule.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/molecule/surface.h"
+#include "morsel/tools/report/text_table.h"
+
+namespace morsel::tools {
+namespace {
+
+constexpr std::array<const char*, 4> kKinds = {"gaussian", "ses", "sas", "vdw"};  // as SurfaceKind has them
+
+struct Options {
+  std::string structure;
+  std::string output;
+  std::string kind = kKinds[0];
+  SurfaceOptions surface;
+  std::string cavities = "drop";
+  bool waters = false;
+  bool no_hydrogens = false;
+  core::Specification atoms{"molecule", {}};  ///< the rest of what chooses the atoms, as keys
+};
+
+bool is_ply(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (extension != ".off" && extension != ".ply")
+    throw core::InvalidArgument("a surface is written to .off or .ply, not to \"" + path.string() + "\"");
+  return extension == ".ply";
+}
+
+core::MoleculeOptions molecule_options(const Options& options) {
+  core::Specification keys = options.atoms;
+  if (options.waters) keys.given.emplace_back("waters", "yes");
+  if (options.no_hydrogens) keys.given.emplace_back("hydrogens", "no");
+  core::ParameterReader reader(std::move(keys));
+  return core::read_molecule_options(reader);
+}
+
+std::string described(const core::Molecule& molecule) {
+  std::string text = "atoms: " + grouped(molecule.atoms.size()) + " of " + grouped(molecule.atoms_in_model);
+  if (molecule.left_out.total() > 0) text += "; left out: " + molecule.left_out.described();
+  if (molecule.models > 1) text += " (one of " + std::to_string(molecule.models) + " models)";
+  return text;
+}
+
+std::string described(const MolecularSurface& surface, const Options& options) {
+  const core::TriangleMesh& mesh = surface.mesh;
+  const auto whole = [](double value) { return grouped(static_cast<std::uint64_t>(std::llround(value))); };
+  std::string text = "surface: " + grouped(mesh.vertex_count()) + " vertices, " +
+                     grouped(mesh.triangle_count()) + " triangles, " + grouped(mesh.component_count()) +
+                     (mesh.component_count() == 1 ? " component" : " components") + ", genus " +
+                     grouped(mesh.genus()) + ", area " + whole(surface.area) + " Å², volume " +
+                     whole(surface.volume) + " Å³";
+  if (surface.cavities > 0)
+    text += "; " + grouped(surface.cavities) + (surface.cavities == 1 ? " cavity" : " cavities") +
+            (options.surface.cavities ? " among the components" : " dropped (--cavities keep keeps them)");
+  if (surface.grids_tried > 1)
+    text += "; made on grid " + std::to_string(surface.grids_tried) + ", the surface pinched on those before";
+  return text;
+}
+
+int make(Options& options, Console& console) {
+  const bool ply = is_ply(options.output);
+  const core::MoleculeOptions wanted = molecule_options(options);
+  options.surface.kind =
+      static_cast<SurfaceKind>(std::find(kKinds.begin(), kKinds.end(), options.kind) - kKinds.begin());
+  options.surface.cavities = options.cavities == "keep";
+  check_surface_options(options.surface);
+  { const core::FileWriter target(options.output); }  // one that cannot be written is told before the work
+  const core::Progress progress = console.progress();
+  const core::Molecule molecule = core::read_molecule(options.structure, wanted, progress);
+  const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
+  if (ply)
+    core::write_ply(options.output, surface.mesh, {}, progress);
+  else
+    core::write_off(options.output, surface.mesh, progress);
+  console.message(described(molecule));
+  console.message(described(surface, options));
+  console.message("written: " + options.output);
+  return kDone;
+}
+
+}  // namespace
+
+void add_molecule(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand("molecule", "Make the surface of a molecule, a closed manifold");
+  command.add_option("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif")->required();
+  command.add_option("-o,--output", options->output, "The surface, in Å: .off or .ply")
+      ->type_name("SURFACE")
+      ->required();
+  command
+      .add_option("--kind", options->kind,
+                  "gaussian (a level of a sum of Gaussians, smooth), ses (solvent-excluded),\n"
+                  "sas (solvent-accessible) or vdw (the atoms' balls)")
+      ->check(CLI::IsMember(std::vector<std::string>(kKinds.begin(), kKinds.end())))
+      ->type_name("KIND")
+      ->capture_default_str();
+  command
+      .add_option("--resolution", options->surface.resolution,
+                  "Spacing of the grid, about an edge's length, in Å")
+      ->type_name("H")
+      ->capture_default_str();
+  command.add_option("--probe", options->surface.probe, "Radius of the solvent for ses and sas, in Å")
+      ->type_name("R")
+      ->capture_default_str();
+  command
+      .add_option("--blobbiness", options->surface.blobbiness,
+                  "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
+      ->type_name("B")
+      ->capture_default_str();
+  command
+      .add_option("--cavities", options->cavities,
+                  "keep or drop the walls of closed cavities inside the molecule")
+      ->check(CLI::IsMember({"keep", "drop"}))
+      ->type_name("C")
+      ->capture_default_str();
+
+  // The keys of atomic-density, with their texts.
+  core::ParameterReader keys = core::ParameterReader::for_help("molecule");
+  core::read_molecule_options(keys);
+  for (const core::ParameterInfo& key : keys.declared()) {
+    if (key.key == "waters") {
+      command.add_flag("--waters", options->waters, "Take the waters, too");
+    } else if (key.key == "hydrogens") {
+      command.add_flag("--no-hydrogens", options->no_hydrogens, "Leave out the hydrogens that the file has");
+    } else {
+      command
+          .add_option_function<std::string>(
+              "--" + key.key,
+              [options, name = key.key](const std::string& value) {
+                options->atoms.given.emplace_back(name, value);
+              },
+              key.description)
+          ->type_name(key.default_value.empty() ? "LIST" : key.default_value);
+    }
+  }
+  add_common_options(command, invocation.common, false);
+  command.footer(
+      "\nAn atom's radius is its element's van der Waals radius (Bondi 1964 and others, as gemmi has them).\n"
+      "By default the first model's chains are taken, modified residues included, without ligands, ions and\n"
+      "waters, and of alternate locations the one with the highest occupancy.");
+  command.callback([options, &invocation] {
+    invocation.action = [options](Console& console) { return make(*options, console); };
+  });
+}
+
+}  // namespace morsel::tools
