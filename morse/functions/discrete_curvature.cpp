@@ -57,6 +57,7 @@ core::ScalarField gaussian_curvature(const TriangleMesh& mesh, const core::Progr
 
 core::ScalarField cotangent_mean_curvature(const TriangleMesh& mesh, const core::Progress& progress) {
   progress.update("curvature", 0);
+  if (mesh.bounding_box().diagonal() == 0) return {mesh, std::vector<double>(mesh.vertex_count(), 0.0)};
   const UnitSized sized = unit_sized(mesh);
   const TriangleMesh& unit = sized.mesh;
   const std::vector<double> weight = edge_weights(unit, EdgeWeights::cotangent);

@@ -8,6 +8,7 @@
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
+#include "morsel/morse/operators/edge_lengths.h"
 
 namespace morsel::morse {
 namespace {
@@ -16,21 +17,12 @@ using core::Index;
 using core::Point;
 using core::TriangleMesh;
 
-constexpr double kLargestCotangent = 1e6;
-
-/// Of the angle between two sides; 0 if one has no length.
-double cotangent(const Point& a, const Point& b) {
-  const double dot = a.dot(b);
-  const double cross = a.cross(b).norm();
-  if (!(cross * kLargestCotangent > std::abs(dot)))
-    return dot > 0 ? kLargestCotangent : dot < 0 ? -kLargestCotangent : 0;
-  return dot / cross;
-}
-
-/// At the apex of half-edge h, which the edge faces.
+/// Of the angle at the apex of half-edge h, which the edge faces; the triangle has an area.
 double facing_cotangent(const TriangleMesh& mesh, Index h) {
   const Point& apex = mesh.position(mesh.apex(h));
-  return cotangent(mesh.position(mesh.origin(h)) - apex, mesh.position(mesh.target(h)) - apex);
+  const Point a = mesh.position(mesh.origin(h)) - apex;
+  const Point b = mesh.position(mesh.target(h)) - apex;
+  return a.dot(b) / a.cross(b).norm();
 }
 
 /// What the triangle of half-edge h gives to the vertex that h leaves.
@@ -39,7 +31,7 @@ double corner_area(const TriangleMesh& mesh, Index h, VertexArea kind) {
   const Point a = mesh.position(mesh.target(h)) - p;
   const Point b = mesh.position(mesh.apex(h)) - p;
   const double area = a.cross(b).norm() / 2;
-  if (kind == VertexArea::barycentric) return area / 3;
+  if (kind == VertexArea::barycentric || area == 0) return area / 3;
   if (a.dot(b) < 0) return area / 2;                          // obtuse here
   if (a.dot(a - b) < 0 || b.dot(b - a) < 0) return area / 4;  // obtuse at another corner
   // Each half of a side belongs to the circumcentre's kite: the cotangent of the angle that faces the side.
@@ -72,14 +64,10 @@ EdgeWeights read_edge_weights(core::ParameterReader& reader, EdgeWeights default
 }
 
 std::vector<double> edge_weights(const TriangleMesh& mesh, EdgeWeights weights) {
-  std::vector<double> result(mesh.edge_count(), 1.0);
-  if (weights == EdgeWeights::uniform) return result;
-  core::parallel_for_each(result.size(), [&](std::size_t e) {
-    const Index h = mesh.edge_halfedge(static_cast<Index>(e));
-    double sum = facing_cotangent(mesh, h);
-    if (mesh.twin(h) != core::kNone) sum += facing_cotangent(mesh, mesh.twin(h));
-    result[e] = weights == EdgeWeights::clamped ? std::max(sum / 2, kLeastWeight) : sum / 2;
-  });
+  if (weights == EdgeWeights::uniform) return std::vector<double>(mesh.edge_count(), 1.0);
+  std::vector<double> result = cotangent_weights(mesh, edge_lengths(mesh));
+  if (weights == EdgeWeights::clamped)
+    for (double& weight : result) weight = std::max(weight, kLeastWeight);
   return result;
 }
 

@@ -30,8 +30,8 @@ EdgeWeights read_edge_weights(core::ParameterReader& reader, EdgeWeights default
 /// What clamped weights are at least. An edge between two right angles has weight 0.
 inline constexpr double kLeastWeight = 1e-3;
 
-/// w_e of each edge, by number; no unit. A triangle without area counts as one whose angles are almost 0 or π: no
-/// cotangent is beyond ±1e6. O(edges), parallel.
+/// w_e of each edge, by number; no unit. Cotangents are those of edge_lengths.h, so that degenerate triangles do no harm;
+/// throws BadInput as edge_lengths() does. O(edges), parallel.
 std::vector<double> edge_weights(const core::TriangleMesh& mesh, EdgeWeights weights);
 
 /// The symmetric matrix L with (L f)_i = Σ_j w_ij (f_i − f_j): positive semi-definite where no weight is negative and
