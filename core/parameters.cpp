@@ -128,11 +128,12 @@ bool ParameterReader::flag(std::string_view key, bool default_value, std::string
 std::string ParameterReader::choice(std::string_view key, std::string_view default_value,
                                     const std::vector<std::string_view>& choices,
                                     std::string_view description) {
-  const std::string* text = declare(key, std::string(default_value), description);
-  if (text == nullptr) return std::string(default_value);
-  if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
   std::string allowed;
   for (const std::string_view c : choices) allowed += (allowed.empty() ? "" : ", ") + std::string(c);
+  const std::string* text =
+      declare(key, std::string(default_value), std::string(description) + " [" + allowed + "]");
+  if (text == nullptr) return std::string(default_value);
+  if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
   throw InvalidArgument(owner() + ":" + std::string(key) + " must be one of " + allowed + ", not " +
                         quoted(*text));
 }

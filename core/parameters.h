@@ -50,6 +50,7 @@ class ParameterReader {
                      std::string_view description);
   Length length(std::string_view key, Length default_value, Range range, std::string_view description);
   bool flag(std::string_view key, bool default_value, std::string_view description);
+  /// One of `choices`, which help lists after the description.
   std::string choice(std::string_view key, std::string_view default_value,
                      const std::vector<std::string_view>& choices, std::string_view description);
   /// Free text; a null default makes the key one that must be given.
