@@ -4,6 +4,7 @@
 #include <set>
 
 #include "morsel/core/parallel.h"
+#include "morsel/morse/functions/height.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -51,6 +52,13 @@ void check_invariants(const core::ScalarField& field) {
   CHECK(m.complex.quad_count() == 2 * points.saddle_multiplicity);
 }
 
+/// For methods that take the Morse function again.
+core::MethodContext with_height() {
+  core::MethodContext context;
+  context.morse_function = [](const TriangleMesh& mesh) { return morse::height(mesh); };
+  return context;
+}
+
 }  // namespace
 
 TEST_CASE("invariants hold for every field that a method returns") {
@@ -59,14 +67,16 @@ TEST_CASE("invariants hold for every field that a method returns") {
        {"conventional", "salient:iterations=2,sigma=0.6", "salient:iterations=3,sigma=0.6,range=local",
         "salient:iterations=2,sigma=0.6,classify=saliency", "tps:threshold=10%", "tps:threshold=0",
         "tps:threshold=1000%", "tps:count=6", "salient:iterations=1,sigma=0.6+tps:threshold=5%",
-        "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
+        "tps:threshold=20%+salient:iterations=1,sigma=0.5", "gaussian:sigma=0.6,iterations=2",
+        "salient:iterations=2,sigma=0.6,weights=area,ball=connected", "saliency:scales=0.3/0.5",
+        "denoise:iterations=2", "denoise:kind=laplacian,iterations=2"})
     chains.push_back(tools::make_method(text));
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& f : field_zoo(entry.mesh, 23))
       for (const tools::MethodChain& chain : chains) {
         INFO(entry.name << ", " << f.name << ", " << chain.specification);
         core::ScalarField field = f.field;
-        for (const auto& step : chain.steps) field = step.method->apply(field, {}).field;
+        for (const auto& step : chain.steps) field = step.method->apply(field, with_height()).field;
         check_invariants(field);
       }
 }
@@ -79,7 +89,7 @@ TEST_CASE("every method gives the same bits at any number of threads") {
     const tools::MethodChain chain = tools::make_method(entry.name);
     const auto run = [&](int threads) {
       const core::ThreadLimit limit(threads);
-      const core::ScalarField field = chain.steps[0].method->apply(input, {}).field;
+      const core::ScalarField field = chain.steps[0].method->apply(input, with_height()).field;
       return std::pair{std::vector<double>(field.values().begin(), field.values().end()),
                        std::vector<Index>(field.ranks().begin(), field.ranks().end())};
     };

@@ -8,6 +8,9 @@
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
+#include "morsel/morse/smoothing/denoise.h"
+#include "morsel/morse/smoothing/gaussian.h"
+#include "morsel/morse/smoothing/saliency.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "morsel/persistence/cancellation.h"
 
@@ -31,6 +34,11 @@ constexpr std::array kFunctions = {
 
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
+    MethodEntry{"denoise", "smoothing of the surface before the field is taken again (Fleishman et al. 2003)",
+                morse::make_denoise, true},
+    MethodEntry{"gaussian", "Gaussian averages, the paper's equation (1)", morse::make_gaussian},
+    MethodEntry{"saliency", "mesh saliency over several scales (Lee, Varshney, Jacobs 2005)",
+                morse::make_saliency},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
@@ -87,6 +95,9 @@ MethodChain make_method(std::string_view specification) {
   MethodChain chain{std::string(specification), "", {}};
   for (core::Specification& link : core::parse_chain(specification, "--method")) {
     const MethodEntry& entry = find_entry(kMethods, link.name, "method");
+    if (entry.starts_chain && !chain.steps.empty())
+      throw core::InvalidArgument(std::string(entry.name) + " does not use the field that " + chain.name +
+                                  " would hand to it, so it can only be the first step of a chain");
     chain.name += (chain.name.empty() ? "" : "+") + link.name;
     chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link))});
   }

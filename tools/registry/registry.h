@@ -23,6 +23,7 @@ struct MethodEntry {
   std::string_view name;
   std::string_view summary;
   std::unique_ptr<core::Method> (*make)(core::ParameterReader&);
+  bool starts_chain = false;  ///< takes no notice of the values it is given, so nothing can come before it
 };
 
 std::span<const FunctionEntry> morse_functions();
