@@ -89,8 +89,11 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
   std::vector<std::string_view> names;
   for (const Estimator& estimator : estimators) names.push_back(estimator.name);
   names.emplace_back("quadric");
-  const std::string chosen =
-      reader.choice("estimator", names.front(), names, "quadric: fitted within a radius, for noisy surfaces");
+  std::string listed;
+  for (const std::string_view name : names)
+    listed += std::string(listed.empty() ? "" : " or ") + std::string(name);
+  const std::string chosen = reader.choice("estimator", names.front(), names,
+                                           listed + " (fitted within a radius, for noisy surfaces)");
   const core::Length radius = reader.length("radius", core::Length::epsilons(5), core::kPositive,
                                             "how far a fitted quadric reaches, with estimator=quadric");
   const bool quadric = chosen == "quadric";

@@ -13,7 +13,9 @@
 #include "morsel/core/parallel.h"
 #include "morsel/morse/smoothing/aligned.h"
 #include "morsel/morse/smoothing/ball_pairs.h"
+#include "morsel/morse/smoothing/bilateral_engine.h"
 #include "morsel/morse/smoothing/block_tree.h"
+#include "morsel/morse/smoothing/listed_sums.h"
 #include "morsel/morse/smoothing/pair_kernels.h"
 #include "morsel/morse/smoothing/shared_sums.h"
 
@@ -48,18 +50,8 @@ std::size_t chunk_size(std::size_t points) { return std::clamp<std::size_t>(poin
 
 }  // namespace
 
-class BilateralFilter::Engine {
- public:
-  virtual ~Engine() = default;
-  virtual void apply(std::span<const double> values, std::optional<double> sigma_s, std::span<double> result,
-                     const Report& report) = 0;
-  virtual std::optional<double> gain(std::span<const double> values, double sigma_s) const = 0;
-  virtual double error() const = 0;
-  virtual std::uint64_t pairs() const = 0;
-};
-
 template <class Mask, class Real>
-class BilateralFilter::EngineOf final : public Engine {
+class BilateralFilter::EngineOf final : public BilateralEngine {
   static constexpr std::size_t kLanes = 8 * sizeof(Mask);
 
  public:
@@ -332,7 +324,9 @@ class BilateralFilter::EngineOf final : public Engine {
 
 BilateralFilter::BilateralFilter(std::span<const core::Point> points, const Options& options,
                                  const core::Progress& progress) {
-  if (options.precision == Precision::float64 && !(options.tolerance > 0))
+  if (!options.weights.empty() || options.connected_by)
+    engine_ = std::make_unique<ListedSums>(points, options, progress);
+  else if (options.precision == Precision::float64 && !(options.tolerance > 0))
     engine_ = std::make_unique<EngineOf<std::uint8_t, double>>(points, options, progress);
   else
     engine_ = std::make_unique<EngineOf<std::uint16_t, float>>(points, options, progress);

@@ -7,7 +7,9 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "morsel/core/mesh.h"
 #include "morsel/core/progress.h"
 #include "morsel/core/types.h"
 #include "morsel/morse/smoothing/instruction_set.h"
@@ -16,6 +18,8 @@ namespace morsel::morse {
 
 /// In what the weights and sums are computed. Who is a neighbour of whom is always decided in double precision.
 enum class Precision : std::uint8_t { float64, float32 };
+
+class BilateralEngine;
 
 /// Computes, again and again for the same points,
 ///
@@ -26,7 +30,8 @@ enum class Precision : std::uint8_t { float64, float32 };
 /// wholly, so that nothing is decided in the inner loop, which visits each pair of points once for both
 /// directions and takes one exponential for both weights. Sums are gathered chunk by chunk and added in the order of the
 /// chunks: the same bits for any number of threads and any memory; for the instruction sets see
-/// PairKernels. In float64 the weights are 2e-15 from the true ones. In float32 coordinates and values are taken
+/// PairKernels. With weights or connected balls the sums are taken plainly instead, vertex by vertex (ListedSums), in
+/// float64 and without a tolerance. In float64 the weights are 2e-15 from the true ones. In float32 coordinates and values are taken
 /// relative to a place within the chunk, sums over chunks are in double, and chunks that are wide compared with σ are
 /// computed in float64, so S stays within about 1e-7 of the extent.
 class BilateralFilter {
@@ -40,6 +45,11 @@ class BilateralFilter {
     double tolerance = 0;
     std::size_t memory =
         0;  ///< most bytes for keeping pairs between calls; without it they are found each time
+    /// How often each point counts in both sums, ≥ 0 and of moderate size; empty: once.
+    std::vector<double> weights = {};
+    /// If given, only those x count that edges of this surface, whose positions the points are, connect to v within the
+    /// ball.
+    std::optional<core::TriangleMesh> connected_by = {};
   };
   /// Told how far a call is, in [0, 1], by the thread that calls.
   using Report = std::function<void(double fraction)>;
@@ -65,10 +75,9 @@ class BilateralFilter {
   std::uint64_t pairs() const;
 
  private:
-  class Engine;
   template <class Mask, class Real>
   class EngineOf;
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<BilateralEngine> engine_;
 };
 
 }  // namespace morsel::morse

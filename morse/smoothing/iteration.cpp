@@ -111,6 +111,11 @@ bool IterationControl::counted() const {
   return context_.count_iterations || criteria_.until_count || criteria_.until_stable;
 }
 
+bool IterationControl::needs_field() const {
+  return counted() || criteria_.until_change || context_.on_iteration ||
+         iteration_ + 1 >= criteria_.iterations;
+}
+
 void IterationControl::restart() {
   field_ = input_;
   iteration_ = 0;

@@ -46,6 +46,11 @@ class IterationControl {
   bool more() const { return stopped_by_.empty(); }
   /// The next iteration's values, per vertex. Equal values keep the order of the input.
   void record(std::vector<double> values);
+  /// Whether the next iteration's values are looked at: always, unless no criterion and nobody else asks for those between
+  /// the input and the last.
+  bool needs_field() const;
+  /// In place of record() where the next iteration's values are not needed; field() stays what it is.
+  void skip() { ++iteration_; }
   /// The method begins again from the input.
   void restart();
 

@@ -8,6 +8,8 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
+#include "morsel/morse/operators/laplacian.h"
+#include "morsel/morse/operators/unit_size.h"
 #include "morsel/morse/smoothing/keep_order.h"
 
 namespace morsel::morse {
@@ -16,20 +18,25 @@ namespace {
 using core::Index;
 using core::InvalidArgument;
 
-/// The population's standard deviation; exactly 0 for a constant. Values are of order 1.
-double standard_deviation(std::span<const double> values) {
+/// The population's standard deviation, every value counting with its weight if there are any; exactly 0 for a
+/// constant. Values are of order 1.
+double standard_deviation(std::span<const double> values, std::span<const double> weights) {
   const double base = *std::min_element(values.begin(), values.end());
   const auto sum = [&](const auto& term) {
     return core::parallel_reduce(
         0, values.size(), core::kGrain, 0.0,
         [&](std::size_t first, std::size_t last) {
           double part = 0;
-          for (std::size_t v = first; v < last; ++v) part += term(values[v] - base);
+          if (weights.empty())
+            for (std::size_t v = first; v < last; ++v) part += term(values[v] - base);
+          else
+            for (std::size_t v = first; v < last; ++v) part += weights[v] * term(values[v] - base);
           return part;
         },
         [](double a, double b) { return a + b; });
   };
-  const auto n = static_cast<double>(values.size());
+  const double n = weights.empty() ? static_cast<double>(values.size()) : sum([](double) { return 1.0; });
+  if (!(n > 0)) return 0;
   const double mean = sum([](double g) { return g; }) / n;
   return std::sqrt(sum([&](double g) { return (g - mean) * (g - mean); }) / n);
 }
@@ -42,16 +49,30 @@ constexpr double kLeastAccuracy = 1e-5;
 /// The gain is estimated too high by up to this (the cells' part waits for memory).
 constexpr double kLeastGain = 1.75;
 
-BilateralFilter::Options filter_options(const SalientOptions& options, double sigma,
-                                        SalientAlgorithm algorithm) {
+/// Only the fast algorithms know nothing of areas and connected balls.
+bool is_plain(const SalientOptions& options) {
+  return options.weights == NeighborWeights::none && options.ball == Ball::euclidean;
+}
+
+/// Single precision because of the accuracy.
+bool is_rounded(const SalientOptions& options) {
+  return options.accuracy >= kLeastAccuracy && is_plain(options);
+}
+
+BilateralFilter::Options filter_options(const core::TriangleMesh& mesh, const SalientOptions& options,
+                                        double sigma, SalientAlgorithm algorithm) {
   const bool repeated = options.iterations > 1 || options.range.kind == ValueRange::Kind::local;
   const bool shared = algorithm == SalientAlgorithm::near_linear;
-  return {options.support * sigma,
-          sigma,
-          options.accuracy >= kLeastAccuracy ? Precision::float32 : options.precision,
-          options.instructions.value_or(best_instruction_set()),
-          shared ? kToleranceOverAccuracy * options.accuracy : 0,
-          repeated ? options.memory : 0};
+  BilateralFilter::Options result = {options.support * sigma,
+                                     sigma,
+                                     is_rounded(options) ? Precision::float32 : options.precision,
+                                     options.instructions.value_or(best_instruction_set()),
+                                     shared ? kToleranceOverAccuracy * options.accuracy : 0,
+                                     repeated ? options.memory : 0};
+  if (options.weights == NeighborWeights::area)
+    result.weights = vertex_areas(unit_sized(mesh).mesh, VertexArea::mixed);
+  if (options.ball == Ball::connected) result.connected_by = mesh;
+  return result;
 }
 
 class Filter {
@@ -60,7 +81,8 @@ class Filter {
          SalientAlgorithm algorithm, const core::Progress& progress)
       : options_(options),
         progress_(progress),
-        filter_(input.mesh().positions(), filter_options(options, sigma, algorithm), progress) {
+        filter_options_(filter_options(input.mesh(), options, sigma, algorithm)),
+        filter_(input.mesh().positions(), filter_options_, progress) {
     const std::size_t n = input.values().size();
     const double largest = std::max(std::abs(input.min()), std::abs(input.max()));
     // A power of two changes no digit, and keeps differences and squares in range.
@@ -72,9 +94,10 @@ class Filter {
     const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
     if (*most > *least) extent_ = *most - *least;
     const ValueRange& range = options.range;
-    if (range.kind == ValueRange::Kind::local) return;
+    if (range.kind == ValueRange::Kind::none) scaled_sigma_s_ = std::numeric_limits<double>::infinity();
+    if (range.kind == ValueRange::Kind::local || range.kind == ValueRange::Kind::none) return;
     if (range.kind == ValueRange::Kind::deviations) {
-      scaled_sigma_s_ = range.value * standard_deviation(values_);
+      scaled_sigma_s_ = range.value * standard_deviation(values_, filter_options_.weights);
       sigma_s_ = std::ldexp(*scaled_sigma_s_, exponent_);
     } else {
       sigma_s_ = range.kind == ValueRange::Kind::literal ? sigma : range.value;
@@ -86,8 +109,7 @@ class Filter {
   std::vector<double> values() const { return unscaled(values_); }
   std::vector<double> saliency() const { return unscaled(saliency_); }
   std::uint64_t pairs() const { return filter_.pairs(); }
-  /// Single precision because of the accuracy.
-  bool rounded() const { return options_.accuracy >= kLeastAccuracy; }
+  bool rounded() const { return is_rounded(options_); }
   /// See BilateralFilter; over the input's extent.
   double error() const { return filter_.error() / extent_; }
 
@@ -115,7 +137,7 @@ class Filter {
  private:
   void iterate(int iteration) {
     filter_.apply(values_, scaled_sigma_s_, saliency_, [&](double done) {
-      progress_.update("salient smoothing", (iteration + done) / options_.iterations);
+      progress_.update(options_.step, (iteration + done) / options_.iterations);
     });
     core::parallel_for_each(values_.size(), [&](std::size_t v) { values_[v] += saliency_[v]; });
   }
@@ -128,8 +150,9 @@ class Filter {
 
   const SalientOptions& options_;
   const core::Progress& progress_;
+  BilateralFilter::Options filter_options_;
   BilateralFilter filter_;
-  std::optional<double> sigma_s_;  // none if local
+  std::optional<double> sigma_s_;  // none if local or beyond all differences
   int exponent_ = 0;               // what follows is the field's, divided by 2^exponent_
   double extent_ = 1;
   std::optional<double> scaled_sigma_s_;
@@ -141,7 +164,9 @@ bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
 /// Why the options alone rule out the near-linear algorithm; empty if they do not.
 std::string why_exact(const SalientOptions& options) {
+  if (!is_plain(options)) return "weights=area and ball=connected need every pair";
   if (options.range.kind == ValueRange::Kind::local) return "a local range needs every pair";
+  if (options.range.kind == ValueRange::Kind::none) return "without a range every pair counts";
   if (options.accuracy < kLeastAccuracy)
     return "an accuracy below " + core::shortest(kLeastAccuracy) + " needs every pair";
   return "";
@@ -163,30 +188,11 @@ double sigma_on(const core::TriangleMesh& mesh, const SalientOptions& options) {
 
 }  // namespace
 
-ValueRange parse_value_range(std::string_view text, std::string_view what) {
-  using Kind = ValueRange::Kind;
-  if (text == "local") return {Kind::local, 1};
-  if (text == "literal") return {Kind::literal, 1};
-  const bool deviations = text.ends_with("std");
-  const std::string allowed = std::string(what) + " (or else local, literal or a multiple such as 1std)";
-  const double value = core::parse_number(deviations ? text.substr(0, text.size() - 3) : text, allowed);
-  if (!(value > 0)) throw InvalidArgument(std::string(what) + " must be above 0, not " + std::string(text));
-  return {deviations ? Kind::deviations : Kind::fixed, value};
+std::string_view to_string(NeighborWeights weights) {
+  return weights == NeighborWeights::area ? "area" : "none";
 }
 
-std::string to_string(const ValueRange& range) {
-  switch (range.kind) {
-    case ValueRange::Kind::local:
-      return "local";
-    case ValueRange::Kind::literal:
-      return "literal";
-    case ValueRange::Kind::fixed:
-      return core::shortest(range.value);
-    case ValueRange::Kind::deviations:
-      break;
-  }
-  return core::shortest(range.value) + "std";
-}
+std::string_view to_string(Ball ball) { return ball == Ball::connected ? "connected" : "euclidean"; }
 
 void check(const SalientOptions& options) {
   if (options.iterations < 0)
@@ -204,6 +210,10 @@ void check(const SalientOptions& options) {
       options.range.kind == ValueRange::Kind::deviations || options.range.kind == ValueRange::Kind::fixed;
   if (has_value && !is_positive(options.range.value))
     throw InvalidArgument("range must be finite and above 0, not " + to_string(options.range));
+  if (options.precision == Precision::float32 && !is_plain(options))
+    throw InvalidArgument(
+        "precision=single cannot be had with weights=" + std::string(to_string(options.weights)) +
+        ",ball=" + std::string(to_string(options.ball)) + ", which are computed in double precision");
   const std::vector<InstructionSet> sets = instruction_sets();
   if (options.instructions && std::find(sets.begin(), sets.end(), *options.instructions) == sets.end())
     throw InvalidArgument("this processor, or this build, does not have the instruction set " +
@@ -214,11 +224,11 @@ SalientResult salient(const core::ScalarField& input, const SalientOptions& opti
                       const core::Progress& progress) {
   check(options);
   const double sigma = sigma_on(input.mesh(), options);
-  progress.update("salient smoothing", 0);
+  progress.update(options.step, 0);
   std::string reason;
   double estimate = 0;
   const auto result = [&](const Filter& filter, SalientAlgorithm algorithm) {
-    progress.update("salient smoothing", 1);
+    progress.update(options.step, 1);
     const bool promised = filter.rounded() || algorithm == SalientAlgorithm::near_linear;
     return SalientResult{keep_order(input, options.return_saliency ? filter.saliency() : filter.values()),
                          sigma,

@@ -15,27 +15,9 @@
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 #include "morsel/morse/smoothing/bilateral.h"
+#include "morsel/morse/smoothing/value_range.h"
 
 namespace morsel::morse {
-
-/// How σ_s, the standard deviation of the weight of values, is chosen.
-struct ValueRange {
-  enum class Kind : std::uint8_t {
-    deviations,  ///< `value` standard deviations (population's, over vertices) of the input, fixed once
-    local,       ///< the largest abs(f(x) − f(v)) in v's neighbourhood, anew in each iteration
-    literal,     ///< σ, a length: the paper's text as it stands
-    fixed        ///< `value`, in the field's unit
-  };
-  Kind kind = Kind::deviations;
-  double value = 1;  ///< finite and above 0; only for deviations and fixed
-
-  friend bool operator==(const ValueRange&, const ValueRange&) = default;
-};
-
-/// "1std", "0.5std", "local", "literal" or a number; throws InvalidArgument, naming `what`, on anything else.
-ValueRange parse_value_range(std::string_view text, std::string_view what);
-/// The text that reads back as the same.
-std::string to_string(const ValueRange& range);
 
 /// What one iteration made.
 struct SalientIteration {
@@ -50,12 +32,28 @@ enum class SalientAlgorithm : std::uint8_t {
   near_linear  ///< cells of near vertices share what they add to one another: see SharedSums
 };
 
+/// How much a neighbour x counts, besides W_c W_s.
+enum class NeighborWeights : std::uint8_t {
+  none,  ///< like every other
+  area  ///< with its mixed vertex area (vertex_areas()), so that a densely sampled region does not count for more
+};
+/// Which vertices within support · σ of v are its neighbours.
+enum class Ball : std::uint8_t {
+  euclidean,  ///< all
+  connected  ///< those that edges within the ball connect to v (ConnectedBalls), so that a thin part's other side is none
+};
+std::string_view to_string(NeighborWeights weights);
+std::string_view to_string(Ball ball);
+
 struct SalientOptions {
   int iterations = 10;                             ///< 0 returns the input as it is
   core::Length sigma = core::Length::epsilons(8);  ///< σ, above 0
   ValueRange range = {};                           ///< σ_s
   double support = 2;                              ///< the neighbourhood's radius in σ, above 0
   bool return_saliency = false;                    ///< return the last S instead of f
+  /// Other values than these two run a plainer algorithm, pair by pair in double precision, at several times the cost.
+  NeighborWeights weights = NeighborWeights::none;
+  Ball ball = Ball::euclidean;
   /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The near-linear
   /// algorithm runs where it is the faster one by an estimate, which depends on the input alone. The expansions it
   /// uses err by less than 5 times this in each weight, relatively; what comes of that in the values is measured at 512
@@ -78,16 +76,17 @@ struct SalientOptions {
   Precision precision = Precision::float64;
   /// The processor's best if not given. Only one of instruction_sets().
   std::optional<InstructionSet> instructions = {};
+  std::string_view step = "salient smoothing";  ///< as progress names it
 };
 
-/// Throws InvalidArgument, naming the value, if an option is out of range, and if the saliency of no iteration is
-/// asked for.
+/// Throws InvalidArgument, naming the value, if an option is out of range, if the saliency of no iteration is
+/// asked for, and if single precision is asked for with weights or balls that it does not have.
 void check(const SalientOptions& options);
 
 struct SalientResult {
   core::ScalarField field;
   double sigma;                   ///< σ in the mesh's unit
-  std::optional<double> sigma_s;  ///< σ_s in the field's unit where it is fixed, that is unless local
+  std::optional<double> sigma_s;  ///< σ_s in the field's unit where it is fixed, that is unless local or none
   std::uint64_t pairs = 0;        ///< pairs (v, x) within reach, v itself included
   SalientAlgorithm algorithm = SalientAlgorithm::exact;
   double promised_error =
@@ -104,7 +103,8 @@ struct SalientResult {
 ///
 /// (the paper's equations 3 and 4 and Listing 1, with f taken from the Morse function once, not in every
 /// iteration). Distances are Euclidean; what is in reach is decided in double precision. S is 0 where σ_s is
-/// 0. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
+/// 0. With weights=area each x counts A_x times in both sums, and in the field's standard deviation; S is 0 where all that
+/// count have no area. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
 /// that nothing overflows or vanishes on the way.
 ///
 /// O(iterations · n · neighbours), or a sum over cells and their rims in place of neighbours if `accuracy` lets
@@ -114,7 +114,8 @@ struct SalientResult {
 SalientResult salient(const core::ScalarField& input, const SalientOptions& options = {},
                       const core::Progress& progress = {});
 
-/// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single, accuracy.
+/// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single, accuracy,
+/// weights=none|area, ball=euclidean|connected.
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

@@ -1,12 +1,10 @@
-/// Salient smoothing as a method that is chosen by name.
+#include "morsel/morse/smoothing/salient_method.h"
 
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/morse/smoothing/iteration.h"
-#include "morsel/morse/smoothing/salient.h"
 
 namespace morsel::morse {
 namespace {
@@ -21,20 +19,15 @@ class Salient final : public core::Method {
   core::MethodResult apply(const core::ScalarField& input,
                            const core::MethodContext& context) const override {
     IterationControl control(input, criteria_, context);
-    SalientOptions options = options_;
-    options.iterations = control.more() ? criteria_.iterations : 0;
-    options.on_iteration = [&](const SalientIteration& iteration) {
-      if (iteration.number <= control.iterations_run()) control.restart();
-      control.record({iteration.values.begin(), iteration.values.end()});
-      return control.more();
-    };
-    SalientResult salient = morse::salient(input, options, context.progress);
+    SalientResult salient = run_salient(input, options_, criteria_, control, context.progress);
     core::Parameters parameters = {{"sigma", salient.sigma},
-                                   {"range", to_string(options.range)},
-                                   {"support", options.support},
-                                   {"classify", options.return_saliency ? "saliency" : "smoothed"},
-                                   {"precision", to_string(options.precision)},
-                                   {"accuracy", options.accuracy}};
+                                   {"range", to_string(options_.range)},
+                                   {"support", options_.support},
+                                   {"classify", options_.return_saliency ? "saliency" : "smoothed"},
+                                   {"precision", to_string(options_.precision)},
+                                   {"accuracy", options_.accuracy},
+                                   {"weights", std::string(to_string(options_.weights))},
+                                   {"ball", std::string(to_string(options_.ball))}};
     if (salient.sigma_s) parameters.emplace_back("sigma_s", *salient.sigma_s);
     core::Parameters details = {
         {"pairs_per_iteration", static_cast<std::int64_t>(salient.pairs)},
@@ -55,18 +48,48 @@ class Salient final : public core::Method {
 
 }  // namespace
 
+void read_sigma(core::ParameterReader& reader, SalientOptions& options) {
+  options.sigma =
+      reader.length("sigma", options.sigma, core::kPositive, "standard deviation of the weight of distances");
+}
+
+void read_support(core::ParameterReader& reader, SalientOptions& options) {
+  options.support = reader.number("support", options.support, core::kPositive,
+                                  "radius of the neighbourhood, in multiples of sigma");
+}
+
+void read_neighbors(core::ParameterReader& reader, SalientOptions& options) {
+  if (reader.choice("weights", "none", {"none", "area"},
+                    "area: a neighbour counts with its vertex area, so that sampling matters less") == "area")
+    options.weights = NeighborWeights::area;
+  if (reader.choice("ball", "euclidean", {"euclidean", "connected"},
+                    "connected: only neighbours that edges within the neighbourhood connect") == "connected")
+    options.ball = Ball::connected;
+}
+
+SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
+                          const StopCriteria& criteria, IterationControl& control,
+                          const core::Progress& progress) {
+  options.iterations = control.more() ? criteria.iterations : 0;
+  options.on_iteration = [&](const SalientIteration& iteration) {
+    if (iteration.number <= control.iterations_run()) control.restart();
+    control.record({iteration.values.begin(), iteration.values.end()});
+    return control.more();
+  };
+  return salient(input, options, progress);
+}
+
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   SalientOptions options;
   const StopCriteria criteria = read_stop_criteria(reader, options.iterations);
   options.iterations = criteria.iterations;
-  options.sigma = reader.length("sigma", core::Length::epsilons(8), core::kPositive,
-                                "standard deviation of the weight of distances");
-  options.range = parse_value_range(reader.text("range", "1std",
-                                                "standard deviation of the weight of values: a multiple of "
-                                                "the field's (1std), local, literal (sigma), or a number"),
-                                    reader.owner() + ":range");
-  options.support =
-      reader.number("support", 2, core::kPositive, "radius of the neighbourhood, in multiples of sigma");
+  read_sigma(reader, options);
+  options.range = parse_value_range(
+      reader.text("range", "1std",
+                  "standard deviation of the weight of values: a multiple of "
+                  "the field's (1std), local, literal (sigma), none (no limit), or a number"),
+      reader.owner() + ":range");
+  read_support(reader, options);
   options.return_saliency = reader.choice("classify", "smoothed", {"smoothed", "saliency"},
                                           "the field to return: f, or the last S instead") == "saliency";
   if (reader.choice(
@@ -78,6 +101,7 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
       reader.number("accuracy", 0, {0, false, 1},
                     "share of the field's extent by which the "
                     "result may be off, so that large meshes take less time; 0 for an exact result");
+  read_neighbors(reader, options);
   check(options);
   return std::make_unique<Salient>(std::move(options), criteria);
 }

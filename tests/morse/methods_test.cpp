@@ -53,6 +53,8 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                               {"classify", "smoothed"},
                                               {"precision", "double"},
                                               {"accuracy", 0.0},
+                                              {"weights", "none"},
+                                              {"ball", "euclidean"},
                                               {"sigma_s", *direct.sigma_s}});
   CHECK(result.details == core::Parameters{{"pairs_per_iteration", static_cast<std::int64_t>(direct.pairs)},
                                            {"algorithm", "exact"},
@@ -77,7 +79,9 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                              {"support", 1.5},
                                              {"classify", "saliency"},
                                              {"precision", "double"},
-                                             {"accuracy", 0.0}});
+                                             {"accuracy", 0.0},
+                                             {"weights", "none"},
+                                             {"ball", "euclidean"}});
   morse::SalientOptions options{
       2, core::Length::absolute(0.25), {morse::ValueRange::Kind::local, 1}, 1.5, true};
   CHECK(values_of(local.field) == values_of(morse::salient(field, options).field));
@@ -100,7 +104,8 @@ TEST_CASE("salient keys are checked when the method is made") {
       {"precision", "half"}, {"sigma", "8 eps"},    {"range", "2sd"},
       {"range", "0"},        {"support", "0"},      {"support", "nan"},
       {"classify", "both"},  {"sigmas", "3"},       {"accuracy", "-1e-4"},
-      {"accuracy", "2"},     {"accuracy", "exact"}};
+      {"accuracy", "2"},     {"accuracy", "exact"}, {"weights", "mass"},
+      {"ball", "round"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
     CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
@@ -109,7 +114,7 @@ TEST_CASE("salient keys are checked when the method is made") {
   CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
-  REQUIRE(help.declared().size() == 10);
+  REQUIRE(help.declared().size() == 12);
   const std::vector<std::pair<std::string, std::string>> defaults = {
       {"iterations", "10"}, {"until-count", "none"}, {"until-stable", "none"}, {"until-change", "none"},
       {"sigma", "8eps"},    {"range", "1std"},       {"support", "2"},         {"classify", "smoothed"}};

@@ -24,6 +24,24 @@ using Tree =
 }  // namespace
 
 struct SalientListing::Search {
+  /// Keeps of `found` what can be reached from v within it.
+  void keep_connected(core::Index v) {
+    const auto distance = [&](core::Index u) {
+      return std::find_if(found.begin(), found.end(), [&](const auto& x) { return x.first == u; });
+    };
+    std::vector<std::pair<core::Index, double>> reached = {*distance(v)};
+    std::vector<core::Index> ring;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      options.connected_by->neighbors(reached[i].first, ring);
+      for (const core::Index u : ring) {
+        const bool is_new =
+            std::none_of(reached.begin(), reached.end(), [&](const auto& x) { return x.first == u; });
+        if (is_new && distance(u) != found.end()) reached.push_back(*distance(u));
+      }
+    }
+    found = std::move(reached);
+  }
+
   Search(std::span<const core::Point> points, const SalientReferenceOptions& o)
       : cloud{points}, tree(3, cloud), options(o) {}
   Cloud cloud;
@@ -47,6 +65,7 @@ double SalientListing::saliency(std::span<const double> values, core::Index v, s
       radius * radius * (1 - 1e-12);  // a root for every pair would slow the baseline down
   std::erase_if(found,
                 [&](const auto& x) { return x.second > surely_inside && std::sqrt(x.second) > radius; });
+  if (options.connected_by != nullptr) search_->keep_connected(v);
   if (pairs != nullptr) *pairs += found.size();
   double sigma_s = options.sigma_s.value_or(0);
   if (!options.sigma_s)
@@ -57,11 +76,12 @@ double SalientListing::saliency(std::span<const double> values, core::Index v, s
   for (const auto& [x, squared] : found) {
     const double difference = values[x] - values[v];
     const double t = difference / sigma_s;
-    const double weight = std::exp(-squared / two_sigma_squared) * std::exp(-t * t / 2);
+    double weight = std::exp(-squared / two_sigma_squared) * std::exp(-t * t / 2);
+    if (!options.weights.empty()) weight *= options.weights[x];
     numerator += difference * weight;
     denominator += weight;
   }
-  return numerator / denominator;
+  return denominator > 0 ? numerator / denominator : 0;
 }
 
 std::vector<double> salient_reference(std::span<const core::Point> positions, std::vector<double> values,

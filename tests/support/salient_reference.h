@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/types.h"
+#include "morsel/core/mesh.h"
 
 namespace morsel::test {
 
@@ -16,7 +16,9 @@ struct SalientReferenceOptions {
   int iterations = 10;
   double sigma = 1;
   double support = 2;
-  std::optional<double> sigma_s;  ///< none: the largest difference in each neighbourhood
+  std::optional<double> sigma_s;                     ///< none: the largest difference in each neighbourhood
+  std::vector<double> weights = {};                  ///< how often each vertex counts; empty: once
+  const core::TriangleMesh* connected_by = nullptr;  ///< only neighbours that its edges in the ball reach
 };
 
 /// One vertex of one iteration: a kd-tree radius search, two exp a pair. For one thread.

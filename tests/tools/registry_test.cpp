@@ -31,6 +31,12 @@ TEST_CASE("a chain keeps its steps in order") {
   CHECK(chain.steps[1].name == "tps");
 }
 
+TEST_CASE("a method that starts anew can only begin a chain") {
+  CHECK(tools::make_method("denoise:iterations=2+salient+tps").steps.size() == 3);
+  CHECK_THROWS_WITH(tools::make_method("salient+denoise"), Contains("first step") && Contains("salient"));
+  CHECK_THROWS_AS(tools::make_method("denoise+denoise"), core::InvalidArgument);
+}
+
 TEST_CASE("unknown names and keys list the valid ones") {
   CHECK_THROWS_WITH(tools::make_method("foo"),
                     Contains("foo") && Contains("conventional, ") && Contains("salient, tps"));

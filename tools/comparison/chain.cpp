@@ -84,7 +84,7 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
   for (const MethodStep& step : chain.steps) {
     std::optional<TargetSearch> search;
     if (options.target && &step == &chain.steps.back())
-      search.emplace(outcome.field, *options.target, !step.cancels, progress);
+      search.emplace(outcome.field, *options.target, step.role != MethodRole::cancels, progress);
     StepWatcher watcher(options.tracker, search ? &*search : nullptr);
     context.on_iteration = {};
     if (watcher.wanted())

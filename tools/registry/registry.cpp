@@ -4,16 +4,19 @@
 #include <array>
 
 #include "morsel/core/error.h"
+#include "morsel/morse/functions/atomic_density.h"
+#include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/functions/geodesic.h"
-#include "morsel/morse/functions/atomic_density.h"
-#include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
+#include "morsel/morse/smoothing/denoise.h"
 #include "morsel/morse/smoothing/diffusion.h"
 #include "morsel/morse/smoothing/fair.h"
+#include "morsel/morse/smoothing/gaussian.h"
+#include "morsel/morse/smoothing/saliency.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
@@ -44,15 +47,20 @@ constexpr std::array kFunctions = {
 
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
+    MethodEntry{"denoise", "smoothing of the surface before the field is taken again (Fleishman et al. 2003)",
+                morse::make_denoise, MethodRole::retakes},
     MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
+    MethodEntry{"gaussian", "Gaussian averages, the paper's equation (1)", morse::make_gaussian},
     MethodEntry{"laplacian",
                 "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
                 morse::make_laplacian},
+    MethodEntry{"saliency", "mesh saliency over several scales (Lee, Varshney, Jacobs 2005)",
+                morse::make_saliency},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
     MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
-                persistence::make_tps, true},
+                persistence::make_tps, MethodRole::cancels},
 };
 
 template <class Entries>
@@ -105,8 +113,11 @@ MethodChain make_method(std::string_view specification) {
   MethodChain chain{std::string(specification), "", {}};
   for (core::Specification& link : core::parse_chain(specification, "--method")) {
     const MethodEntry& entry = find_entry(kMethods, link.name, "method");
+    if (entry.role == MethodRole::retakes && !chain.steps.empty())
+      throw core::InvalidArgument(std::string(entry.name) + " does not use the field that " + chain.name +
+                                  " would hand to it, so it can only be the first step of a chain");
     chain.name += (chain.name.empty() ? "" : "+") + link.name;
-    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link)), entry.cancels});
+    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link)), entry.role});
   }
   return chain;
 }

@@ -2,6 +2,7 @@
 /// The one list of Morse functions and the one list of methods. A new one is a header and source pair in its
 /// module and one line in registry.cpp.
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,12 +20,18 @@ struct FunctionEntry {
   std::unique_ptr<core::MorseFunction> (*make)(core::ParameterReader&);
 };
 
+/// What is peculiar about a method, for whoever composes methods.
+enum class MethodRole : std::uint8_t {
+  smooths,  ///< nothing: it makes a field of the field it is given
+  cancels,  ///< takes critical points away pair by pair: fields between its input and its output have no use
+  retakes   ///< takes the Morse function again whatever the field it is given: nothing can come before it
+};
+
 struct MethodEntry {
   std::string_view name;
   std::string_view summary;
   std::unique_ptr<core::Method> (*make)(core::ParameterReader&);
-  bool cancels =
-      false;  ///< takes critical points away pair by pair: fields between its input and output have no use
+  MethodRole role = MethodRole::smooths;
 };
 
 std::span<const FunctionEntry> morse_functions();
@@ -41,7 +48,7 @@ struct NamedFunction {
 struct MethodStep {
   std::string name;
   std::unique_ptr<core::Method> method;
-  bool cancels = false;  ///< see MethodEntry
+  MethodRole role = MethodRole::smooths;
 };
 
 /// A method by its text, a chain ("salient:iterations=5+tps:count=150") or a single step.

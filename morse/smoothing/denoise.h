@@ -1,0 +1,71 @@
+#pragma once
+/// Smoothing of the surface itself before the Morse function is taken again.
+
+#include <memory>
+#include <optional>
+
+#include "morsel/core/length.h"
+#include "morsel/core/method.h"
+#include "morsel/core/progress.h"
+#include "morsel/morse/operators/laplacian.h"
+
+namespace morsel::morse {
+
+struct BilateralDenoising {
+  std::optional<core::Length> sigma_c;  ///< σ_c, above 0; none: the surface's mean edge length
+  std::optional<core::Length> sigma_s;  ///< σ_s, above 0; none: see SurfaceSmoothing
+};
+
+struct LaplacianDenoising {
+  double lambda = 0.5;  ///< how far towards the mean of the neighbours, in (0, 1]
+  EdgeWeights weights = EdgeWeights::uniform;
+};
+
+/// Moves the vertices of a surface, iteration by iteration, all at once. Triangles stay.
+///
+/// Bilateral (Fleishman, Drori, Cohen-Or, "Bilateral mesh denoising", 2003): v moves along its area-weighted normal n by
+///
+///   Σ_x W_c W_s h / Σ_x W_c W_s, h = n · (x − v), W_c = exp(−‖x − v‖² / 2σ_c²), W_s = exp(−h² / 2σ_s²)
+///
+/// over the vertices x within 2σ_c of v that edges connect to it there (ConnectedBalls). The paper has the user point at
+/// a smooth part, whose standard deviation of h becomes σ_s; here that is the median over all vertices of the standard
+/// deviation of h in their balls, so that features, being few, do not count. Both are taken once, from the first
+/// surface. Boundary vertices move like all others. Where σ_s is 0 nothing moves.
+/// It evens out noise of the size of σ_s, but a vertex moves along a normal that is its own one-ring's: on clean, unevenly
+/// sampled meshes one-ring curvatures of the result may have more critical points than before.
+///
+/// Laplacian: v ← v + λ (Σ w x / Σ w − v) over the neighbours, with edge_weights() of the current surface. It shrinks closed
+/// surfaces; boundary vertices stay, or boundaries would shrink to points. A vertex whose weights do not sum to more than
+/// 0 stays too (cotangents may be negative, and then steps may grow instead of settle; clamped and uniform ones never do).
+///
+/// Not thread-safe; O(n · vertices in a ball) or O(n) a step, parallel, the same bits for every number of threads.
+class SurfaceSmoothing {
+ public:
+  /// Throws InvalidArgument on options out of range, BadInput if σ_c comes to nothing on the mesh.
+  SurfaceSmoothing(core::TriangleMesh mesh, const BilateralDenoising& options);
+  SurfaceSmoothing(core::TriangleMesh mesh, const LaplacianDenoising& options);
+
+  /// One iteration. Throws BadInput if a position overflows.
+  void step(const core::Progress& progress);
+
+  const core::TriangleMesh& surface() const { return surface_; }
+  double sigma_c() const { return sigma_c_; }  ///< 0 for Laplacian smoothing, as is the next
+  double sigma_s() const { return sigma_s_; }
+
+ private:
+  std::vector<core::Point> bilateral_positions(const core::Progress& progress) const;
+  std::vector<core::Point> laplacian_positions() const;
+
+  core::TriangleMesh surface_;
+  std::optional<LaplacianDenoising> laplacian_;
+  double sigma_c_ = 0;
+  double sigma_s_ = 0;
+};
+
+/// Keys: those of StopCriteria (5 iterations), kind=bilateral|laplacian; for the first sigma-c=edge|LENGTH,
+/// sigma-s=auto|LENGTH, for the other lambda, weights=uniform|clamped|cotangent. The field is the Morse function of the smoothed
+/// surface, as a field on the original one. Needs context.morse_function, throws InvalidArgument without. It takes no
+/// notice of the values that came before, so it can only begin a chain.
+std::unique_ptr<core::Method> make_denoise(core::ParameterReader& reader);
+
+}  // namespace morsel::morse

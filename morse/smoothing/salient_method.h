@@ -1,0 +1,22 @@
+#pragma once
+/// What the methods that run salient smoothing have in common.
+
+#include "morsel/core/parameters.h"
+#include "morsel/core/progress.h"
+#include "morsel/morse/smoothing/iteration.h"
+#include "morsel/morse/smoothing/salient.h"
+
+namespace morsel::morse {
+
+/// Declare and read the keys of that name.
+void read_sigma(core::ParameterReader& reader, SalientOptions& options);
+void read_support(core::ParameterReader& reader, SalientOptions& options);
+/// weights=none|area and ball=euclidean|connected.
+void read_neighbors(core::ParameterReader& reader, SalientOptions& options);
+
+/// Runs iterations of salient() until the control, made of `criteria`, wants no more.
+SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
+                          const StopCriteria& criteria, IterationControl& control,
+                          const core::Progress& progress);
+
+}  // namespace morsel::morse
