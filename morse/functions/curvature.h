@@ -1,5 +1,6 @@
 #pragma once
-/// Curvatures of the surface at its vertices, by Taubin's tensor; others: discrete_curvature.h, quadric_curvature.h.
+/// Curvatures of the surface at its vertices, by Taubin's tensor; others: discrete_curvature.h,
+/// quadric_curvature.h.
 
 #include <vector>
 

@@ -11,9 +11,9 @@
 namespace morsel::morse {
 
 /// The balls ‖x − v‖ ≤ radius around the vertices of a surface, of each only what can be reached from v along edges
-/// whose ends all lie in the ball: the other side of a thin part, a near finger, is left out. Distances are Euclidean, in
-/// double precision, inclusive and compared as lengths. Immutable; keeps what it needs of the mesh, about 70 bytes a
-/// vertex. May be read from any number of threads, each of which needs a Walk.
+/// whose ends all lie in the ball: the other side of a thin part, a near finger, is left out. Distances are
+/// Euclidean, in double precision, inclusive and compared as lengths. Immutable; keeps what it needs of the mesh,
+/// about 70 bytes a vertex. May be read from any number of threads, each of which needs a Walk.
 class ConnectedBalls {
  public:
   /// O(n), parallel.

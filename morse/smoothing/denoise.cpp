@@ -50,7 +50,8 @@ void for_each_ball(const TriangleMesh& mesh, double radius, const Visit& visit) 
   });
 }
 
-/// The median over the vertices of the standard deviation of n · (x − v) in their balls; of two middle ones the lower.
+/// The median over the vertices of the standard deviation of n · (x − v) in their balls; of two middle ones the
+/// lower.
 double typical_deviation(const TriangleMesh& mesh, double radius) {
   const std::vector<Point> normals = vertex_normals(mesh);
   std::vector<double> deviation(mesh.vertex_count());

@@ -46,8 +46,8 @@ class IterationControl {
   bool more() const { return stopped_by_.empty(); }
   /// The next iteration's values, per vertex. Equal values keep the order of the input.
   void record(std::vector<double> values);
-  /// Whether the next iteration's values are looked at: always, unless no criterion and nobody else asks for those between
-  /// the input and the last.
+  /// Whether the next iteration's values are looked at: always, unless no criterion and nobody else asks for those
+  /// between the input and the last.
   bool needs_field() const;
   /// In place of record() where the next iteration's values are not needed; field() stays what it is.
   void skip() { ++iteration_; }
@@ -57,7 +57,8 @@ class IterationControl {
   /// After the last iteration that was recorded, the input before the first.
   const core::ScalarField& field() const { return field_; }
   int iterations_run() const { return iteration_; }
-  /// "iterations", "until-count", "until-stable", "until-change", or "caller" if the context ended it; empty while more().
+  /// "iterations", "until-count", "until-stable", "until-change", or "caller" if the context ended it; empty while
+  /// more().
   std::string_view stopped_by() const { return stopped_by_; }
 
   /// field() with the curve of counts; `details` gains iterations_run and stopped_by. `parameters` are those of the

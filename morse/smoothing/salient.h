@@ -40,7 +40,7 @@ enum class NeighborWeights : std::uint8_t {
 /// Which vertices within support · σ of v are its neighbours.
 enum class Ball : std::uint8_t {
   euclidean,  ///< all
-  connected  ///< those that edges within the ball connect to v (ConnectedBalls), so that a thin part's other side is none
+  connected  ///< those that edges within the ball connect to v (ConnectedBalls): no other side of a thin part
 };
 std::string_view to_string(NeighborWeights weights);
 std::string_view to_string(Ball ball);
@@ -51,16 +51,17 @@ struct SalientOptions {
   ValueRange range = {};                           ///< σ_s
   double support = 2;                              ///< the neighbourhood's radius in σ, above 0
   bool return_saliency = false;                    ///< return the last S instead of f
-  /// Other values than these two run a plainer algorithm, pair by pair in double precision, at several times the cost.
+  /// Other values than these two run a plainer algorithm, pair by pair in double precision, at several times the
+  /// cost.
   NeighborWeights weights = NeighborWeights::none;
   Ball ball = Ball::euclidean;
   /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The near-linear
   /// algorithm runs where it is the faster one by an estimate, which depends on the input alone. The expansions it
-  /// uses err by less than 5 times this in each weight, relatively; what comes of that in the values is measured at 512
-  /// vertices in each iteration, followed through the iterations and taken eightfold (SharedSums::error(), an
+  /// uses err by less than 5 times this in each weight, relatively; what comes of that in the values is measured at
+  /// 512 vertices in each iteration, followed through the iterations and taken eightfold (SharedSums::error(), an
   /// estimate, no bound). If that is more than the accuracy, or with a local range, or below 1e-5, the exact
-  /// algorithm runs; if the accuracy is at least 1e-5, in single precision. With heavy-tailed noise
-  /// errors may grow a thousandfold in ten iterations, so that an accuracy of 1e-4 may be out of reach.
+  /// algorithm runs; if the accuracy is at least 1e-5, in single precision. With heavy-tailed noise errors may grow
+  /// a thousandfold in ten iterations, so that an accuracy of 1e-4 may be out of reach.
   double accuracy = 0;
   /// Not only where it is the faster one: to test and to measure.
   bool always_near_linear = false;
@@ -71,8 +72,8 @@ struct SalientOptions {
   /// Most bytes for storing neighbours between iterations; without enough of it they are searched for in
   /// every iteration, which takes longer and gives the same bits.
   std::size_t memory = std::size_t{1} << 30;
-  /// What weights and sums are computed in. float32 takes half the time and stays within about 2e-6 (as seen) of the field's
-  /// extent after 10 iterations; neighbourhoods are decided in double precision all the same.
+  /// What weights and sums are computed in. float32 takes half the time and stays within about 2e-6 (as seen) of
+  /// the field's extent after 10 iterations; neighbourhoods are decided in double precision all the same.
   Precision precision = Precision::float64;
   /// The processor's best if not given. Only one of instruction_sets().
   std::optional<InstructionSet> instructions = {};
@@ -102,10 +103,10 @@ struct SalientResult {
 ///   W_c = exp(−‖x − v‖² / 2σ²), W_s = exp(−(f(x) − f(v))² / 2σ_s²)
 ///
 /// (the paper's equations 3 and 4 and Listing 1, with f taken from the Morse function once, not in every
-/// iteration). Distances are Euclidean; what is in reach is decided in double precision. S is 0 where σ_s is
-/// 0. With weights=area each x counts A_x times in both sums, and in the field's standard deviation; S is 0 where all that
-/// count have no area. Equal values keep the input's order. Values count relative to the largest and lengths relative to σ, so
-/// that nothing overflows or vanishes on the way.
+/// iteration). Distances are Euclidean; what is in reach is decided in double precision. S is 0 where σ_s is 0.
+/// With weights=area each x counts A_x times in both sums, and in the field's standard deviation; S is 0 where all
+/// that count have no area. Equal values keep the input's order. Values count relative to the largest and lengths
+/// relative to σ, so that nothing overflows or vanishes on the way.
 ///
 /// O(iterations · n · neighbours), or a sum over cells and their rims in place of neighbours if `accuracy` lets
 /// it; parallel, the same bits for every number of threads, and for AVX2 and AVX-512;
@@ -114,8 +115,8 @@ struct SalientResult {
 SalientResult salient(const core::ScalarField& input, const SalientOptions& options = {},
                       const core::Progress& progress = {});
 
-/// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single, accuracy,
-/// weights=none|area, ball=euclidean|connected.
+/// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single,
+/// accuracy, weights=none|area, ball=euclidean|connected.
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

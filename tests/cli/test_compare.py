@@ -113,6 +113,23 @@ class Compare(ProgramTest):
         self.assertEqual(method["name"], "salient+tps")
         self.assertEqual([step["name"] for step in method["parameters"]["steps"]], ["salient", "tps"])
 
+    def test_denoising_takes_the_field_again_on_the_smoothed_surface(self):
+        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=quadric", "--method",
+                             "denoise:iterations=2+gaussian", "--method", "saliency")
+        self.assertEqual(report["field"]["parameters"]["estimator"], "quadric")
+        chain, saliency = report["methods"]
+        denoise, gaussian = (step["values"] for step in chain["details"]["steps"])
+        self.assertGreater(denoise["largest_displacement"], 0)
+        self.assertNotIn("unchanged_because", denoise)
+        self.assertEqual(gaussian["iterations_run"], 1)
+        self.assertEqual(saliency["parameters"]["suppression"], "itti")
+
+    def test_denoising_says_when_the_field_does_not_care(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        values = self.file("values.txt", "1\n2\n3\n4\n5\n6\n")
+        report = self.report(mesh, "--field", f"vertex-scalar:file={values}", "--method", "denoise:kind=laplacian")
+        self.assertIn("unchanged_because", report["methods"][0]["details"])
+
     def test_the_report_goes_to_standard_output(self):
         mesh = self.file("octahedron.off", OCTAHEDRON)
         result = self.morsel("compare", mesh, "--method", "conventional", "-o", "-")

@@ -7,8 +7,11 @@
 #include "morsel/core/parallel.h"
 #include "morsel/morse/operators/cholesky.h"
 #include "morsel/morse/operators/laplacian.h"
+#include "morsel/morse/operators/normals.h"
+#include "morsel/morse/operators/unit_size.h"
 #include "support/fields.h"
 #include "support/meshes.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -107,4 +110,34 @@ TEST_CASE("Cholesky refuses a singular matrix by name") {
   const morse::SparseMatrix nothing(3, 3);
   CHECK_THROWS_WITH(morse::Cholesky(nothing, "heat"), Catch::Contains("heat"));
   CHECK_THROWS_AS(morse::Cholesky(nothing, "heat"), core::BadInput);
+}
+
+TEST_CASE("vertex normals point outward and are unit vectors or zero") {
+  for (const bool inward : {false, true}) {
+    const TriangleMesh mesh =
+        together(inward ? inside_out(sphere(2)) : sphere(2), inside_out(grid(3, 3))).mesh();
+    const std::vector<Point> normals = morse::vertex_normals(mesh);
+    for (Index v = 0; v < 162; ++v) CHECK(normals[v].dot(mesh.position(v)) > 0.99);
+    for (Index v = 162; v < mesh.vertex_count(); ++v) CHECK(normals[v] == Point(0, 0, -1));
+  }
+  const TriangleMesh ball = sphere(1).mesh();
+  const TriangleMesh point = ball.with_positions(std::vector<Point>(ball.vertex_count(), Point(1, 2, 3)));
+  CHECK(morse::vertex_normals(point)[4] == Point(0, 0, 0));
+}
+
+TEST_CASE("unit-sized surfaces lose no digit") {
+  const TriangleMesh mesh = jittered(torus(9, 7).mesh(), 0.1, 3);
+  for (const int exponent : {-1050, -3, 0, 5, 500}) {
+    std::vector<Point> positions;
+    for (const Point& p : mesh.positions())
+      positions.emplace_back(std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent),
+                             std::ldexp(p.z(), exponent));
+    const TriangleMesh other = mesh.with_positions(positions);
+    const morse::UnitSized unit = morse::unit_sized(other);
+    const double side = (unit.mesh.bounding_box().max - unit.mesh.bounding_box().min).maxCoeff();
+    CHECK(side >= 1);
+    CHECK(side < 2);
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      CHECK(std::ldexp(unit.mesh.position(v).x(), unit.exponent) == other.position(v).x());
+  }
 }
