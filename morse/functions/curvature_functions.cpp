@@ -87,6 +87,7 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
                                           const std::vector<Estimator>& estimators,
                                           core::Parameters parameters = {}) {
   std::vector<std::string_view> names;
+  names.reserve(estimators.size() + 1);
   for (const Estimator& estimator : estimators) names.push_back(estimator.name);
   names.emplace_back("quadric");
   std::string listed;
