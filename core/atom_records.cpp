@@ -9,6 +9,7 @@
 #include <gemmi/elem.hpp>
 #include <gemmi/pdb.hpp>
 #include <gemmi/resinfo.hpp>
+#include <new>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -100,11 +101,29 @@ std::string atom_lines(std::string_view bytes, const std::string& file, const Pr
 
 std::string sequence_id(const gemmi::SeqId& id) { return id.num ? id.str() : std::string(); }
 
-/// Message of an exception that gemmi threw, on one line.
-std::string one_line(const std::exception& error) {
-  std::string text = error.what();
+/// gemmi's message, which may have several lines and begin with "FILE:LINE:COLUMN: ", as this project's are.
+std::string reworded(std::string text, const std::string& file) {
   text.resize(std::min({text.size(), text.find('\n'), text.find(":\n")}));
-  return text;
+  if (!text.starts_with(file + ":")) return file + " is damaged: " + text;
+  text.erase(0, file.size() + 1);
+  const std::size_t message = text.find(": ");
+  return message == std::string::npos
+             ? file + " is damaged: " + text
+             : file + ", line " + text.substr(0, text.find(':')) + text.substr(message);
+}
+
+/// What `read` returns; what gemmi throws becomes BadInput.
+template <class Read>
+auto guarded(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw BadInput(reworded(error.what(), file));
+  }
 }
 
 /// The columns of _atom_site that are read; a ? stands before those that may be missing.
@@ -212,19 +231,23 @@ class AtomSites {
   const std::string& file_;
 };
 
+/// Nothing if the block has no atoms.
+std::optional<AtomRecords> block_atoms(gemmi::cif::Block& block, const std::string& file,
+                                       const Progress& progress) {
+  if (gemmi::cif::Table table = block.find("_atom_site.", kColumns); table.ok() && table.length() > 0)
+    return AtomSites(table, file).read(progress);
+  if (block.find_mmcif_category("_atom_site.").ok())
+    throw BadInput(file + ": its _atom_site table lacks one of Cartn_x, Cartn_y, Cartn_z and type_symbol");
+  return std::nullopt;
+}
+
 }  // namespace
 
 AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
   const std::string lines = atom_lines(bytes, file, progress);
-  gemmi::Structure structure;
-  try {
-    structure = gemmi::read_pdb_from_memory(lines.data(), lines.size(), file);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw BadInput(file + ": " + one_line(error));
-  }
+  const gemmi::Structure structure =
+      guarded(file, [&] { return gemmi::read_pdb_from_memory(lines.data(), lines.size(), file); });
   progress.update(kStep, 0.5);
   AtomRecords all;
   for (const gemmi::Model& model : structure.models) {
@@ -252,27 +275,18 @@ AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Prog
 
 AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
-  gemmi::cif::Document document;
-  try {
-    document = gemmi::cif::read_memory(bytes.data(), bytes.size(), file.c_str());
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {  // names file, line and column
-    throw BadInput("the CIF file is damaged: " + one_line(error));
-  }
-  progress.update(kStep, 0.5);
-  bool fractional = false;
-  for (gemmi::cif::Block& block : document.blocks) {
-    gemmi::cif::Table table = block.find("_atom_site.", kColumns);
-    if (table.ok() && table.length() > 0) return AtomSites(table, file).read(progress);
-    fractional = fractional || block.has_tag("_atom_site_fract_x");
-    if (block.find_mmcif_category("_atom_site.").ok())
-      throw BadInput(file + ": its _atom_site table lacks one of Cartn_x, Cartn_y, Cartn_z and type_symbol");
-  }
-  if (fractional)
-    throw BadInput(file +
-                   " is a CIF file of a crystal, with fractional coordinates; only mmCIF files are read");
-  return {};
+  return guarded(file, [&]() -> AtomRecords {
+    gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), file.c_str());
+    progress.update(kStep, 0.5);
+    bool fractional = false;
+    for (gemmi::cif::Block& block : document.blocks) {
+      if (std::optional<AtomRecords> records = block_atoms(block, file, progress)) return *std::move(records);
+      fractional = fractional || block.has_tag("_atom_site_fract_x");
+    }
+    if (fractional)
+      throw BadInput(file + " is a CIF file with fractional coordinates; only mmCIF files are read");
+    return {};
+  });
 }
 
 }  // namespace morsel::core

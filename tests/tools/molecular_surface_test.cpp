@@ -1,9 +1,12 @@
 #include "morsel/tools/molecule/surface.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stop_token>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
@@ -113,10 +116,14 @@ TEST_CASE("a ring of atoms has a hole") {
     CHECK(surface.mesh.genus() == 1);
     CHECK(surface.mesh.component_count() == 1);
   }
-  // A probe that does not fit through fills it.
-  SurfaceOptions large = options(SurfaceKind::ses, 0.5);
-  large.probe = 8;
-  CHECK(tools::molecular_surface(atoms, large).mesh.genus() == 0);
+  // From above and below, a probe reaches the middle if its radius is below (7² − 1.7²) / (2 · 1.7) = 13.6.
+  for (const auto& [probe, genus] : {std::pair(12.0, 1u), std::pair(25.0, 0u)}) {
+    SurfaceOptions large = options(SurfaceKind::ses, 0.9);
+    large.probe = probe;
+    const MolecularSurface surface = tools::molecular_surface(atoms, large);
+    check_promise(surface);
+    CHECK(surface.mesh.genus() == genus);
+  }
 }
 
 TEST_CASE("the solvent excluded surface of two atoms is the one of the textbook") {
