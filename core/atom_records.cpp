@@ -57,11 +57,11 @@ bool has_record(std::string_view line, std::string_view name) {
          line[name.size()] == '\r';
 }
 
-/// The records of models and atoms alone, each on its own line and padded, the others blank: gemmi looks into many more,
-/// and refuses a file for what is wrong in one of them. It takes a coordinate that is no number for 0, so these are
-/// checked here.
+/// The records of models and atoms alone, each on its own line and padded, the others blank: gemmi looks into
+/// many more, and refuses a file for what is wrong in one of them. It takes a coordinate that is no number
+/// for 0, so these are checked here.
 std::string atom_lines(std::string_view bytes, const std::string& file, const Progress& progress) {
-  constexpr std::size_t kWidth = 80;
+  constexpr std::size_t kWidth = 78;  // up to the element; a charge does not matter
   std::string lines;
   lines.reserve(bytes.size() + bytes.size() / 64);
   std::size_t number = 0;

@@ -160,7 +160,8 @@ TEST_CASE("damaged files are refused with the place") {
   CHECK_THROWS_WITH(read(mmcif_text({{}}), ".pdb"), Contains("CIF file"));
   const std::string cif = mmcif_text({{}});
   CHECK_THROWS_WITH(read(cif + "_oops\n", ".cif"), Contains("molecule.cif, line 19 "));
-  CHECK_THROWS_WITH(read(cif.substr(0, cif.size() - 10), ".cif"), Contains("molecule.cif, line 3: ") && Contains("loop"));
+  CHECK_THROWS_WITH(read(cif.substr(0, cif.size() - 10), ".cif"),
+                    Contains("molecule.cif, line 3: ") && Contains("loop"));
   CHECK_THROWS_WITH(read("data_x\nloop_\n_atom_site.id\n_atom_site.type_symbol\n1 C\n", ".cif"),
                     Contains("Cartn_x"));
   std::string letters = cif;

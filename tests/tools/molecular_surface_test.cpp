@@ -127,7 +127,8 @@ TEST_CASE("a ring of atoms has a hole") {
 }
 
 TEST_CASE("the solvent excluded surface of two atoms is the one of the textbook") {
-  // Two balls of radius r, 2 c apart: spheres, and between them the inner half of a torus along which the probe rolls.
+  // Two balls of radius r, 2 c apart: spheres, and between them the inner half of a torus along which the
+  // probe rolls.
   const double r = 1.7, c = 2, probe = 1.4, h = 0.1;
   const std::vector<Atom> atoms = {atom_at({-c, 0, 0}, r), atom_at({c, 0, 0}, r)};
   const MolecularSurface surface = tools::molecular_surface(atoms, options(SurfaceKind::ses, h));
@@ -153,7 +154,8 @@ TEST_CASE("the solvent excluded surface of two atoms is the one of the textbook"
 }
 
 TEST_CASE("the solvent excluded surface is where sampled probes end") {
-  // The oracle: p is outside if some center on a fine grid, free of all atoms, has it within the probe's radius.
+  // The oracle: p is outside if some center on a fine grid, free of all atoms, has it within the probe's
+  // radius.
   const double probe = 1.4, step = 0.1;
   for (unsigned seed = 0; seed < 3; ++seed) {
     const std::vector<Atom> atoms = random_molecule(seed, 5);
