@@ -1,20 +1,16 @@
-// The only file with gemmi's headers, which take long to compile.
 #include "morsel/core/atom_records.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <exception>
-#include <gemmi/cif.hpp>
-#include <gemmi/elem.hpp>
-#include <gemmi/pdb.hpp>
-#include <gemmi/resinfo.hpp>
 #include <new>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/gemmi_bridge.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
@@ -37,16 +33,15 @@ std::optional<double> finite_number(std::string_view text) {
   return value;
 }
 
-/// What follows from element and residue name.
-void complete(AtomRecord& record, gemmi::El element) {
-  record.hydrogen = gemmi::is_hydrogen(element);
-  record.atom.element = gemmi::element_name(element);
-  // gemmi's table has two decimals, in single precision.
-  record.atom.radius =
-      element == gemmi::El::X ? 0 : std::round(100.0 * static_cast<double>(gemmi::vdw_radius(element))) / 100;
-  const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(record.atom.residue);
-  record.atom.water = residue.is_water();
-  record.atom.polymer = residue.is_amino_acid() || residue.is_nucleic_acid();
+/// Adds what follows from the names of element and residue.
+void complete(AtomRecord& record, const std::string& symbol) {
+  gemmi_bridge::Element element = gemmi_bridge::find_element(symbol);
+  record.hydrogen = element.hydrogen;
+  record.atom.element = std::move(element.symbol);
+  record.atom.radius = element.radius;
+  const gemmi_bridge::Residue residue = gemmi_bridge::find_residue(record.atom.residue);
+  record.atom.water = residue.water;
+  record.atom.polymer = residue.polymer;
 }
 
 bool has_record(std::string_view line, std::string_view name) {
@@ -55,6 +50,10 @@ bool has_record(std::string_view line, std::string_view name) {
     if ((line[i] >= 'a' && line[i] <= 'z' ? line[i] - 'a' + 'A' : line[i]) != name[i]) return false;
   return line.size() == name.size() || name.size() >= 6 || line[name.size()] == ' ' ||
          line[name.size()] == '\r';
+}
+
+[[noreturn]] void fail_at_line(const std::string& file, std::size_t line, const std::string& what) {
+  throw BadInput(file + ", line " + std::to_string(line) + ": " + what);
 }
 
 /// The records of models and atoms alone, each on its own line and padded, the others blank: gemmi looks into
@@ -70,9 +69,7 @@ std::string atom_lines(std::string_view bytes, const std::string& file, const Pr
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
     const std::string_view line = bytes.substr(0, end);
     bytes.remove_prefix(std::min(end + 1, bytes.size()));
-    const auto fail = [&](const std::string& what) {
-      throw BadInput(file + ", line " + std::to_string(number) + ": " + what);
-    };
+    const auto fail = [&](const std::string& what) { fail_at_line(file, number, what); };
     if (number == 1 && line.starts_with("data_")) fail("this is a CIF file, not a PDB file: name it .cif");
     const bool atom = has_record(line, "ATOM") || has_record(line, "HETATM");
     if (atom) {
@@ -98,8 +95,6 @@ std::string atom_lines(std::string_view bytes, const std::string& file, const Pr
   }
   return lines;
 }
-
-std::string sequence_id(const gemmi::SeqId& id) { return id.num ? id.str() : std::string(); }
 
 /// gemmi's message, which may have several lines and begin with "FILE:LINE:COLUMN: ", as this project's are.
 std::string reworded(std::string text, const std::string& file) {
@@ -168,13 +163,13 @@ const std::vector<std::string> kColumns = {"Cartn_x",
 
 class AtomSites {
  public:
-  AtomSites(gemmi::cif::Table& table, const std::string& file) : table_(table), file_(file) {}
+  AtomSites(const gemmi_bridge::CifFile& cif, const std::string& file) : cif_(cif), file_(file) {}
 
   AtomRecords read(const Progress& progress) {
     AtomRecords all;
-    all.records.reserve(table_.length());
+    all.records.reserve(cif_.rows());
     std::vector<std::string> models;  // in the order of the file
-    for (std::size_t row = 0; row < table_.length(); ++row) {
+    for (std::size_t row = 0; row < cif_.rows(); ++row) {
       if (row % (1 << 16) == 0) progress.throw_if_cancelled();
       all.records.push_back(record(row));
       const std::string model = text(row, kModel);
@@ -188,11 +183,7 @@ class AtomSites {
   }
 
  private:
-  /// The value without its quotes; empty if it is ., ? or missing.
-  std::string text(std::size_t row, Column column) const {
-    const auto values = table_[row];
-    return values.has2(column) ? values.str(column) : std::string();
-  }
+  std::string text(std::size_t row, Column column) const { return cif_.text(row, column); }
   std::string first_of(std::size_t row, Column preferred, Column other) const {
     std::string value = text(row, preferred);
     return value.empty() ? text(row, other) : value;
@@ -205,7 +196,7 @@ class AtomSites {
     if (const std::optional<double> parsed = finite_number(value)) return *parsed;
     throw BadInput(file_ + ", atom " + std::to_string(row + 1) +
                    " of _atom_site: " + kColumns[column].substr(kColumns[column][0] == '?' ? 1 : 0) + " is " +
-                   shown(table_[row][column]) + ", not a number");
+                   shown(text(row, column)) + ", not a number");
   }
 
   AtomRecord record(std::size_t row) const {
@@ -223,52 +214,38 @@ class AtomSites {
     const std::string alternate = text(row, kAlternate);
     atom.alternate = alternate.empty() ? '\0' : alternate[0];
     atom.hetero = text(row, kGroup) == "HETATM";
-    complete(record, gemmi::find_element(text(row, kElement).c_str()));
+    complete(record, text(row, kElement));
     return record;
   }
 
-  gemmi::cif::Table& table_;
+  const gemmi_bridge::CifFile& cif_;
   const std::string& file_;
 };
-
-/// Nothing if the block has no atoms.
-std::optional<AtomRecords> block_atoms(gemmi::cif::Block& block, const std::string& file,
-                                       const Progress& progress) {
-  if (gemmi::cif::Table table = block.find("_atom_site.", kColumns); table.ok() && table.length() > 0)
-    return AtomSites(table, file).read(progress);
-  if (block.find_mmcif_category("_atom_site.").ok())
-    throw BadInput(file + ": its _atom_site table lacks one of Cartn_x, Cartn_y, Cartn_z and type_symbol");
-  return std::nullopt;
-}
 
 }  // namespace
 
 AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
   const std::string lines = atom_lines(bytes, file, progress);
-  const gemmi::Structure structure =
-      guarded(file, [&] { return gemmi::read_pdb_from_memory(lines.data(), lines.size(), file); });
+  const auto models = guarded(file, [&] { return gemmi_bridge::read_pdb(lines, file); });
   progress.update(kStep, 0.5);
   AtomRecords all;
-  for (const gemmi::Model& model : structure.models) {
-    const std::size_t before = all.records.size();
-    for (const gemmi::Chain& chain : model.chains)
-      for (const gemmi::Residue& residue : chain.residues)
-        for (const gemmi::Atom& atom : residue.atoms) {
-          AtomRecord& record = all.records.emplace_back();
-          record.model = all.models + 1;
-          record.atom.position = {atom.pos.x, atom.pos.y, atom.pos.z};
-          record.atom.name = atom.name;
-          record.atom.residue = residue.name;
-          record.atom.chain = chain.name;
-          record.atom.sequence_id = sequence_id(residue.seqid);
-          record.atom.serial = atom.serial;
-          record.atom.occupancy = atom.occ;
-          record.atom.alternate = atom.altloc;
-          record.atom.hetero = residue.het_flag == 'H';
-          complete(record, atom.element);
-        }
-    if (all.records.size() > before) ++all.models;
+  for (const std::vector<gemmi_bridge::PdbAtom>& atoms : models) {
+    ++all.models;
+    for (const gemmi_bridge::PdbAtom& from : atoms) {
+      AtomRecord& record = all.records.emplace_back();
+      record.model = all.models;
+      record.atom.position = {from.x, from.y, from.z};
+      record.atom.name = from.name;
+      record.atom.residue = from.residue;
+      record.atom.chain = from.chain;
+      record.atom.sequence_id = from.sequence_id;
+      record.atom.serial = from.serial;
+      record.atom.occupancy = from.occupancy;
+      record.atom.alternate = from.alternate;
+      record.atom.hetero = from.hetero;
+      complete(record, from.element);
+    }
   }
   return all;
 }
@@ -276,14 +253,18 @@ AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Prog
 AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
   return guarded(file, [&]() -> AtomRecords {
-    gemmi::cif::Document document = gemmi::cif::read_memory(bytes.data(), bytes.size(), file.c_str());
+    gemmi_bridge::CifFile cif(bytes, file);
     progress.update(kStep, 0.5);
-    bool fractional = false;
-    for (gemmi::cif::Block& block : document.blocks) {
-      if (std::optional<AtomRecords> records = block_atoms(block, file, progress)) return *std::move(records);
-      fractional = fractional || block.has_tag("_atom_site_fract_x");
+    switch (cif.find("_atom_site.", kColumns)) {
+      case gemmi_bridge::CifFile::Found::yes:
+        return AtomSites(cif, file).read(progress);
+      case gemmi_bridge::CifFile::Found::without_columns:
+        throw BadInput(file +
+                       ": its _atom_site table lacks one of Cartn_x, Cartn_y, Cartn_z and type_symbol");
+      case gemmi_bridge::CifFile::Found::no:
+        break;
     }
-    if (fractional)
+    if (cif.has_tag("_atom_site_fract_x"))
       throw BadInput(file + " is a CIF file with fractional coordinates; only mmCIF files are read");
     return {};
   });
