@@ -1,19 +1,16 @@
-// The only file with gemmi's headers, which take long to compile.
 #include "morsel/core/atom_records.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <exception>
-#include <gemmi/cif.hpp>
-#include <gemmi/elem.hpp>
-#include <gemmi/pdb.hpp>
-#include <gemmi/resinfo.hpp>
+#include <new>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/gemmi_bridge.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
@@ -36,16 +33,15 @@ std::optional<double> finite_number(std::string_view text) {
   return value;
 }
 
-/// What follows from element and residue name.
-void complete(AtomRecord& record, gemmi::El element) {
-  record.hydrogen = gemmi::is_hydrogen(element);
-  record.atom.element = gemmi::element_name(element);
-  // gemmi's table has two decimals, in single precision.
-  record.atom.radius =
-      element == gemmi::El::X ? 0 : std::round(100.0 * static_cast<double>(gemmi::vdw_radius(element))) / 100;
-  const gemmi::ResidueInfo residue = gemmi::find_tabulated_residue(record.atom.residue);
-  record.atom.water = residue.is_water();
-  record.atom.polymer = residue.is_amino_acid() || residue.is_nucleic_acid();
+/// Adds what follows from the names of element and residue.
+void complete(AtomRecord& record, const std::string& symbol) {
+  gemmi_bridge::Element element = gemmi_bridge::find_element(symbol);
+  record.hydrogen = element.hydrogen;
+  record.atom.element = std::move(element.symbol);
+  record.atom.radius = element.radius;
+  const gemmi_bridge::Residue residue = gemmi_bridge::find_residue(record.atom.residue);
+  record.atom.water = residue.water;
+  record.atom.polymer = residue.polymer;
 }
 
 bool has_record(std::string_view line, std::string_view name) {
@@ -56,11 +52,15 @@ bool has_record(std::string_view line, std::string_view name) {
          line[name.size()] == '\r';
 }
 
-/// The records of models and atoms alone, each on its own line and padded, the others blank: gemmi looks into many more,
-/// and refuses a file for what is wrong in one of them. It takes a coordinate that is no number for 0, so these are
-/// checked here.
+[[noreturn]] void fail_at_line(const std::string& file, std::size_t line, const std::string& what) {
+  throw BadInput(file + ", line " + std::to_string(line) + ": " + what);
+}
+
+/// The records of models and atoms alone, each on its own line and padded, the others blank: gemmi looks into
+/// many more, and refuses a file for what is wrong in one of them. It takes a coordinate that is no number
+/// for 0, so these are checked here.
 std::string atom_lines(std::string_view bytes, const std::string& file, const Progress& progress) {
-  constexpr std::size_t kWidth = 80;
+  constexpr std::size_t kWidth = 78;  // up to the element; a charge does not matter
   std::string lines;
   lines.reserve(bytes.size() + bytes.size() / 64);
   std::size_t number = 0;
@@ -69,9 +69,7 @@ std::string atom_lines(std::string_view bytes, const std::string& file, const Pr
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
     const std::string_view line = bytes.substr(0, end);
     bytes.remove_prefix(std::min(end + 1, bytes.size()));
-    const auto fail = [&](const std::string& what) {
-      throw BadInput(file + ", line " + std::to_string(number) + ": " + what);
-    };
+    const auto fail = [&](const std::string& what) { fail_at_line(file, number, what); };
     if (number == 1 && line.starts_with("data_")) fail("this is a CIF file, not a PDB file: name it .cif");
     const bool atom = has_record(line, "ATOM") || has_record(line, "HETATM");
     if (atom) {
@@ -98,13 +96,29 @@ std::string atom_lines(std::string_view bytes, const std::string& file, const Pr
   return lines;
 }
 
-std::string sequence_id(const gemmi::SeqId& id) { return id.num ? id.str() : std::string(); }
-
-/// Message of an exception that gemmi threw, on one line.
-std::string one_line(const std::exception& error) {
-  std::string text = error.what();
+/// gemmi's message, which may have several lines and begin with "FILE:LINE:COLUMN: ", as this project's are.
+std::string reworded(std::string text, const std::string& file) {
   text.resize(std::min({text.size(), text.find('\n'), text.find(":\n")}));
-  return text;
+  if (!text.starts_with(file + ":")) return file + " is damaged: " + text;
+  text.erase(0, file.size() + 1);
+  const std::size_t message = text.find(": ");
+  return message == std::string::npos
+             ? file + " is damaged: " + text
+             : file + ", line " + text.substr(0, text.find(':')) + text.substr(message);
+}
+
+/// What `read` returns; what gemmi throws becomes BadInput.
+template <class Read>
+auto guarded(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw BadInput(reworded(error.what(), file));
+  }
 }
 
 /// The columns of _atom_site that are read; a ? stands before those that may be missing.
@@ -149,13 +163,13 @@ const std::vector<std::string> kColumns = {"Cartn_x",
 
 class AtomSites {
  public:
-  AtomSites(gemmi::cif::Table& table, const std::string& file) : table_(table), file_(file) {}
+  AtomSites(const gemmi_bridge::CifFile& cif, const std::string& file) : cif_(cif), file_(file) {}
 
   AtomRecords read(const Progress& progress) {
     AtomRecords all;
-    all.records.reserve(table_.length());
+    all.records.reserve(cif_.rows());
     std::vector<std::string> models;  // in the order of the file
-    for (std::size_t row = 0; row < table_.length(); ++row) {
+    for (std::size_t row = 0; row < cif_.rows(); ++row) {
       if (row % (1 << 16) == 0) progress.throw_if_cancelled();
       all.records.push_back(record(row));
       const std::string model = text(row, kModel);
@@ -169,11 +183,7 @@ class AtomSites {
   }
 
  private:
-  /// The value without its quotes; empty if it is ., ? or missing.
-  std::string text(std::size_t row, Column column) const {
-    const auto values = table_[row];
-    return values.has2(column) ? values.str(column) : std::string();
-  }
+  std::string text(std::size_t row, Column column) const { return cif_.text(row, column); }
   std::string first_of(std::size_t row, Column preferred, Column other) const {
     std::string value = text(row, preferred);
     return value.empty() ? text(row, other) : value;
@@ -186,7 +196,7 @@ class AtomSites {
     if (const std::optional<double> parsed = finite_number(value)) return *parsed;
     throw BadInput(file_ + ", atom " + std::to_string(row + 1) +
                    " of _atom_site: " + kColumns[column].substr(kColumns[column][0] == '?' ? 1 : 0) + " is " +
-                   shown(table_[row][column]) + ", not a number");
+                   shown(text(row, column)) + ", not a number");
   }
 
   AtomRecord record(std::size_t row) const {
@@ -204,11 +214,11 @@ class AtomSites {
     const std::string alternate = text(row, kAlternate);
     atom.alternate = alternate.empty() ? '\0' : alternate[0];
     atom.hetero = text(row, kGroup) == "HETATM";
-    complete(record, gemmi::find_element(text(row, kElement).c_str()));
+    complete(record, text(row, kElement));
     return record;
   }
 
-  gemmi::cif::Table& table_;
+  const gemmi_bridge::CifFile& cif_;
   const std::string& file_;
 };
 
@@ -217,62 +227,47 @@ class AtomSites {
 AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
   const std::string lines = atom_lines(bytes, file, progress);
-  gemmi::Structure structure;
-  try {
-    structure = gemmi::read_pdb_from_memory(lines.data(), lines.size(), file);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw BadInput(file + ": " + one_line(error));
-  }
+  const auto models = guarded(file, [&] { return gemmi_bridge::read_pdb(lines, file); });
   progress.update(kStep, 0.5);
   AtomRecords all;
-  for (const gemmi::Model& model : structure.models) {
-    const std::size_t before = all.records.size();
-    for (const gemmi::Chain& chain : model.chains)
-      for (const gemmi::Residue& residue : chain.residues)
-        for (const gemmi::Atom& atom : residue.atoms) {
-          AtomRecord& record = all.records.emplace_back();
-          record.model = all.models + 1;
-          record.atom.position = {atom.pos.x, atom.pos.y, atom.pos.z};
-          record.atom.name = atom.name;
-          record.atom.residue = residue.name;
-          record.atom.chain = chain.name;
-          record.atom.sequence_id = sequence_id(residue.seqid);
-          record.atom.serial = atom.serial;
-          record.atom.occupancy = atom.occ;
-          record.atom.alternate = atom.altloc;
-          record.atom.hetero = residue.het_flag == 'H';
-          complete(record, atom.element);
-        }
-    if (all.records.size() > before) ++all.models;
+  for (const std::vector<gemmi_bridge::PdbAtom>& atoms : models) {
+    ++all.models;
+    for (const gemmi_bridge::PdbAtom& from : atoms) {
+      AtomRecord& record = all.records.emplace_back();
+      record.model = all.models;
+      record.atom.position = {from.x, from.y, from.z};
+      record.atom.name = from.name;
+      record.atom.residue = from.residue;
+      record.atom.chain = from.chain;
+      record.atom.sequence_id = from.sequence_id;
+      record.atom.serial = from.serial;
+      record.atom.occupancy = from.occupancy;
+      record.atom.alternate = from.alternate;
+      record.atom.hetero = from.hetero;
+      complete(record, from.element);
+    }
   }
   return all;
 }
 
 AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
-  gemmi::cif::Document document;
-  try {
-    document = gemmi::cif::read_memory(bytes.data(), bytes.size(), file.c_str());
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {  // names file, line and column
-    throw BadInput("the CIF file is damaged: " + one_line(error));
-  }
-  progress.update(kStep, 0.5);
-  bool fractional = false;
-  for (gemmi::cif::Block& block : document.blocks) {
-    gemmi::cif::Table table = block.find("_atom_site.", kColumns);
-    if (table.ok() && table.length() > 0) return AtomSites(table, file).read(progress);
-    fractional = fractional || block.has_tag("_atom_site_fract_x");
-    if (block.find_mmcif_category("_atom_site.").ok())
-      throw BadInput(file + ": its _atom_site table lacks one of Cartn_x, Cartn_y, Cartn_z and type_symbol");
-  }
-  if (fractional)
-    throw BadInput(file +
-                   " is a CIF file of a crystal, with fractional coordinates; only mmCIF files are read");
-  return {};
+  return guarded(file, [&]() -> AtomRecords {
+    gemmi_bridge::CifFile cif(bytes, file);
+    progress.update(kStep, 0.5);
+    switch (cif.find("_atom_site.", kColumns)) {
+      case gemmi_bridge::CifFile::Found::yes:
+        return AtomSites(cif, file).read(progress);
+      case gemmi_bridge::CifFile::Found::without_columns:
+        throw BadInput(file +
+                       ": its _atom_site table lacks one of Cartn_x, Cartn_y, Cartn_z and type_symbol");
+      case gemmi_bridge::CifFile::Found::no:
+        break;
+    }
+    if (cif.has_tag("_atom_site_fract_x"))
+      throw BadInput(file + " is a CIF file with fractional coordinates; only mmCIF files are read");
+    return {};
+  });
 }
 
 }  // namespace morsel::core

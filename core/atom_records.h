@@ -12,7 +12,7 @@ namespace morsel::core {
 
 struct AtomRecord {
   Atom atom;
-  std::int64_t model = 1;  ///< the how-manieth of the file
+  std::int64_t model = 1;  ///< which one of the file, counted from 1
   bool hydrogen = false;   ///< or deuterium
 };
 
@@ -21,8 +21,8 @@ struct AtomRecords {
   std::int64_t models = 0;          ///< that have atoms
 };
 
-/// Reads them from the bytes of a file; `file` names it in errors. An atom of unknown element has the element "X" and no
-/// radius. Both throw BadInput for a damaged file; one without atoms gives no records.
+/// Reads them from the bytes of a file; `file` names it in errors. An atom of unknown element has the element
+/// "X" and no radius. Both throw BadInput for a damaged file; one without atoms gives no records.
 AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress);
 AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress);
 

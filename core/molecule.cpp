@@ -45,9 +45,10 @@ void check_chains(const std::vector<AtomRecord>& records, const std::vector<std:
   const std::vector<std::string> there = chain_names(records);
   for (const std::string& name : wanted) {
     if (std::find(there.begin(), there.end(), name) != there.end()) continue;
-    std::string list;
-    for (const std::string& other : there) list += (list.empty() ? "" : ", ") + shown(other);
-    throw BadInput(file + " has no chain " + shown(name) + "; its chains are: " + list);
+    std::string message = file + " has no chain " + shown(name) + "; its chains are";
+    for (std::size_t i = 0; i < there.size(); ++i)
+      message.append(i == 0 ? ": " : ", ").append(shown(there[i]));
+    throw BadInput(message);
   }
 }
 
@@ -92,8 +93,8 @@ char chosen_letter(const std::vector<Atom>& atoms, std::size_t first, std::size_
       ->name;
 }
 
-/// Keeps one location of each residue. Those of one place in the chain belong together, also where the alternatives are
-/// different residues.
+/// Keeps one location of each residue. Those of one place in the chain belong together, also where the
+/// alternatives are different residues.
 void choose_alternates(std::vector<Atom>& atoms, const std::string& rule, AtomsLeftOut& count) {
   if (rule == "all") return;
   std::vector<Atom> kept;
@@ -187,7 +188,8 @@ MoleculeOptions read_molecule_options(ParameterReader& reader) {
                                   "alternate locations: highest (occupancy), first, all, or a letter");
   options.chains = reader.list("chains", "", "the chains to take, as in A/B; by default all");
   std::erase(options.chains, "");
-  options.model = reader.count("model", options.model, 1, 1'000'000'000, "the how-manieth model of the file");
+  options.model =
+      reader.count("model", options.model, 1, 1'000'000'000, "which model of the file, counted from 1");
   check_options(options);
   return options;
 }

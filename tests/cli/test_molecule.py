@@ -132,7 +132,7 @@ class Molecule(ProgramTest):
                 ("cut.pdb", atom(1, (0, 0, 0))[:40], "cut.pdb, line 1"),
                 ("bad.pdb", atom(1, (0, 0, 0)).replace("0.000", "0.0x0", 1), '"0.0x0"'),
                 ("empty.cif", "data_x\n", "empty.cif has no atoms"),
-                ("cut.cif", CIF[:-10], "cut.cif:"),
+                ("cut.cif", CIF[:-10], "cut.cif, line 2: "),
                 ("bad.cif", CIF.replace(" 20 ", " twenty "), '"twenty"'),
                 ("x.gz", "", "decompress"),
                 ("x.xyz", "", ".mmcif")):

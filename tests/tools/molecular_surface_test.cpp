@@ -1,9 +1,12 @@
 #include "morsel/tools/molecule/surface.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stop_token>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
@@ -113,14 +116,19 @@ TEST_CASE("a ring of atoms has a hole") {
     CHECK(surface.mesh.genus() == 1);
     CHECK(surface.mesh.component_count() == 1);
   }
-  // A probe that does not fit through fills it.
-  SurfaceOptions large = options(SurfaceKind::ses, 0.5);
-  large.probe = 8;
-  CHECK(tools::molecular_surface(atoms, large).mesh.genus() == 0);
+  // From above and below, a probe reaches the middle if its radius is below (7² − 1.7²) / (2 · 1.7) = 13.6.
+  for (const auto& [probe, genus] : {std::pair(12.0, 1u), std::pair(25.0, 0u)}) {
+    SurfaceOptions large = options(SurfaceKind::ses, 0.9);
+    large.probe = probe;
+    const MolecularSurface surface = tools::molecular_surface(atoms, large);
+    check_promise(surface);
+    CHECK(surface.mesh.genus() == genus);
+  }
 }
 
 TEST_CASE("the solvent excluded surface of two atoms is the one of the textbook") {
-  // Two balls of radius r, 2 c apart: spheres, and between them the inner half of a torus along which the probe rolls.
+  // Two balls of radius r, 2 c apart: spheres, and between them the inner half of a torus along which the
+  // probe rolls.
   const double r = 1.7, c = 2, probe = 1.4, h = 0.1;
   const std::vector<Atom> atoms = {atom_at({-c, 0, 0}, r), atom_at({c, 0, 0}, r)};
   const MolecularSurface surface = tools::molecular_surface(atoms, options(SurfaceKind::ses, h));
@@ -146,7 +154,8 @@ TEST_CASE("the solvent excluded surface of two atoms is the one of the textbook"
 }
 
 TEST_CASE("the solvent excluded surface is where sampled probes end") {
-  // The oracle: p is outside if some center on a fine grid, free of all atoms, has it within the probe's radius.
+  // The oracle: p is outside if some center on a fine grid, free of all atoms, has it within the probe's
+  // radius.
   const double probe = 1.4, step = 0.1;
   for (unsigned seed = 0; seed < 3; ++seed) {
     const std::vector<Atom> atoms = random_molecule(seed, 5);

@@ -17,7 +17,8 @@ using core::Point;
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A point counts as inside a ball if it is by more than this share of Å: points on several spheres are on all of them.
+/// A point counts as inside a ball if it is by more than this share of Å: points on several spheres are on
+/// all of them.
 constexpr double kTolerance = 1e-9;
 
 /// A piece of the circle where two spheres meet that lies in no ball.
@@ -54,9 +55,10 @@ Intervals complement(const Intervals& covered) {
   return free;
 }
 
-/// The surface that the probe's center may reach consists of parts of the spheres with the probe's radius added, which
-/// meet in arcs, which meet in points. From inside, the nearest point of it is on the sphere that surrounds the place
-/// most closely, straight outwards, if no other ball covers that point; else it is on an arc or at an end of one.
+/// The surface that the probe's center may reach consists of parts of the spheres with the probe's radius
+/// added, which meet in arcs, which meet in points. From inside, the nearest point of it is on the sphere
+/// that surrounds the place most closely, straight outwards, if no other ball covers that point; else it is
+/// on an arc or at an end of one.
 class ExcludedSolid final : public Solid {
  public:
   ExcludedSolid(std::vector<Ball> balls, double probe, double depth)
@@ -137,8 +139,8 @@ class ExcludedSolid final : public Solid {
     }
   }
 
-  /// Adds what the ball covers of the circle; whether that is all of it. A point of the circle at angle t is inside where
-  /// u cos t + v sin t < level.
+  /// Adds what the ball covers of the circle; whether that is all of it. A point of the circle at angle t is
+  /// inside where u cos t + v sin t < level.
   static bool covers(const Ball& ball, const Arc& circle, Intervals& covered) {
     const Point w = circle.center - ball.center;
     const double u = 2 * circle.radius * w.dot(circle.x);

@@ -26,8 +26,8 @@ class GaussianSolid final : public Solid {
 
   double reach() const override { return reach_; }
 
-  /// Around a single ball of radius r the density is exp(B (1 − d²/r²)); its inverse d/r − 1, times a typical r, is
-  /// about a length wherever the surface passes.
+  /// Around a single ball of radius r the density is exp(B (1 − d²/r²)); its inverse d/r − 1, times a typical
+  /// r, is about a length wherever the surface passes.
   void evaluate(std::span<const core::Point> places, std::span<const core::Index> balls,
                 std::span<double> values) const override {
     for (std::size_t k = 0; k < places.size(); ++k) {

@@ -21,10 +21,11 @@ struct QuadMesh {
   std::vector<std::array<core::Index, 4>> quads;  ///< counter-clockwise seen from outside
 };
 
-/// The surface of a solid by dual contouring of a grid (OpenVDB's volumeToMesh): a vertex in each cell that the surface
-/// passes, at the mean of where it cuts the cell's edges, and a quadrilateral around each edge that it cuts. Cuts are kept
-/// 1 % of the spacing away from the grid's points, so that no two vertices coincide. It is closed, and on every grid
-/// tried (white noise, too) was a manifold, which OpenVDB does not promise, so the caller must check. The same bits for any number of threads.
+/// The surface of a solid by dual contouring of a grid (OpenVDB's volumeToMesh): a vertex in each cell that
+/// the surface passes, at the mean of where it cuts the cell's edges, and a quadrilateral around each edge
+/// that it cuts. Cuts are kept 1 % of the spacing away from the grid's points, so that no two vertices
+/// coincide. It is closed, and on every grid tried (white noise, too) was a manifold, which OpenVDB does not
+/// promise, so the caller must check. The same bits for any number of threads.
 QuadMesh mesh_solid(const Solid& solid, std::span<const Ball> balls, const Grid& grid,
                     const core::Progress& progress);
 

@@ -16,8 +16,9 @@ struct Ball {
   double radius;
 };
 
-/// A solid given by a continuous function: negative inside, positive outside, and close to its surface about the distance
-/// to it in Å, so that the surface may be interpolated linearly. Immutable; may be asked from any number of threads.
+/// A solid given by a continuous function: negative inside, positive outside, and close to its surface about
+/// the distance to it in Å, so that the surface may be interpolated linearly. Immutable; may be asked from
+/// any number of threads.
 class Solid {
  public:
   virtual ~Solid() = default;
@@ -28,8 +29,8 @@ class Solid {
   /// Balls whose centers are farther away do not matter at a place; at least reach().
   virtual double influence() const { return reach(); }
 
-  /// The function at `places`, given the numbers (ascending) of all balls whose centers lie within influence() of one
-  /// of them, and perhaps of others. `values` has as many elements.
+  /// The function at `places`, given the numbers (ascending) of all balls whose centers lie within
+  /// influence() of one of them, and perhaps of others. `values` has as many elements.
   virtual void evaluate(std::span<const core::Point> places, std::span<const core::Index> balls,
                         std::span<double> values) const = 0;
 };
@@ -40,9 +41,9 @@ std::unique_ptr<Solid> ball_solid(std::vector<Ball> balls);
 /// Where Σ_i exp(B (1 − ‖x − c_i‖² / r_i²)) ≥ 1. Terms below 10⁻⁷ are left out.
 std::unique_ptr<Solid> gaussian_solid(std::vector<Ball> balls, double blobbiness);
 
-/// The solvent-excluded solid (Richards 1977, Connolly 1983): what no ball of radius `probe` > 0 that stays outside all
-/// balls can touch. Its function is probe − d, with d the distance to the places where the probe's center may be: exact
-/// from −depth up, and −depth wherever it would be less.
+/// The solvent-excluded solid (Richards 1977, Connolly 1983): what no ball of radius `probe` > 0 that stays
+/// outside all balls can touch. Its function is probe − d, with d the distance to the places where the
+/// probe's center may be: exact from −depth up, and −depth wherever it would be less.
 std::unique_ptr<Solid> excluded_solid(std::vector<Ball> balls, double probe, double depth);
 
 }  // namespace morsel::tools

@@ -23,7 +23,7 @@ using core::Point;
 using core::TriangleMesh;
 
 constexpr int kMostGrids = 8;
-constexpr double kMostPoints = 1e9;
+constexpr double kMostPoints = 5e8;
 constexpr double kLongestSide = 65536;  // vertices come in single precision, in units of the spacing
 
 void check(bool holds, const char* what, double value, const char* range) {
@@ -71,7 +71,7 @@ void check_resolution(const Solid& solid, std::span<const Ball> balls, std::span
   const double enough = spacing * std::max(side / kLongestSide, std::cbrt(points / kMostPoints));
   throw core::BadInput(given + "would take a grid of " + core::shortest(rounded_up(points, 2)) + " points, " +
                        core::shortest(rounded_up(side, 2)) +
-                       " along its longest side, where 1e9 and 65536 are possible: from about " +
+                       " along its longest side, where 5e8 and 65536 are possible: from about " +
                        core::shortest(rounded_up(enough, 2)) + " Å on it would do");
 }
 
@@ -147,7 +147,7 @@ TriangleMesh keep_components(const TriangleMesh& mesh, const std::vector<bool>& 
 }
 
 /// The wall of a cavity is turned inside out: its volume is negative.
-MolecularSurface finish(TriangleMesh mesh, bool keep_cavities) {
+MolecularSurface finish(const TriangleMesh& mesh, bool keep_cavities) {
   const std::vector<Extent> extents = component_extents(mesh);
   std::vector<bool> keep(extents.size());
   MolecularSurface surface{mesh};
@@ -196,8 +196,8 @@ MolecularSurface molecular_surface(std::span<const core::Atom> atoms, const Surf
         Point::Constant(0.5) + tried * Point(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
     for (double& s : shift) s -= std::floor(s);
     const Grid grid{box.min - options.resolution * shift, options.resolution};
-    if (std::optional<TriangleMesh> mesh = try_grid(*solid, balls, grid, progress)) {
-      MolecularSurface surface = finish(std::move(*mesh), options.cavities);
+    if (const std::optional<TriangleMesh> mesh = try_grid(*solid, balls, grid, progress)) {
+      MolecularSurface surface = finish(*mesh, options.cavities);
       surface.grids_tried = tried + 1;
       return surface;
     }

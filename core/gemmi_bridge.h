@@ -1,0 +1,64 @@
+#pragma once
+/// What this project asks of gemmi, without gemmi's headers. Internal.
+///
+/// For a source of its own in C++17, so with the standard library's types alone: in C++20, clang refuses
+/// gemmi's vectors of incomplete types. Functions throw what gemmi throws, std::exception with a message.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace morsel::core::gemmi_bridge {
+
+struct Element {
+  std::string symbol;  ///< "Ca"; "X" if there is no such element
+  double radius;       ///< van der Waals, in Å; 0 if there is no such element
+  bool hydrogen;       ///< or deuterium
+};
+Element find_element(const std::string& symbol);
+
+struct Residue {
+  bool water;
+  bool polymer;  ///< amino acid or nucleotide
+};
+Residue find_residue(const std::string& name);
+
+struct PdbAtom {
+  double x, y, z;
+  std::string element, name, residue, chain, sequence_id;
+  int serial;
+  double occupancy;
+  char alternate;  ///< 0 if there is only one location
+  bool hetero;
+};
+
+/// The atoms of each model that has some.
+std::vector<std::vector<PdbAtom>> read_pdb(std::string_view text, const std::string& file);
+
+/// A CIF file, and the rows of one of its tables.
+class CifFile {
+ public:
+  CifFile(std::string_view text, const std::string& file);
+  ~CifFile();
+  CifFile(const CifFile&) = delete;
+  CifFile& operator=(const CifFile&) = delete;
+
+  enum class Found { no, without_columns, yes };
+  /// Goes to the first block whose table `category` has rows, which row counts and texts are then of. Columns
+  /// whose names begin with a ? may be missing.
+  Found find(const std::string& category, const std::vector<std::string>& columns);
+  /// Whether some block has the tag.
+  bool has_tag(const std::string& tag) const;
+
+  std::size_t rows() const;
+  /// The value without its quotes; empty if it is ., ? or missing.
+  std::string text(std::size_t row, std::size_t column) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace morsel::core::gemmi_bridge
