@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/link.h"
 #include "morsel/core/link_changes.h"
 #include "morsel/core/parallel.h"
 
@@ -23,12 +22,7 @@ std::string_view to_string(CriticalType type) {
 CriticalPoint classify_vertex(const core::ScalarField& field, Index v) {
   const auto rank = field.ranks();
   const Index center = rank[v];
-  const core::LinkPart lower = core::link_part(
-      field.mesh(), v, /*cap_inside=*/false, [&](Index u) { return rank[u] < center; }, [](Index) {});
-  if (lower.empty) return {v, CriticalType::minimum, 1};
-  if (lower.whole) return {v, CriticalType::maximum, 1};
-  if (lower.runs <= 1) return {v, CriticalType::regular, 1};
-  return {v, CriticalType::saddle, lower.runs - 1};
+  return classify_link(field.mesh(), v, [&](Index u) { return rank[u] < center; });
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "morsel/core/link.h"
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 
@@ -35,6 +36,16 @@ struct CriticalPoints {
   /// The paper's "#CP".
   std::size_t total() const { return minima + saddles + maxima; }
 };
+
+/// What a vertex is by its lower part of its link; is_lower(u) tells it of each neighbour u. O(degree).
+template <class IsLower>
+CriticalPoint classify_link(const core::TriangleMesh& mesh, core::Index v, const IsLower& is_lower) {
+  const core::LinkPart lower = core::link_part(mesh, v, /*cap_inside=*/false, is_lower, [](core::Index) {});
+  if (lower.empty) return {v, CriticalType::minimum, 1};
+  if (lower.whole) return {v, CriticalType::maximum, 1};
+  if (lower.runs <= 1) return {v, CriticalType::regular, 1};
+  return {v, CriticalType::saddle, lower.runs - 1};
+}
 
 /// Type and multiplicity of one vertex from its lower link on the capped surface (Banchoff 1970; Ni, Garland,
 /// Hart 2004, section 3.1): no lower neighbour → minimum; all lower → maximum; one run of lower neighbours →

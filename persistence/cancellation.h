@@ -18,7 +18,8 @@ struct CancellationOptions {
   /// Pairs of at most this persistence are cancelled. The paper's choice.
   Threshold threshold = Threshold::percent(0.1);
   /// If set, the threshold is ignored, and as many pairs are cancelled, in the order of Diagram::pairs, as
-  /// bring the critical points of the field (minima + saddle vertices + maxima) closest to this number.
+  /// bring the critical points of the field (minima + saddle vertices + maxima) down to this number, or else to the
+  /// nearest below it.
   std::optional<std::size_t> count;
 };
 
@@ -48,7 +49,7 @@ struct CancellationResult {
 /// `count` is reached where some number of cancelled pairs does it. Each pair takes an extremum and one of a
 /// saddle's multiplicity away, so without multiple saddles the number of critical points falls by two a pair
 /// and keeps its parity; it cannot fall below the essential classes and what the caps are paired with.
-/// Otherwise the nearest number is taken, the lower of two equally near ones, and the note says so. How
+/// Otherwise the nearest number below is taken, or above if there is none, and the note says so. How
 /// multiple saddles come out is seen only by cancelling, so numbers of pairs around an estimate are tried,
 /// 2²² / n but at least 12: where multiple saddles abound on a large mesh, a better one may be missed.
 ///

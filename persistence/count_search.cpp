@@ -1,7 +1,6 @@
 #include "morsel/persistence/count_search.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -85,14 +84,12 @@ std::string CountSearch::note() const {
   return text;
 }
 
-/// The number of pairs whose estimate, corrected by `off`, comes closest to what is wanted.
+/// The smallest number of pairs whose estimate, corrected by `off`, is not above what is wanted.
 std::size_t CountSearch::nearest_estimate(long off) const {
   const auto first_not_above = std::partition_point(estimate_.begin(), estimate_.end(),
                                                     [&](long estimate) { return estimate + off > wanted_; });
   if (first_not_above == estimate_.end()) return estimate_.size() - 1;
-  const auto k = static_cast<std::size_t>(first_not_above - estimate_.begin());
-  const bool previous_is_nearer = k > 0 && estimate_[k - 1] + off - wanted_ < wanted_ - estimate_[k] - off;
-  return previous_is_nearer ? k - 1 : k;
+  return static_cast<std::size_t>(first_not_above - estimate_.begin());
 }
 
 long CountSearch::measure(std::size_t cancelled) {
@@ -112,10 +109,10 @@ long CountSearch::measure(std::size_t cancelled) {
 bool CountSearch::is_nearer(std::size_t a, std::size_t b) const {
   const long total_a = totals_.at(a);
   const long total_b = totals_.at(b);
-  const long distance_a = std::abs(total_a - wanted_);
-  const long distance_b = std::abs(total_b - wanted_);
-  if (distance_a != distance_b) return distance_a < distance_b;
-  return total_a != total_b ? total_a < total_b : a < b;
+  const bool low_a = total_a <= wanted_;
+  if (low_a != (total_b <= wanted_)) return low_a;
+  if (total_a != total_b) return low_a ? total_a > total_b : total_a < total_b;
+  return a < b;
 }
 
 bool CountSearch::is_done() const {

@@ -7,39 +7,13 @@
 #include <utility>
 
 #include "morsel/core/parallel.h"
+#include "morsel/morse/operators/normals.h"
 
 namespace morsel::morse {
 namespace {
 
 using core::Index;
 using core::Point;
-
-/// Per component, −1 where a closed one is turned inside out (negative volume) and 1 elsewhere.
-std::vector<double> outward_signs(const core::TriangleMesh& mesh) {
-  const Index components = mesh.component_count();
-  std::vector<double> sign(components, 1.0);
-  std::vector<Index> origin(components, core::kNone);
-  for (Index v = mesh.vertex_count(); v-- > 0;) origin[mesh.component_of_vertex(v)] = v;
-  // A power of two changes no digit, and keeps the products of three lengths in range.
-  const core::BoundingBox& box = mesh.bounding_box();
-  const double scale = std::ldexp(1.0, -std::ilogb(std::max((box.max - box.min).maxCoeff(), 1e-300)));
-  std::vector<double> volume(components, 0.0);
-  std::vector<double> magnitude(components, 0.0);
-  for (const core::Triangle& t : mesh.triangles()) {
-    const Index c = mesh.component_of_vertex(t[0]);
-    const Point& o = mesh.position(origin[c]);
-    const Point a = (mesh.position(t[0]) - o) * scale;
-    const Point b = (mesh.position(t[1]) - o) * scale;
-    const Point d = (mesh.position(t[2]) - o) * scale;
-    const double term = a.dot(b.cross(d));
-    volume[c] += term;
-    magnitude[c] += std::abs(term);
-  }
-  // A volume that is nothing but rounding (a flat or folded surface) has no inside.
-  for (Index c = 0; c < components; ++c)
-    if (mesh.boundary_loop_count(c) == 0 && volume[c] < -1e-12 * magnitude[c]) sign[c] = -1.0;
-  return sign;
-}
 
 /// Σ w κ over the edges of a vertex, and the same sum with the doubled angle of each edge's direction in the
 /// tangent plane: what is left of the tensor, a trace and a traceless part.
@@ -149,14 +123,6 @@ void for_each_tensor(const core::TriangleMesh& mesh, bool directions, const core
   progress.update("curvature", 1);
 }
 
-class MeanCurvature final : public core::MorseFunction {
- public:
-  core::FunctionResult evaluate(const core::TriangleMesh& mesh,
-                                const core::FunctionContext& context) const override {
-    return {mean_curvature(mesh, context.progress), {}};
-  }
-};
-
 }  // namespace
 
 core::ScalarField mean_curvature(const core::TriangleMesh& mesh, const core::Progress& progress) {
@@ -176,10 +142,6 @@ PrincipalCurvatures principal_curvatures(const core::TriangleMesh& mesh, const c
     result.k2[v] = t.mean - 2 * r;
   });
   return result;
-}
-
-std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader&) {
-  return std::make_unique<MeanCurvature>();
 }
 
 }  // namespace morsel::morse

@@ -1,10 +1,8 @@
 #pragma once
-/// Curvatures of the surface at its vertices, by Taubin's tensor.
+/// Curvatures of the surface at its vertices, by Taubin's tensor; others: discrete_curvature.h, quadric_curvature.h.
 
-#include <memory>
 #include <vector>
 
-#include "morsel/core/method.h"
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
 
@@ -35,8 +33,5 @@ struct PrincipalCurvatures {
 /// is mean_curvature(), sign and special cases as there; a neighbour straight along the normal, which has no
 /// T_ij, bends all directions alike. O(n), parallel.
 PrincipalCurvatures principal_curvatures(const core::TriangleMesh& mesh, const core::Progress& progress = {});
-
-/// mean_curvature(); takes no keys.
-std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
@@ -58,6 +60,15 @@ std::string_view to_string(EdgeWeights weights) {
       break;
   }
   return "cotangent";
+}
+
+EdgeWeights read_edge_weights(core::ParameterReader& reader, EdgeWeights default_weights) {
+  const std::string name =
+      reader.choice("weights", to_string(default_weights), {"uniform", "cotangent", "clamped"},
+                    "edge weights: 1, cotangents, or cotangents of at least " + core::shortest(kLeastWeight));
+  for (const EdgeWeights weights : {EdgeWeights::uniform, EdgeWeights::clamped})
+    if (name == to_string(weights)) return weights;
+  return EdgeWeights::cotangent;
 }
 
 std::vector<double> edge_weights(const TriangleMesh& mesh, EdgeWeights weights) {

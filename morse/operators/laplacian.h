@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "morsel/core/mesh.h"
+#include "morsel/core/parameters.h"
 
 namespace morsel::morse {
 
@@ -22,6 +23,9 @@ enum class EdgeWeights : std::uint8_t {
 
 /// "cotangent", "clamped", "uniform".
 std::string_view to_string(EdgeWeights weights);
+
+/// The key `weights` with one of these names.
+EdgeWeights read_edge_weights(core::ParameterReader& reader, EdgeWeights default_weights);
 
 /// What clamped weights are at least. An edge between two right angles has weight 0.
 inline constexpr double kLeastWeight = 1e-3;

@@ -7,6 +7,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "morsel/morse/operators/largest_square.h"
+
 namespace morsel::morse {
 namespace {
 

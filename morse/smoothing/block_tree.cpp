@@ -62,16 +62,6 @@ SquareSpan squares_between(const BlockBox& a, const BlockBox& b) {
   return span;
 }
 
-double largest_square(double radius) {
-  double square = std::min(radius * radius, std::numeric_limits<double>::max());
-  while (std::sqrt(square) > radius) square = std::nextafter(square, 0.0);
-  for (;;) {
-    const double next = std::nextafter(square, std::numeric_limits<double>::infinity());
-    if (!std::isfinite(next) || std::sqrt(next) > radius) return square;
-    square = next;
-  }
-}
-
 BlockTree::BlockTree(std::span<const Point> points, std::size_t lanes, const core::Progress& progress)
     : lanes_(lanes), exponent_(exponent_of(points)), order_(points.size()) {
   const std::size_t blocks = (points.size() + lanes - 1) / lanes;

@@ -25,9 +25,6 @@ struct SquareSpan {
 };
 SquareSpan squares_between(const BlockBox& a, const BlockBox& b);
 
-/// Largest s whose square root, as computed, is at most the radius: what is as near as that is within reach.
-double largest_square(double radius);
-
 /// Sorts points by halving them again and again across the longest side of their box, down to blocks of
 /// `lanes` points (the last one may have fewer), so that blocks, and runs of blocks, are compact in space. A
 /// range of blocks [first, last) of the tree has the halves [first, middle) and [middle, last), where middle

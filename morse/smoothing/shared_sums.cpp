@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morsel/core/parallel.h"
+#include "morsel/morse/operators/largest_square.h"
 
 namespace morsel::morse {
 namespace {

@@ -29,6 +29,8 @@ void run_memory(const Plan& plan, const Report& report);
 void run_salient(const Plan& plan, const Report& report);
 /// Time and memory by mesh size, of every step, and of the whole program on the largest.
 void run_scaling(const Plan& plan, const Report& report);
+/// Every Morse function and method, beside the same made with stock libraries.
+void run_methods(const Plan& plan, const Report& report);
 /// What reading and writing take of `morsel compare`.
 void run_files(const Plan& plan, const Report& report);
 

@@ -9,56 +9,13 @@
 #include "morsel/core/parallel.h"
 #include "support/fields.h"
 #include "support/meshes.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
 using core::ScalarField;
 
 namespace {
-
-TriangleMesh scaled(const TriangleMesh& mesh, double factor) {
-  std::vector<Point> positions(mesh.positions().begin(), mesh.positions().end());
-  for (Point& p : positions) p *= factor;
-  return mesh.with_positions(std::move(positions));
-}
-
-/// Each coordinate moved by up to `amount`.
-TriangleMesh jittered(const TriangleMesh& mesh, double amount, unsigned seed) {
-  const std::vector<double> noise = random_values(3 * std::size_t{mesh.vertex_count()}, seed);
-  std::vector<Point> positions(mesh.positions().begin(), mesh.positions().end());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (int axis = 0; axis < 3; ++axis)
-      positions[v][axis] += amount * (2 * noise[3 * v + static_cast<std::size_t>(axis)] - 1);
-  return mesh.with_positions(std::move(positions));
-}
-
-Soup inside_out(Soup soup) {
-  for (core::Triangle& t : soup.triangles) std::swap(t[1], t[2]);
-  return soup;
-}
-
-/// A strip of equilateral triangles rolled into a cylinder about z: each inner vertex has six neighbours, 60°
-/// apart, so that Taubin's sums over directions are exact.
-Soup cylinder(double radius, int around, int rows) {
-  Soup soup;
-  const double step = 2 * M_PI / around;
-  const double height = radius * step * std::sqrt(3.0) / 2;
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < around; ++j) {
-      const double angle = step * (j + 0.5 * (i % 2));
-      soup.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height * i);
-    }
-  for (int i = 0; i + 1 < rows; ++i)
-    for (int j = 0; j < around; ++j) {
-      const auto at = [&](int row, int k) {
-        return static_cast<Index>(row * around + (k + around) % around);
-      };
-      const int shift = i % 2;
-      soup.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + shift)});
-      soup.triangles.push_back({at(i, j), at(i + 1, j + shift), at(i + 1, j + shift - 1)});
-    }
-  return soup;
-}
 
 /// Taubin's tensor as the paper writes it, in three dimensions.
 std::array<double, 3> slow_curvature(const TriangleMesh& mesh, Index v, double sign) {
@@ -284,15 +241,4 @@ TEST_CASE("curvature gives the same bits for every number of threads") {
     const ScalarField more = run(threads);
     CHECK(std::equal(one.values().begin(), one.values().end(), more.values().begin()));
   }
-}
-
-TEST_CASE("the mean curvature function takes no keys and can be cancelled") {
-  core::ParameterReader reader({"mean-curvature", {{"scale", "2"}}});
-  const auto function = morse::make_mean_curvature(reader);
-  CHECK_THROWS_AS(reader.finish(), core::InvalidArgument);
-  const TriangleMesh mesh = octahedron().mesh();
-  CHECK(function->evaluate(mesh, {}).field.value(0) == morse::mean_curvature(mesh).value(0));
-  std::stop_source stop;
-  stop.request_stop();
-  CHECK_THROWS_AS(function->evaluate(mesh, {nullptr, core::Progress({}, stop.get_token())}), core::Cancelled);
 }

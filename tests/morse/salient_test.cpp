@@ -12,6 +12,7 @@
 #include "support/fields.h"
 #include "support/meshes.h"
 #include "support/salient_reference.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -44,22 +45,6 @@ double deviation(const ScalarField& field) {
   double square = 0;
   for (const double f : field.values()) square += (f - mean) * (f - mean) / field.mesh().vertex_count();
   return std::sqrt(square);
-}
-
-/// Positions without symmetry, so that no distance lies at a cut-off.
-TriangleMesh jittered(const TriangleMesh& mesh, double amount, unsigned seed) {
-  const std::vector<double> noise = random_values(3 * std::size_t{mesh.vertex_count()}, seed);
-  std::vector<Point> positions(mesh.positions().begin(), mesh.positions().end());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    for (int axis = 0; axis < 3; ++axis)
-      positions[v][axis] += amount * (2 * noise[3 * v + static_cast<std::size_t>(axis)] - 1);
-  return mesh.with_positions(std::move(positions));
-}
-
-TriangleMesh scaled(const TriangleMesh& mesh, double factor) {
-  std::vector<Point> positions(mesh.positions().begin(), mesh.positions().end());
-  for (Point& p : positions) p *= factor;
-  return mesh.with_positions(std::move(positions));
 }
 
 }  // namespace

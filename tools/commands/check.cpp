@@ -23,12 +23,10 @@ struct Options {
 ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
                          const core::Progress& progress) {
   const HashedMesh input = read_hashed_mesh(mesh_path, {.repair = report.repair}, progress);
-  std::vector<MethodChain> chains;
-  for (const std::string& method : report.request.methods) chains.push_back(make_method(method));
   ReportCollector again;
   ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.repair, report.items},
                       report.request);
-  run_comparison(input.loaded, make_function(report.request.field), chains, {&writer}, progress);
+  run_comparison(input.loaded, prepare(report.request), {&writer}, progress);
   writer.finish();
   return again.take();
 }

@@ -2,7 +2,9 @@
 /// The commands of the program: each adds itself to the parser and says what to run.
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -39,6 +41,9 @@ struct Invocation {
 };
 
 void add_common_options(CLI::App& command, CommonOptions& common, bool with_repair = true);
+
+/// --target K
+void add_target_option(CLI::App& command, std::optional<std::size_t>& target);
 
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_field(CLI::App& app, Invocation& invocation);

@@ -15,6 +15,16 @@ void add_common_options(CLI::App& command, CommonOptions& common, bool with_repa
   command.add_flag("--quiet", common.quiet, "No progress, no messages");
 }
 
+void add_target_option(CLI::App& command, std::optional<std::size_t>& target) {
+  command
+      .add_option(
+          "--target", target,
+          "End with so many critical points, or with the nearest smaller number that can be had: as much\n"
+          "of the (last) method as leaves enough of them, persistence cancellation for the rest")
+      ->check(CLI::PositiveNumber)
+      ->type_name("K");
+}
+
 std::string specification_help() {
   return "\nF and M are written name or name:key=value,key=value; methods chain as M+M; a backslash keeps , "
          ": + = /\n"

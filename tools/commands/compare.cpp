@@ -54,9 +54,7 @@ class SideBySide : public ComparisonSink {
 
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
-  const NamedFunction function = make_function(options.request.field);
-  std::vector<MethodChain> chains;
-  for (const std::string& method : options.request.methods) chains.push_back(make_method(method));
+  const PreparedComparison comparison = prepare(options.request);
   const bool report_to_stdout = options.report == "-";
   std::optional<core::FileWriter> file;
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
@@ -81,7 +79,7 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
     exports.emplace(options.export_folder, loaded);
     files.add(*exports);
   }
-  run_comparison(loaded, function, chains, {&announcer, &table, &files}, console.progress());
+  run_comparison(loaded, comparison, {&announcer, &table, &files}, console.progress());
   if (report) report->finish();
   if (file) file->commit();
 
@@ -109,6 +107,10 @@ void add_compare(CLI::App& app, Invocation& invocation) {
                   "(default: conventional, salient and tps)")
       ->type_name("M")
       ->allow_extra_args(false);
+  add_target_option(command, options->request.target);
+  command.add_flag("--snap", options->request.snap,
+                   "Report each critical point at the position of the one of the input field that it came\n"
+                   "from (its origin)");
   command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
       ->type_name("REPORT.json");
   command.add_flag("--no-items", options->no_items,

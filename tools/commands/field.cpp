@@ -1,6 +1,7 @@
 // morsel field: writes one field.
 
 #include <memory>
+#include <optional>
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
@@ -14,6 +15,7 @@ struct Options {
   std::string mesh;
   std::string field = "mean-curvature";
   std::string method = "conventional";
+  std::optional<std::size_t> target;
   std::string output;
 };
 
@@ -28,8 +30,10 @@ int write(const Options& options, const CommonOptions& common, Console& console)
       std::move(built.mesh),
       {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
   const FieldOutcome input = evaluate_field(loaded, function, progress);
-  const core::ScalarField field = apply_chain(chain, loaded, function, input.field, progress);
-  write_field(options.output, field, loaded.source.numbering, file.soup.positions, function.name);
+  const ChainOutcome outcome =
+      apply_chain(chain, loaded, function, input.field, {.target = options.target}, progress);
+  if (outcome.target && !outcome.target->note.empty()) console.message(outcome.target->note);
+  write_field(options.output, outcome.field, loaded.source.numbering, file.soup.positions, function.name);
   console.message("field: " + options.output);
   return kDone;
 }
@@ -46,6 +50,7 @@ void add_field(CLI::App& app, Invocation& invocation) {
   command.add_option("--method", options->method, "A method or chain of methods (below)")
       ->type_name("M")
       ->capture_default_str();
+  add_target_option(command, options->target);
   command
       .add_option(
           "-o,--output", options->output,

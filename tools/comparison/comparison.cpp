@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "morsel/persistence/cancellation.h"
+#include "morsel/core/error.h"
 
 namespace morsel::tools {
 
@@ -11,30 +11,6 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
   const Stopwatch watch;
   core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
   return {function.name, std::move(result.field), std::move(result.parameters), watch.seconds()};
-}
-
-core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
-                              const NamedFunction& function, const core::ScalarField& field,
-                              const core::Progress& progress, std::vector<StepOutcome>* steps) {
-  core::MethodContext context;
-  context.progress = progress;
-  context.morse_function = [&](const core::TriangleMesh& mesh) {
-    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
-  };
-  context.persistent_extrema = [&](const core::ScalarField& on, std::size_t count) {
-    return persistence::persistent_extrema(persistence::pair_extrema(on, progress), count);
-  };
-  context.cancel = [&](const core::ScalarField& on, double threshold) {
-    return persistence::cancel(on, {persistence::Threshold::absolute(threshold), {}}, progress).field;
-  };
-  core::ScalarField current = field;
-  for (const MethodStep& step : chain.steps) {
-    core::MethodResult result = step.method->apply(current, context);
-    current = std::move(result.field);
-    if (steps != nullptr)
-      steps->push_back({step.name, std::move(result.parameters), std::move(result.details)});
-  }
-  return current;
 }
 
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress) {
@@ -54,25 +30,41 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
   return {std::move(points), std::move(diagram), std::move(complex), std::move(segments)};
 }
 
-void run_comparison(const core::LoadedMesh& loaded, const NamedFunction& function,
-                    const std::vector<MethodChain>& chains, const std::vector<ComparisonSink*>& sinks,
-                    const core::Progress& progress) {
-  const FieldOutcome input = evaluate_field(loaded, function, progress);
+PreparedComparison prepare(const ComparisonRequest& request) {
+  if (request.target && *request.target == 0)
+    throw core::InvalidArgument("a target of 0 critical points cannot be reached: every field has a minimum");
+  PreparedComparison comparison{make_function(request.field), {}, request.target, request.snap};
+  for (const std::string& method : request.methods) comparison.chains.push_back(make_method(method));
+  return comparison;
+}
+
+void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
+                    const std::vector<ComparisonSink*>& sinks, const core::Progress& progress) {
+  const FieldOutcome input = evaluate_field(loaded, comparison.function, progress);
   for (ComparisonSink* sink : sinks) sink->field(input);
+  const double radius = matching_radius(loaded.mesh);
+  const morse::CriticalPointTracker at_input(input.field, radius, progress);
   std::optional<morse::CriticalPoints> first;
-  for (const MethodChain& chain : chains) {
+  for (const MethodChain& chain : comparison.chains) {
     for (ComparisonSink* sink : sinks) sink->begin_method(chain.name);
     const Stopwatch watch;
-    std::vector<StepOutcome> steps;
-    core::ScalarField field = apply_chain(chain, loaded, function, input.field, progress, &steps);
+    morse::CriticalPointTracker tracker = at_input;
+    ChainOutcome made = apply_chain(chain, loaded, comparison.function, input.field,
+                                    {comparison.target, true, &tracker}, progress);
     Timings timings = {{"method", watch.seconds()}};
-    Measurement measurement = measure(field, timings, progress);
+    Measurement measurement = measure(made.field, timings, progress);
     if (!first) first = measurement.critical_points;
-    Matching matching =
-        match_critical_points(loaded.mesh, *first, measurement.critical_points, matching_radius(loaded.mesh));
-    const MethodOutcome outcome{
-        chain.specification,    chain.name,          std::move(steps),  std::move(field),
-        std::move(measurement), std::move(matching), std::move(timings)};
+    Matching matching = match_critical_points(loaded.mesh, *first, measurement.critical_points, radius);
+    std::vector<core::Index> origins(tracker.origins().begin(), tracker.origins().end());
+    std::vector<core::Index> places(origins.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] = comparison.snap && origins[i] != core::kNone ? origins[i]
+                                                               : measurement.critical_points.points[i].vertex;
+    const MethodOutcome outcome{chain.specification,    chain.name,
+                                std::move(made.steps),  std::move(made.field),
+                                std::move(made.target), std::move(measurement),
+                                std::move(origins),     std::move(places),
+                                std::move(matching),    std::move(timings)};
     for (ComparisonSink* sink : sinks) sink->method(outcome);
   }
 }

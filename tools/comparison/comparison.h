@@ -2,7 +2,9 @@
 /// The main job: several methods on one field of one mesh, each measured by the same code.
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/persistence/pairing.h"
+#include "morsel/tools/comparison/chain.h"
 #include "morsel/tools/comparison/matching.h"
 #include "morsel/tools/registry/registry.h"
 
@@ -22,17 +25,12 @@ namespace morsel::tools {
 struct ComparisonRequest {
   std::string field = "mean-curvature";
   std::vector<std::string> methods = {"conventional", "salient", "tps"};
+  std::optional<std::size_t> target;  ///< every method is to end with so many critical points
+  bool snap = false;                  ///< critical points are reported where they came from
 };
 
 /// Seconds by step, in the order in which the steps ran.
 using Timings = std::vector<std::pair<std::string, double>>;
-
-/// One step of a chain, as it came out on this mesh.
-struct StepOutcome {
-  std::string name;
-  core::Parameters parameters;
-  core::Parameters details;
-};
 
 /// Everything that is measured on one field. It never knows which method made the field.
 struct Measurement {
@@ -48,7 +46,12 @@ struct MethodOutcome {
   std::string name;
   std::vector<StepOutcome> steps;
   core::ScalarField field;
+  std::optional<TargetOutcome> target;
   Measurement measurement;
+  /// For each critical point, the vertex of the one of the input field that it came from; kNone if the way was lost.
+  std::vector<core::Index> origins;
+  /// For each critical point, the vertex at whose position it is reported: its own, or its origin's to snap.
+  std::vector<core::Index> places;
   Matching compared_to_first;
   Timings timings;
 };
@@ -65,11 +68,6 @@ struct FieldOutcome {
 FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
                             const core::Progress& progress = {});
 
-/// Applies a chain of methods. `steps`, if given, receives what each step resolved and told.
-core::ScalarField apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
-                              const NamedFunction& function, const core::ScalarField& field,
-                              const core::Progress& progress = {}, std::vector<StepOutcome>* steps = nullptr);
-
 /// Critical points, diagram, complex and segments of one field; each step's seconds are appended to
 /// `timings`.
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress = {});
@@ -83,11 +81,21 @@ class ComparisonSink {
   virtual void method(const MethodOutcome& outcome) = 0;
 };
 
-/// Runs `function` and then each chain in turn, telling every sink. Throws what functions, methods and sinks
-/// throw.
-void run_comparison(const core::LoadedMesh& loaded, const NamedFunction& function,
-                    const std::vector<MethodChain>& chains, const std::vector<ComparisonSink*>& sinks,
-                    const core::Progress& progress = {});
+/// A comparison whose names have been looked up.
+struct PreparedComparison {
+  NamedFunction function;
+  std::vector<MethodChain> chains;
+  std::optional<std::size_t> target;
+  bool snap = false;
+};
+
+/// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
+PreparedComparison prepare(const ComparisonRequest& request);
+
+/// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods and
+/// sinks throw.
+void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
+                    const std::vector<ComparisonSink*>& sinks, const core::Progress& progress = {});
 
 /// Seconds since it was made.
 class Stopwatch {

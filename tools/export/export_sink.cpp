@@ -122,10 +122,12 @@ void write_complex(const std::filesystem::path& path, const core::LoadedMesh& lo
 void write_points(const std::filesystem::path& path, const core::LoadedMesh& loaded,
                   const MethodOutcome& outcome, std::span<const double> persistence) {
   core::FileWriter file(path, core::Sync::never);
-  file.write("vertex,x,y,z,type,multiplicity,value,persistence\n");
-  for (const morse::CriticalPoint& point : outcome.measurement.critical_points.points) {
+  file.write("vertex,x,y,z,type,multiplicity,value,persistence,origin\n");
+  const std::vector<morse::CriticalPoint>& critical = outcome.measurement.critical_points.points;
+  for (std::size_t i = 0; i < critical.size(); ++i) {
+    const morse::CriticalPoint& point = critical[i];
     file.write_number(std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)});
-    for (const double x : loaded.mesh.position(point.vertex)) {
+    for (const double x : loaded.mesh.position(outcome.places[i])) {
       file.write(",");
       file.write_number(x);
     }
@@ -137,6 +139,9 @@ void write_points(const std::filesystem::path& path, const core::LoadedMesh& loa
     file.write_number(outcome.field.value(point.vertex));
     file.write(",");
     file.write_number(persistence[point.vertex]);  // "inf" where it never dies
+    file.write(",");
+    if (outcome.origins[i] != core::kNone)
+      file.write_number(std::uint64_t{loaded.source.numbering.input_vertex(outcome.origins[i])});
     file.write("\n");
   }
   file.commit();

@@ -4,12 +4,13 @@
 #include <array>
 
 #include "morsel/core/error.h"
-#include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/functions/geodesic.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
+#include "morsel/morse/smoothing/diffusion.h"
 #include "morsel/morse/smoothing/fair.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "morsel/morse/smoothing/spectral.h"
@@ -19,13 +20,20 @@ namespace morsel::tools {
 namespace {
 
 constexpr std::array kFunctions = {
+    FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
+                  morse::make_curvedness},
     FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
                   morse::make_eigenfunction},
+    FunctionEntry{"gaussian-curvature", "Gaussian curvature, the angle defect (Meyer et al. 2003)",
+                  morse::make_gaussian_curvature},
     FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
                   morse::make_geodesic},
     FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
-    FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere",
-                  morse::make_mean_curvature},
+    FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
+    FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
+                  morse::make_principal_curvature},
+    FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
+                  morse::make_shape_index},
     FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
                   morse::make_vertex_scalar},
 };
@@ -33,11 +41,14 @@ constexpr std::array kFunctions = {
 constexpr std::array kMethods = {
     MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
     MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
+    MethodEntry{"laplacian",
+                "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
+                morse::make_laplacian},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
                 morse::make_salient},
     MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
-                persistence::make_tps},
+                persistence::make_tps, true},
 };
 
 template <class Entries>
@@ -91,7 +102,7 @@ MethodChain make_method(std::string_view specification) {
   for (core::Specification& link : core::parse_chain(specification, "--method")) {
     const MethodEntry& entry = find_entry(kMethods, link.name, "method");
     chain.name += (chain.name.empty() ? "" : "+") + link.name;
-    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link))});
+    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link)), entry.cancels});
   }
   return chain;
 }

@@ -23,6 +23,8 @@ struct MethodEntry {
   std::string_view name;
   std::string_view summary;
   std::unique_ptr<core::Method> (*make)(core::ParameterReader&);
+  bool cancels =
+      false;  ///< takes critical points away pair by pair: fields between its input and output have no use
 };
 
 std::span<const FunctionEntry> morse_functions();
@@ -39,6 +41,7 @@ struct NamedFunction {
 struct MethodStep {
   std::string name;
   std::unique_ptr<core::Method> method;
+  bool cancels = false;  ///< see MethodEntry
 };
 
 /// A method by its text, a chain ("salient:iterations=5+tps:count=150") or a single step.

@@ -37,8 +37,10 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
        grouped(m.complex.arc_count()), grouped(m.segmentation.morse_smale.count),
        grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
        fixed(seconds, "%.2f")});
+  if (outcome.target && !outcome.target->note.empty())
+    notes_ += outcome.specification + ": " + outcome.target->note + "\n";
 }
 
-std::string ComparisonTable::text() const { return headline_ + text_table(rows_); }
+std::string ComparisonTable::text() const { return headline_ + text_table(rows_) + notes_; }
 
 }  // namespace morsel::tools

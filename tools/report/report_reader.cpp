@@ -28,6 +28,8 @@ LoadedReport read_report(const std::filesystem::path& path) {
     report.request.methods = request.at("methods").get<std::vector<std::string>>();
     report.repair = request.at("repair").get<bool>();
     report.items = request.value("items", true);
+    if (request.contains("target")) report.request.target = request.at("target").get<std::size_t>();
+    report.request.snap = request.value("snap", false);
     report.mesh_path = head.at("mesh").at("path").get<std::string>();
     report.mesh_sha256 = head.at("mesh").at("sha256").get<std::string>();
   } catch (const Json::exception& error) {

@@ -17,7 +17,8 @@ Json timings_json(const Timings& timings) {
 }
 
 /// One step's values as they are, a chain's by step.
-Json by_step(const std::vector<StepOutcome>& steps, core::Parameters StepOutcome::*values) {
+template <class Values>
+Json by_step(const std::vector<StepOutcome>& steps, Values StepOutcome::*values) {
   if (steps.size() == 1) return to_json(steps.front().*values);
   Json list = Json::array();
   for (const StepOutcome& step : steps)
@@ -44,6 +45,19 @@ Json to_json(const core::Parameters& parameters) {
   return json;
 }
 
+Json to_json(const std::vector<core::IterationRecord>& iterations) {
+  Json list = Json::array();
+  for (const core::IterationRecord& record : iterations)
+    list.push_back({{"iteration", record.iteration},
+                    {"minima", record.minima},
+                    {"saddles", record.saddles},
+                    {"saddle_multiplicity", record.saddle_multiplicity},
+                    {"maxima", record.maxima},
+                    {"total", record.total()},
+                    {"change", record.change}});
+  return list;
+}
+
 ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                            const ComparisonRequest& request)
     : json_(json), loaded_(loaded), items_(input.items), timings_({{"load", input.load_seconds}}) {
@@ -52,6 +66,8 @@ ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const
   json_.member("tool", {{"name", "morsel"}, {"version", kVersion}});
   Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
   if (!input.items) asked["items"] = false;
+  if (request.target) asked["target"] = *request.target;
+  if (request.snap) asked["snap"] = true;
   json_.member("request", asked);
   json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
 }
@@ -72,6 +88,8 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   json_.member("name", outcome.name);
   json_.member("parameters", by_step(outcome.steps, &StepOutcome::parameters));
   json_.member("details", by_step(outcome.steps, &StepOutcome::details));
+  json_.member("iterations", by_step(outcome.steps, &StepOutcome::iterations));
+  if (outcome.target) write_target(*outcome.target);
   json_.member("field", {{"min", outcome.field.min()}, {"max", outcome.field.max()}});
   json_.member("critical_points", {{"minima", m.critical_points.minima},
                                    {"saddles", m.critical_points.saddles},
@@ -98,6 +116,34 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   Json seconds = {{"name", outcome.name}};
   seconds.update(timings_json(outcome.timings));
   timings_["methods"].push_back(std::move(seconds));
+}
+
+void ReportWriter::write_target(const TargetOutcome& target) {
+  json_.begin_object("target");
+  json_.member("wanted", target.wanted);
+  json_.member("reached", target.reached);
+  json_.member("iterations", target.iterations);
+  json_.member("blend", target.blend);
+  json_.member("before_cancelling", target.before_cancelling);
+  json_.member("cancelled_pairs", target.cancelled.size());
+  json_.member("largest_cancelled", target.largest_cancelled);
+  Json unfolded = Json::array();
+  for (const core::Index v : target.unfolded) unfolded.push_back(loaded_.source.numbering.input_vertex(v));
+  json_.member("unfolded", unfolded);
+  json_.member("largest_unfolding", target.largest_unfolding);
+  json_.member("note", target.note);
+  if (items_) {
+    json_.begin_array("cancelled");
+    json_.rows(target.cancelled.size(), [&](std::size_t i, const TakeRow& take) {
+      const persistence::PersistencePair& pair = target.cancelled[i];
+      take({{"kind", to_string(pair.kind)},
+            {"extremum", loaded_.source.numbering.input_vertex(pair.extremum)},
+            {"saddle", loaded_.source.numbering.input_vertex(pair.saddle)},
+            {"persistence", pair.persistence()}});
+    });
+    json_.end_array();
+  }
+  json_.end_object();
 }
 
 void ReportWriter::write_persistence(const MethodOutcome& outcome) {
@@ -162,13 +208,21 @@ void ReportWriter::write_items(const MethodOutcome& outcome) {
   const std::vector<morse::CriticalPoint>& points = outcome.measurement.critical_points.points;
   json_.rows(points.size(), [&](std::size_t i, const TakeRow& take) {
     const morse::CriticalPoint& point = points[i];
-    const std::span<const double, 3> position(loaded_.mesh.position(point.vertex).data(), 3);
+    const core::Index origin = outcome.origins[i];
+    const std::span<const double, 3> position(loaded_.mesh.position(outcome.places[i]).data(), 3);
+    const bool lost = origin == core::kNone;
+    const Cell from = lost ? Cell(nullptr) : Cell(loaded_.source.numbering.input_vertex(origin));
+    const Cell moved =
+        lost ? Cell(nullptr)
+             : Cell((loaded_.mesh.position(point.vertex) - loaded_.mesh.position(origin)).norm());
     take({{"vertex", loaded_.source.numbering.input_vertex(point.vertex)},
           {"position", position},
           {"type", to_string(point.type)},
           {"multiplicity", point.multiplicity},
           {"value", outcome.field.value(point.vertex)},
-          {"persistence", persistence[point.vertex]}});
+          {"persistence", persistence[point.vertex]},
+          {"origin", from},
+          {"moved", moved}});
   });
   json_.end_array();
 }

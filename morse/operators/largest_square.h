@@ -1,0 +1,9 @@
+#pragma once
+/// Comparing squares of distances as distances.
+
+namespace morsel::morse {
+
+/// Largest s whose square root, as computed, is at most the radius: what is as near as that is within reach.
+double largest_square(double radius);
+
+}  // namespace morsel::morse

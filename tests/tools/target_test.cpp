@@ -1,0 +1,142 @@
+#include "morsel/tools/comparison/target.h"
+
+#include <catch2/catch.hpp>
+
+#include "morsel/core/error.h"
+#include "morsel/core/parallel.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/persistence/cancellation.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "support/fields.h"
+#include "support/meshes.h"
+
+using namespace morsel;
+using namespace morsel::test;
+using core::ScalarField;
+
+namespace {
+
+tools::ChainOutcome apply(const std::string& method, const ScalarField& input, std::size_t target,
+                          morse::CriticalPointTracker* tracker = nullptr) {
+  const core::LoadedMesh loaded{input.mesh(), {}};
+  return tools::apply_chain(tools::make_method(method), loaded, tools::make_function("height"), input,
+                            {target, false, tracker});
+}
+
+std::size_t total(const ScalarField& field) { return morse::classify(field).total(); }
+
+}  // namespace
+
+TEST_CASE("a target is reached where parity and topology allow") {
+  for (const char* method : {"salient:iterations=2,sigma=0.6", "laplacian:iterations=4", "tps:threshold=30%",
+                             "conventional", "laplacian:iterations=1+tps", "laplacian:iterations=400"})
+    for (const NamedMesh& entry : mesh_zoo())
+      for (const unsigned seed : {1u, 2u}) {
+        const ScalarField input(entry.mesh, random_values(entry.mesh.vertex_count(), seed));
+        const std::size_t least =
+            total(persistence::cancel(input, {persistence::Threshold::percent(100), {}}).field);
+        for (const std::size_t wanted :
+             {std::size_t{5}, std::size_t{12}, 1 + total(input) / 2, 2 * total(input)}) {
+          INFO(entry.name << ", " << method << ", " << wanted << " of " << total(input));
+          const tools::ChainOutcome outcome = apply(method, input, wanted);
+          REQUIRE(outcome.target);
+          const tools::TargetOutcome& target = *outcome.target;
+          CHECK(target.wanted == wanted);
+          CHECK(target.reached == total(outcome.field));
+          CHECK(target.note.empty() == (target.reached == wanted));
+          if (target.reached > wanted) CHECK(persistence::pair_extrema(outcome.field).count_above(0) == 0);
+          const long parity = static_cast<long>(wanted) - entry.mesh.euler_characteristic();
+          if (parity % 2 == 0 && wanted >= least && wanted <= target.before_cancelling)
+            CHECK(target.reached == wanted);
+          CHECK((target.blend >= 0 && target.blend < 1));
+          double largest = 0;
+          for (const auto& pair : target.cancelled) largest = std::max(largest, pair.persistence());
+          CHECK(target.largest_cancelled == largest);
+        }
+      }
+}
+
+TEST_CASE("a method that goes too far in one step is blended with its input") {
+  const TriangleMesh mesh = sphere(4).mesh();
+  const ScalarField input(mesh, random_values(mesh.vertex_count(), 5));
+  const std::string far = "salient:iterations=1,sigma=1,range=1000std";
+  const tools::ChainOutcome alone =
+      tools::apply_chain(tools::make_method(far), {mesh, {}}, tools::make_function("height"), input);
+  REQUIRE(total(alone.field) < 100);
+  const tools::ChainOutcome outcome = apply(far, input, 100);
+  CHECK(outcome.target->reached == 100);
+  CHECK(outcome.target->iterations == 0);
+  CHECK(outcome.target->blend > 0);
+  CHECK(outcome.target->before_cancelling >= 100);
+  CHECK(outcome.target->before_cancelling < 130);
+}
+
+TEST_CASE("the iterations before the target are run and the ones after are not") {
+  const TriangleMesh mesh = sphere(4).mesh();
+  const ScalarField input(mesh, random_values(mesh.vertex_count(), 5));
+  const core::LoadedMesh loaded{mesh, {}};
+  const tools::ChainOutcome all =
+      tools::apply_chain(tools::make_method("laplacian:iterations=30"), loaded,
+                         tools::make_function("height"), input, {{}, true, nullptr});
+  const auto& curve = all.steps[0].iterations;
+  REQUIRE(curve.size() == 31);
+  const std::size_t wanted = curve[7].total() - 1;
+  const tools::ChainOutcome outcome =
+      tools::apply_chain(tools::make_method("laplacian:iterations=30"), loaded,
+                         tools::make_function("height"), input, {wanted, true, nullptr});
+  std::size_t first = 0;
+  while (curve[first].total() >= wanted) ++first;
+  CHECK(outcome.steps[0].iterations.size() == first + 1);  // the last of them went too far
+  CHECK(outcome.target->iterations == static_cast<int>(first) - 1);
+  CHECK(outcome.target->reached == wanted - wanted % 2);
+}
+
+TEST_CASE("origins lead through a chain and a target to critical points of the input") {
+  for (const NamedMesh& entry : mesh_zoo()) {
+    INFO(entry.name);
+    const ScalarField input(entry.mesh, random_values(entry.mesh.vertex_count(), 11));
+    morse::CriticalPointTracker tracker(input, entry.mesh.bounding_box().diagonal());
+    const tools::ChainOutcome outcome =
+        apply("laplacian:iterations=2+salient:iterations=2,sigma=0.4+tps:threshold=1%", input, 8, &tracker);
+    REQUIRE(tracker.points().points == morse::classify(outcome.field).points);
+    for (std::size_t i = 0; i < tracker.origins().size(); ++i)
+      if (tracker.origins()[i] != core::kNone)
+        CHECK(morse::classify_vertex(input, tracker.origins()[i]).type == tracker.points().points[i].type);
+  }
+}
+
+TEST_CASE("a target gives the same bits at any number of threads") {
+  const TriangleMesh mesh = torus(90, 80).mesh();
+  const ScalarField input(mesh, smooth_values(mesh, 1, 3));
+  const auto run = [&](int threads) {
+    const core::ThreadLimit limit(threads);
+    morse::CriticalPointTracker tracker(input, 1);
+    const tools::ChainOutcome outcome = apply("salient:iterations=3,sigma=0.3", input, 60, &tracker);
+    return std::tuple{std::vector<double>(outcome.field.values().begin(), outcome.field.values().end()),
+                      std::vector<Index>(tracker.origins().begin(), tracker.origins().end()),
+                      *outcome.target};
+  };
+  CHECK(run(1) == run(4));
+}
+
+TEST_CASE("persistence tells the most persistent extrema") {
+  const TriangleMesh mesh = sphere(3).mesh();
+  const ScalarField input(mesh, random_values(mesh.vertex_count(), 5));
+  const persistence::Diagram diagram = persistence::pair_extrema(input);
+  const std::vector<Index> four = persistence::persistent_extrema(diagram, 4);
+  REQUIRE(four.size() == 4);
+  CHECK(four[0] == input.order().front());
+  CHECK(four[1] == input.order().back());
+  CHECK(four[2] == diagram.pairs[diagram.finite_count - 1].extremum);
+  CHECK(four[3] == diagram.pairs[diagram.finite_count - 2].extremum);
+  const morse::CriticalPoints points = morse::classify(input);
+  CHECK(persistence::persistent_extrema(diagram, 1'000'000).size() == points.minima + points.maxima);
+  CHECK(persistence::persistent_extrema(diagram, 0).empty());
+}
+
+TEST_CASE("a target of nothing is refused") {
+  tools::ComparisonRequest request;
+  request.target = 0;
+  CHECK_THROWS_AS(tools::prepare(request), core::InvalidArgument);
+  CHECK_THROWS_WITH(tools::prepare(request), Catch::Contains("target of 0"));
+}

@@ -1,0 +1,113 @@
+#include "morsel/tools/comparison/chain.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "morsel/persistence/cancellation.h"
+#include "morsel/persistence/pairing.h"
+
+namespace morsel::tools {
+namespace {
+
+core::MethodContext context_of(const core::LoadedMesh& loaded, const NamedFunction& function,
+                               const core::Progress& progress) {
+  core::MethodContext context;
+  context.progress = progress;
+  context.morse_function = [&](const core::TriangleMesh& mesh) {
+    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
+  };
+  context.persistent_extrema = [&](const core::ScalarField& field, std::size_t count) {
+    return persistence::persistent_extrema(persistence::pair_extrema(field, progress), count);
+  };
+  context.cancel = [&](const core::ScalarField& field, double threshold) {
+    return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}, progress).field;
+  };
+  return context;
+}
+
+bool is_same(const core::ScalarField& a, const core::ScalarField& b) {
+  return std::ranges::equal(a.values(), b.values()) && std::ranges::equal(a.ranks(), b.ranks());
+}
+
+/// Watches one step: shows its fields to the tracker and to the search for the wanted number.
+class StepWatcher {
+ public:
+  /// Either may be null.
+  StepWatcher(morse::CriticalPointTracker* tracker, TargetSearch* search)
+      : tracker_(tracker), search_(search) {
+    if (tracker_ != nullptr) at_start_ = *tracker_;
+  }
+
+  bool wanted() const { return tracker_ != nullptr || search_ != nullptr; }
+
+  bool iteration(int number, const core::ScalarField& field) {
+    if (number == 1) restart();
+    return pass(field);
+  }
+
+  /// The step's result, unless its last iteration made it.
+  void finish(const core::ScalarField& field) {
+    if (!ended_ && !(last_ && is_same(*last_, field))) pass(field);
+  }
+
+ private:
+  void restart() {
+    ended_ = false;
+    if (tracker_ != nullptr) *tracker_ = *at_start_;
+    if (search_ != nullptr) search_->restart();
+  }
+
+  bool pass(const core::ScalarField& field) {
+    last_ = field;
+    const bool go_on = search_ == nullptr || search_->offer(field);
+    const bool counts = search_ == nullptr || is_same(search_->reached(), field);
+    if (tracker_ != nullptr && counts) tracker_->advance(field);
+    ended_ = !go_on;
+    return go_on;
+  }
+
+  morse::CriticalPointTracker* tracker_;
+  TargetSearch* search_;
+  std::optional<morse::CriticalPointTracker> at_start_;
+  std::optional<core::ScalarField> last_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
+                         const NamedFunction& function, const core::ScalarField& field,
+                         const ChainOptions& options, const core::Progress& progress) {
+  core::MethodContext context = context_of(loaded, function, progress);
+  context.count_iterations = options.count_iterations;
+  ChainOutcome outcome{field, {}, {}};
+  for (const MethodStep& step : chain.steps) {
+    std::optional<TargetSearch> search;
+    if (options.target && &step == &chain.steps.back())
+      search.emplace(outcome.field, *options.target, !step.cancels, progress);
+    StepWatcher watcher(options.tracker, search ? &*search : nullptr);
+    context.on_iteration = {};
+    if (watcher.wanted())
+      context.on_iteration = [&](int number, const core::ScalarField& passed) {
+        return watcher.iteration(number, passed);
+      };
+    core::MethodResult result = step.method->apply(outcome.field, context);
+    watcher.finish(result.field);
+    outcome.steps.push_back(
+        {step.name, std::move(result.parameters), std::move(result.details), std::move(result.iterations)});
+    if (!search) {
+      outcome.field = std::move(result.field);
+      continue;
+    }
+    TargetSearch::Result found = search->finish();
+    if (options.tracker != nullptr) {
+      options.tracker->advance(found.smoothed);
+      options.tracker->advance(found.field);
+    }
+    outcome.field = std::move(found.field);
+    outcome.target = std::move(found.outcome);
+  }
+  return outcome;
+}
+
+}  // namespace morsel::tools
