@@ -40,16 +40,15 @@ std::vector<Element> elements_of(const IntrinsicTriangles& triangles) {
 SparseMatrix heat_matrix(const TriangleMesh& mesh, const SparseMatrix& laplacian,
                          std::span<const double> areas, double time, bool boundary_is_cold) {
   SparseMatrix matrix = laplacian;
-  const auto is_cold = [&](Eigen::Index v) {
+  const auto is_cold = [&](int v) {
     return boundary_is_cold && mesh.is_boundary_vertex(static_cast<Index>(v));
   };
   for (int column = 0; column < matrix.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
-      const double mass = it.row() == column ? areas[column] : 0;
-      if (is_cold(column) || is_cold(it.row()))
-        it.valueRef() = mass;
-      else
-        it.valueRef() = mass + time * it.value();
+    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
+      const int row = matrix.innerIndexPtr()[k];
+      const double mass = row == column ? areas[column] : 0;
+      const double flow = is_cold(column) || is_cold(row) ? 0 : time * matrix.valuePtr()[k];
+      matrix.valuePtr()[k] = mass + flow;
     }
   return matrix;
 }
