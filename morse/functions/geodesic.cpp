@@ -21,7 +21,7 @@ using core::TriangleMesh;
 constexpr std::size_t kBatch = 16;
 
 HeatOptions heat_options(const GeodesicOptions& options, double reach) {
-  return {options.time, reach, options.boundary};
+  return {options.time, reach, options.boundary, options.delaunay};
 }
 
 }  // namespace

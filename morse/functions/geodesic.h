@@ -14,6 +14,7 @@ namespace morsel::morse {
 struct GeodesicOptions {
   double time = 1;  ///< HeatOptions::time
   HeatBoundary boundary = HeatBoundary::average;
+  bool delaunay = true;  ///< HeatOptions::delaunay
 };
 
 struct GeodesicResult {
@@ -51,7 +52,7 @@ AverageGeodesicResult average_geodesic_distance(const core::TriangleMesh& mesh, 
 
 /// Keys: mode=distance|average (default distance), source=12/40 (vertices of the input file) or the lowest or highest
 /// vertex along an axis, min-x … max-z (which distance must have), samples (average, default 50), time,
-/// boundary=average|neumann|dirichlet. A vertex that does not exist throws BadInput.
+/// boundary=average|neumann|dirichlet, delaunay=true|false. A vertex that does not exist throws BadInput.
 std::unique_ptr<core::MorseFunction> make_geodesic(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

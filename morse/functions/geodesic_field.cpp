@@ -66,7 +66,8 @@ class Geodesic final : public core::MorseFunction {
 
   core::FunctionResult evaluate(const TriangleMesh& mesh,
                                 const core::FunctionContext& context) const override {
-    core::Parameters common = {{"time", options_.time}, {"boundary", boundary()}};
+    core::Parameters common = {
+        {"time", options_.time}, {"boundary", boundary()}, {"delaunay", options_.delaunay}};
     if (sources_.empty()) {
       AverageGeodesicResult result = average_geodesic_distance(mesh, samples_, options_, context.progress);
       core::Parameters parameters = {{"mode", "average"},
@@ -119,6 +120,9 @@ std::unique_ptr<core::MorseFunction> make_geodesic(core::ParameterReader& reader
                                              "what holds for heat there; average hardly feels the boundary");
   if (boundary != "average")
     options.boundary = boundary == "neumann" ? HeatBoundary::neumann : HeatBoundary::dirichlet;
+  options.delaunay =
+      reader.flag("delaunay", true,
+                  "whether edges are flipped along the surface first, so that thin triangles do no harm");
   if (average && reader.given("source"))
     throw core::InvalidArgument(reader.owner() + " takes source or mode=average, not both");
   if (!average && reader.given("samples"))

@@ -33,8 +33,8 @@ core::Index nonconstant_eigenfunction_count(const core::TriangleMesh& mesh);
 ///   that vertex, is treated alike. Most is the largest Σ φ² over the basis; within 1e-6 of it the smallest vertex
 ///   counts. A single function is thus positive where it is largest in magnitude.
 ///
-/// n^1.5 for a factorisation and then, for small counts, about n log n for each function; memory of 8 n bytes for each
-/// of 2 `count` vectors. Serial, the same bits each time. Throws BadInput if `count` is more than
+/// n^1.5 for a factorisation, then about n log n for each function and n `count`² for keeping them orthogonal; memory of
+/// some 20 n `count` bytes. Serial, the same bits each time. Throws BadInput if `count` is more than
 /// nonconstant_eigenfunction_count(), if the surface has no extent and if the iteration does not converge.
 std::vector<Eigenfunction> eigenfunctions(const core::TriangleMesh& mesh, std::size_t count,
                                           const core::Progress& progress = {});

@@ -10,7 +10,7 @@
 #include "morsel/core/parameters.h"
 #include "morsel/morse/operators/cholesky.h"
 #include "morsel/morse/operators/edge_lengths.h"
-#include "morsel/morse/operators/laplacian.h"
+#include "morsel/morse/operators/intrinsic_triangles.h"
 
 namespace morsel::morse {
 namespace {
@@ -23,15 +23,16 @@ constexpr double kMostDecay = 500;
 
 /// Each triangle's part of the Laplacian: ½ cot of the angles facing its sides, and its area.
 struct Element {
+  core::Triangle corner;
   std::array<double, 3> weight;
   double area;
 };
 
-std::vector<Element> elements_of(const TriangleMesh& mesh, const EdgeLengths& lengths) {
-  std::vector<Element> elements(mesh.triangle_count());
+std::vector<Element> elements_of(const IntrinsicTriangles& triangles) {
+  std::vector<Element> elements(triangles.corners.size());
   core::parallel_for_each(elements.size(), [&](std::size_t t) {
-    const std::array<double, 3> sides = lengths.sides(mesh, static_cast<Index>(t));
-    elements[t] = {half_cotangents(sides), triangle_area(sides)};
+    elements[t] = {triangles.corners[t], half_cotangents(triangles.sides[t]),
+                   triangle_area(triangles.sides[t])};
   });
   return elements;
 }
@@ -39,16 +40,15 @@ std::vector<Element> elements_of(const TriangleMesh& mesh, const EdgeLengths& le
 SparseMatrix heat_matrix(const TriangleMesh& mesh, const SparseMatrix& laplacian,
                          std::span<const double> areas, double time, bool boundary_is_cold) {
   SparseMatrix matrix = laplacian;
-  const auto is_cold = [&](Eigen::Index v) {
+  const auto is_cold = [&](int v) {
     return boundary_is_cold && mesh.is_boundary_vertex(static_cast<Index>(v));
   };
   for (int column = 0; column < matrix.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
-      const double mass = it.row() == column ? areas[column] : 0;
-      if (is_cold(column) || is_cold(it.row()))
-        it.valueRef() = mass;
-      else
-        it.valueRef() = mass + time * it.value();
+    for (int k = matrix.outerIndexPtr()[column]; k < matrix.outerIndexPtr()[column + 1]; ++k) {
+      const int row = matrix.innerIndexPtr()[k];
+      const double mass = row == column ? areas[column] : 0;
+      const double flow = is_cold(column) || is_cold(row) ? 0 : time * matrix.valuePtr()[k];
+      matrix.valuePtr()[k] = mass + flow;
     }
   return matrix;
 }
@@ -116,8 +116,7 @@ std::vector<double> HeatDistance::Operators::heat(std::span<const Index> sources
 /// is (S u)_i and ‖∇u‖² · area is uᵀ S u.
 std::vector<double> HeatDistance::Operators::divergence(const std::vector<double>& heat) const {
   std::vector<double> result(heat.size(), 0.0);
-  for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    const core::Triangle& corner = mesh.triangle(t);
+  for (const auto& [corner, weight, area] : elements) {
     std::array<double, 3> u = {heat[corner[0]], heat[corner[1]], heat[corner[2]]};
     const double largest = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
     if (largest == 0) continue;
@@ -125,11 +124,11 @@ std::vector<double> HeatDistance::Operators::divergence(const std::vector<double
     double energy = 0;
     for (int i = 0; i < 3; ++i) {
       const double difference = (u[i] - u[(i + 1) % 3]) / largest;
-      flow[i] = elements[t].weight[i] * difference;
+      flow[i] = weight[i] * difference;
       energy += flow[i] * difference;
     }
     if (!(energy > 0)) continue;
-    const double scale = std::sqrt(elements[t].area / energy);
+    const double scale = std::sqrt(area / energy);
     for (int i = 0; i < 3; ++i) {
       result[corner[i]] -= scale * flow[i];
       result[corner[(i + 1) % 3]] += scale * flow[i];
@@ -147,16 +146,18 @@ HeatDistance::HeatDistance(const TriangleMesh& mesh, const HeatOptions& options,
   const double reach = options.reach / lengths.unit;
   const double time =
       std::max(options.time * lengths.mean * lengths.mean, reach * reach / (kMostDecay * kMostDecay));
+  const IntrinsicTriangles triangles =
+      options.delaunay ? delaunay_triangles(mesh, lengths) : mesh_triangles(mesh, lengths);
   auto made = std::make_unique<Operators>(Operators{mesh,
                                                     options.boundary,
                                                     lengths.unit,
                                                     time * lengths.unit * lengths.unit,
-                                                    elements_of(mesh, lengths),
+                                                    elements_of(triangles),
                                                     {},
                                                     {},
                                                     {}});
-  const SparseMatrix matrix = laplacian(mesh, cotangent_weights(mesh, lengths));
-  const std::vector<double> areas = barycentric_areas(mesh, lengths);
+  const SparseMatrix matrix = laplacian(triangles, mesh.vertex_count());
+  const std::vector<double> areas = barycentric_areas(triangles, mesh.vertex_count());
   const bool bounded = !mesh.is_closed();
   if (!bounded || options.boundary != HeatBoundary::dirichlet)
     made->free.emplace(heat_matrix(mesh, matrix, areas, time, false), "heat", progress);

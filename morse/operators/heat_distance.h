@@ -25,12 +25,16 @@ struct HeatOptions {
   /// vanish in floating-point numbers, so t is at least (reach/500)²; this counts beyond about 500 edges.
   double reach = 0;
   HeatBoundary boundary = HeatBoundary::average;
+  /// Whether heat flows on the intrinsic Delaunay triangulation (intrinsic_triangles.h) instead of the mesh's triangles: a
+  /// better answer for the same vertices, where triangles are long and thin.
+  bool delaunay = true;
 };
 
 /// Distances along a surface (Crane, Weischedel, Wardetzky 2013, "Geodesics in heat"): heat u from the sources after
 /// time t, (M + t L) u = δ; its direction X = −∇u/‖∇u‖ in each triangle; the function whose gradient is nearest to it,
-/// L φ = ∇·X. Cotangent Laplacian L and barycentric areas M of edge_lengths.h, so that degenerate triangles do no harm.
-/// The error is of the order of an edge's length; long thin triangles add local extrema of that size.
+/// L φ = ∇·X. Cotangent Laplacian L and barycentric areas M with the lengths of edge_lengths.h, so that degenerate triangles do no
+/// harm.
+/// The error is of the order of an edge's length; where triangles are large, that adds local extrema of its size.
 ///
 /// Factorises in the constructor, n^1.5, serial; then each set of sources takes O(n log n). Immutable, may be used from
 /// several threads at once.

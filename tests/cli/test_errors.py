@@ -44,6 +44,13 @@ class Usage(ProgramTest):
         self.refuse("--field", "height:direction=0/0/0", naming=["direction"])
         self.refuse("--field", "vertex-scalar", naming=["file", "property"])
 
+        self.refuse("--field", "eigenfunction:index=0", naming=["index", "0"])
+        self.refuse("--field", "geodesic", naming=["source"])
+        self.refuse("--field", "geodesic:source=-3", naming=["source", "-3"])
+        self.refuse("--field", "geodesic:source=max-w", naming=["source", "max-w", "max-z"])
+        self.refuse("--method", "spectral:modes=0", naming=["modes", "0"])
+        self.refuse("--method", "fair:extrema=0", naming=["extrema", "0"])
+
     def test_broken_specifications(self):
         self.refuse("--method", "salient:", naming=["salient:"])
         self.refuse("--method", "salient:iterations", naming=["key=value"])
@@ -82,6 +89,24 @@ class BadInput(ProgramTest):
             self.assertEqual(sorted(p.name for p in self.folder.iterdir() if "report" in p.name), [])
         self.morsel("compare", "absent.off", code=3)
         self.morsel("compare", self.folder, code=3)
+
+    def test_values_that_do_not_fit_the_mesh(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        corners = [[int(x) for x in line.split()] for line in OCTAHEDRON.splitlines()[2:]]
+        vertices, faces = corners[:6], corners[6:]
+        both = [(x + dx, y, z) for dx in (0, 9) for x, y, z in vertices]
+        both += [(3, a + d, b + d, c + d) for d in (0, 6) for _, a, b, c in faces]
+        two = self.file("two.off", "OFF\n12 16 0\n" + "\n".join(" ".join(map(str, row)) for row in both) + "\n")
+        for path, option, text, words in (
+                (mesh, "--field", "eigenfunction:index=6", ["6", "1 to 5"]),
+                (mesh, "--field", "geodesic:source=6", ["vertex 6", "6 vertices"]),
+                (two, "--field", "geodesic:source=0", ["1 of 2 components"]),
+                (two, "--field", "geodesic:mode=average", ["2 components"]),
+                (mesh, "--method", "spectral:modes=6", ["6", "1 to 5"]),
+                (two, "--method", "fair:extrema=3", ["3 extrema", "at least 4"])):
+            result = self.morsel("compare", path, option, text, code=3)
+            for word in words:
+                self.assertIn(word, result.stderr)
 
     def test_a_refused_mesh_names_defect_place_number_and_repair(self):
         fan = "OFF\n5 3 0\n0 0 0\n0 0 1\n1 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n"

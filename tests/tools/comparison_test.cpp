@@ -60,16 +60,27 @@ core::ScalarField apply(const tools::MethodChain& chain, const core::ScalarField
 
 TEST_CASE("invariants hold for every field that a method returns") {
   std::vector<tools::MethodChain> chains;
-  for (const char* text :
-       {"conventional", "denoise:iterations=2", "denoise:kind=laplacian,iterations=2",
-        "gaussian:sigma=0.6,iterations=2", "laplacian:iterations=3",
-        "laplacian:scheme=implicit,iterations=2,time=0.3,weights=cotangent", "saliency:scales=0.3/0.5",
-        "salient:iterations=2,sigma=0.6", "salient:iterations=3,sigma=0.6,range=local",
-        "salient:iterations=2,sigma=0.6,classify=saliency",
-        "salient:iterations=2,sigma=0.6,weights=area,ball=connected", "spectral:modes=5", "tps:threshold=10%",
-        "tps:threshold=0", "tps:threshold=1000%", "tps:count=6",
-        "salient:iterations=1,sigma=0.6+tps:threshold=5%",
-        "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
+  for (const char* text : {"conventional",
+                           "denoise:iterations=2",
+                           "denoise:kind=laplacian,iterations=2",
+                           "gaussian:sigma=0.6,iterations=2",
+                           "laplacian:iterations=3",
+                           "laplacian:scheme=implicit,iterations=2,time=0.3,weights=cotangent",
+                           "saliency:scales=0.3/0.5",
+                           "salient:iterations=2,sigma=0.6",
+                           "salient:iterations=3,sigma=0.6,range=local",
+                           "salient:iterations=2,sigma=0.6,classify=saliency",
+                           "salient:iterations=2,sigma=0.6,weights=area,ball=connected",
+                           "spectral:modes=2",
+                           "fair:extrema=5",
+                           "fair:extrema=9,values=input",
+                           "spectral:modes=1+fair:extrema=4",
+                           "tps:threshold=10%",
+                           "tps:threshold=0",
+                           "tps:threshold=1000%",
+                           "tps:count=6",
+                           "salient:iterations=1,sigma=0.6+tps:threshold=5%",
+                           "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
     chains.push_back(tools::make_method(text));
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& f : field_zoo(entry.mesh, 23))
