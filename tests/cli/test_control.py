@@ -8,7 +8,7 @@ import unittest
 import jsonschema
 from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
 
-METHODS = ["salient", "tps", "laplacian"]
+METHODS = ["salient", "tps", "laplacian", "gaussian"]
 
 
 class Control(ProgramTest):

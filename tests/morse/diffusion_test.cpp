@@ -137,3 +137,19 @@ TEST_CASE("Laplacian smoothing resolves its parameters") {
   CHECK_THROWS_AS(morse::ExplicitDiffusion(mesh, EdgeWeights::uniform, 0), core::InvalidArgument);
   CHECK_THROWS_AS(morse::ImplicitDiffusion(mesh, EdgeWeights::uniform, -1), core::InvalidArgument);
 }
+
+TEST_CASE("counts after Laplacian smoothing on real meshes") {
+  struct Expected {
+    const char* mesh;
+    Given given;
+    double total;
+  };
+  for (const Expected& expected :
+       {Expected{"lion-head.off", {}, 329}, Expected{"lion-head.off", {{"scheme", "implicit"}}, 191},
+        Expected{"bunny00.off", {}, 1562}}) {
+    INFO(expected.mesh << ", " << expected.given.size());
+    const ScalarField field = morse::mean_curvature(core::read_mesh(sample(expected.mesh)).mesh);
+    const std::size_t total = morse::classify(laplacian(field, expected.given).field).total();
+    CHECK(static_cast<double>(total) == Approx(expected.total).epsilon(0.005));
+  }
+}

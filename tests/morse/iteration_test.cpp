@@ -5,6 +5,7 @@
 #include "morsel/core/error.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/smoothing/diffusion.h"
+#include "morsel/morse/smoothing/gaussian.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -52,7 +53,7 @@ ScalarField noisy(int subdivisions = 3) {
   return {mesh, random_values(mesh.vertex_count(), 3)};
 }
 
-constexpr Make kIterative[] = {morse::make_salient, morse::make_laplacian};
+constexpr Make kIterative[] = {morse::make_salient, morse::make_laplacian, morse::make_gaussian};
 
 }  // namespace
 
