@@ -38,8 +38,8 @@ TEST_CASE("a method that starts anew can only begin a chain") {
 }
 
 TEST_CASE("unknown names and keys list the valid ones") {
-  CHECK_THROWS_WITH(tools::make_method("foo"),
-                    Contains("foo") && Contains("conventional, ") && Contains(", tps"));
+  CHECK_THROWS_WITH(tools::make_method("foo"), Contains("foo") && Contains("conventional, ") &&
+                                                   Contains(", salient, ") && Contains(", tps"));
   CHECK_THROWS_WITH(tools::make_function("foo"), Contains("height, ") && Contains("vertex-scalar"));
   CHECK_THROWS_WITH(tools::make_method("salient:foo=1"),
                     Contains("\"foo\"") && Contains("iterations, ") && Contains("sigma, range"));
