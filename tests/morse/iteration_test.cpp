@@ -139,7 +139,7 @@ TEST_CASE("whoever watches an iterative method sees every field and may end it")
       last = field.value(0);
       return iteration < 3;
     };
-    const core::MethodResult result = run(make, input, {}, context);
+    const core::MethodResult result = run(make, input, {{"iterations", "10"}}, context);
     CHECK(seen == 3);
     CHECK(stopped_by(result) == "caller");
     CHECK(result.field.value(0) == last);
