@@ -77,10 +77,15 @@ class LaplacianSmoothing final : public core::Method {
       };
     }
     IterationControl control(input, criteria_, context);
+    std::vector<double> values(input.values().begin(), input.values().end());
     while (control.more()) {
       context.progress.update("Laplacian smoothing",
                               static_cast<double>(control.iterations_run()) / criteria_.iterations);
-      control.record(step(control.field().values()));
+      values = step(values);
+      if (control.needs_field())
+        control.record(values);
+      else
+        control.skip();
     }
     return control.result(std::move(parameters));
   }

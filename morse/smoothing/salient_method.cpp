@@ -73,6 +73,10 @@ SalientResult run_salient(const core::ScalarField& input, SalientOptions options
   options.iterations = control.more() ? criteria.iterations : 0;
   options.on_iteration = [&](const SalientIteration& iteration) {
     if (iteration.number <= control.iterations_run()) control.restart();
+    if (!control.needs_field()) {
+      control.skip();
+      return true;
+    }
     control.record({iteration.values.begin(), iteration.values.end()});
     return control.more();
   };
