@@ -55,16 +55,19 @@ Index nearest(const core::TriangleMesh& mesh, Index v, double reach, const Wante
 
 CriticalPointTracker::CriticalPointTracker(const core::ScalarField& input, double reach,
                                            const core::Progress& progress)
-    : field_(input), reach_(reach), progress_(progress), points_(classify(input, progress)) {
+    : field_(std::make_shared<core::ScalarField>(input)),
+      reach_(reach),
+      progress_(progress),
+      points_(classify(input, progress)) {
   for (const CriticalPoint& point : points_.points) origins_.push_back(point.vertex);
 }
 
 Index CriticalPointTracker::previous(const CriticalPoint& point, std::span<const CriticalType> types) const {
   const auto same_type = [&](Index v) { return types[v] == point.type; };
   if (same_type(point.vertex)) return point.vertex;
-  if (point.type == CriticalType::saddle) return nearest(field_.mesh(), point.vertex, reach_, same_type);
-  const Index end = climb(field_, point.vertex, point.type == CriticalType::maximum);
-  const core::TriangleMesh& mesh = field_.mesh();
+  if (point.type == CriticalType::saddle) return nearest(field_->mesh(), point.vertex, reach_, same_type);
+  const Index end = climb(*field_, point.vertex, point.type == CriticalType::maximum);
+  const core::TriangleMesh& mesh = field_->mesh();
   const bool near = (mesh.position(end) - mesh.position(point.vertex)).norm() <= reach_;
   return near && same_type(end) ? end : kNone;
 }
@@ -86,7 +89,7 @@ void CriticalPointTracker::advance(const core::ScalarField& next) {
       origins[i] = before == kNone ? kNone : origin_of[before];
     }
   });
-  field_ = next;
+  field_ = std::make_shared<core::ScalarField>(next);
   points_ = std::move(points);
   origins_ = std::move(origins);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Where the critical points of a smoothed field came from.
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace morsel::morse {
 ///     is lost if there is none within `reach`.
 ///
 /// So every critical point has at most one origin, of its own type; several may share one, if it came apart or new ones
-/// appeared on the same hill. A value type; copies are independent.
+/// appeared on the same hill. A value type; copies are independent and share the field.
 class CriticalPointTracker {
  public:
   /// `reach` is a length, not negative.
@@ -30,7 +31,9 @@ class CriticalPointTracker {
   /// The next field on the same mesh. O(n) and what the ways take; parallel, the same for every number of threads.
   void advance(const core::ScalarField& next);
 
-  /// The critical points of the last field.
+  /// The last field.
+  const core::ScalarField& field() const { return *field_; }
+  /// Its critical points.
   const CriticalPoints& points() const { return points_; }
   /// For each of points(), the vertex of the input's critical point that it came from; kNone if the way was lost.
   std::span<const core::Index> origins() const { return origins_; }
@@ -38,7 +41,7 @@ class CriticalPointTracker {
  private:
   core::Index previous(const CriticalPoint& point, std::span<const CriticalType> types) const;
 
-  core::ScalarField field_;
+  std::shared_ptr<const core::ScalarField> field_;
   double reach_;
   core::Progress progress_;
   CriticalPoints points_;

@@ -47,21 +47,25 @@ class StepWatcher {
 
   /// The step's result, unless its last iteration made it.
   void finish(const core::ScalarField& field) {
-    if (!ended_ && !(last_ && is_same(*last_, field))) pass(field);
+    if (!wanted() || ended_) return;
+    const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->reached();
+    if (!(passed_ && is_same(last, field))) pass(field);
   }
 
  private:
   void restart() {
     ended_ = false;
+    passed_ = false;
     if (tracker_ != nullptr) *tracker_ = *at_start_;
     if (search_ != nullptr) search_->restart();
   }
 
   bool pass(const core::ScalarField& field) {
-    last_ = field;
+    const int before = search_ == nullptr ? 0 : search_->iterations();
     const bool go_on = search_ == nullptr || search_->offer(field);
-    const bool counts = search_ == nullptr || is_same(search_->reached(), field);
+    const bool counts = search_ == nullptr || search_->iterations() > before;
     if (tracker_ != nullptr && counts) tracker_->advance(field);
+    passed_ |= counts;
     ended_ = !go_on;
     return go_on;
   }
@@ -69,7 +73,7 @@ class StepWatcher {
   morse::CriticalPointTracker* tracker_;
   TargetSearch* search_;
   std::optional<morse::CriticalPointTracker> at_start_;
-  std::optional<core::ScalarField> last_;
+  bool passed_ = false;  // a field that counts
   bool ended_ = false;
 };
 

@@ -112,7 +112,7 @@ TargetSearch::Result TargetSearch::finish() const {
     const long euler = smoothed.mesh().euler_characteristic();
     if ((euler - static_cast<long>(wanted_)) % 2 != 0)
       outcome.note += "; with simple saddles totals are " + std::string(euler % 2 != 0 ? "odd" : "even") +
-                      " on this mesh, as its Euler characteristic";
+                      " on this mesh, as is its Euler characteristic";
   }
   return {std::move(smoothed), std::move(cancelled.field), std::move(outcome)};
 }

@@ -46,7 +46,8 @@ class TargetSearch {
   bool offer(const core::ScalarField& field);
   /// The method begins again from its input.
   void restart();
-  /// The last field that counts, not yet blended.
+  /// The number of fields that count, and the last of them, not yet blended; the method's input before the first.
+  int iterations() const { return iterations_; }
   const core::ScalarField& reached() const { return reached_; }
   bool wants_more() const { return !beyond_ && total_ > wanted_; }
 
