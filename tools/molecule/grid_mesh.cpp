@@ -16,7 +16,8 @@ namespace {
 
 using core::Index;
 using core::Point;
-using Leaf = openvdb::FloatTree::LeafNodeType;
+/// Grid points along a side of OpenVDB's blocks.
+constexpr int kLeaf = static_cast<int>(openvdb::FloatTree::LeafNodeType::DIM);
 
 constexpr const char* kSampling = "sampling the solid";
 
@@ -37,17 +38,15 @@ void make_leaves(const Solid& solid, std::span<const Ball> balls, const Grid& gr
     int first[3];
     int last[3];
     for (int axis = 0; axis < 3; ++axis) {
-      first[axis] = static_cast<int>(std::floor((center[axis] - reach) / Leaf::DIM));
-      last[axis] = static_cast<int>(std::floor((center[axis] + reach) / Leaf::DIM));
+      first[axis] = static_cast<int>(std::floor((center[axis] - reach) / kLeaf));
+      last[axis] = static_cast<int>(std::floor((center[axis] + reach) / kLeaf));
     }
     for (int i = first[0]; i <= last[0]; ++i)
       for (int j = first[1]; j <= last[1]; ++j)
         for (int k = first[2]; k <= last[2]; ++k) {
-          const Point low = Point(i, j, k) * Leaf::DIM;
-          const Point nearest = center.cwiseMax(low).cwiseMin(low + Point::Constant(Leaf::DIM - 1));
-          if ((nearest - center).norm() <= reach)
-            accessor.touchLeaf({i * static_cast<int>(Leaf::DIM), j * static_cast<int>(Leaf::DIM),
-                                k * static_cast<int>(Leaf::DIM)});
+          const Point low = Point(i, j, k) * static_cast<double>(kLeaf);
+          const Point nearest = center.cwiseMax(low).cwiseMin(low + Point::Constant(kLeaf - 1));
+          if ((nearest - center).norm() <= reach) accessor.touchLeaf({i * kLeaf, j * kLeaf, k * kLeaf});
         }
   }
 }
@@ -60,7 +59,7 @@ void sample(const Solid& solid, std::span<const Ball> balls, const Grid& grid, o
   centers.reserve(balls.size());
   for (const Ball& ball : balls) centers.push_back(ball.center);
   const core::PointSearch search(centers);
-  const double half_diagonal = std::sqrt(3.0) / 2 * (Leaf::DIM - 1) * grid.spacing;
+  const double half_diagonal = std::sqrt(3.0) / 2 * (kLeaf - 1) * grid.spacing;
 
   constexpr std::size_t kRound = 2048;  // leaves between two reports of progress
   for (std::size_t begin = 0; begin < leaves.size(); begin += kRound) {
@@ -96,7 +95,7 @@ double grid_size(const Solid& solid, std::span<const Ball> balls, double spacing
     box.min = box.min.cwiseMin(ball.center);
     box.max = box.max.cwiseMax(ball.center);
   }
-  const double margin = solid.reach() + Leaf::DIM * spacing;  // a block more on each side
+  const double margin = solid.reach() + kLeaf * spacing;  // a block more on each side
   const double in_box = ((box.max - box.min) / spacing + Point::Constant(2 * margin / spacing)).prod();
   const double around_balls = static_cast<double>(balls.size()) * std::pow(2 * margin / spacing, 3);
   return std::min(in_box, around_balls);
