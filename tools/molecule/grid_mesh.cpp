@@ -16,8 +16,9 @@ namespace {
 
 using core::Index;
 using core::Point;
+using Leaf = openvdb::FloatTree::LeafNodeType;
 /// Grid points along a side of OpenVDB's blocks.
-constexpr int kLeaf = static_cast<int>(openvdb::FloatTree::LeafNodeType::DIM);
+constexpr int kLeaf = static_cast<int>(Leaf::DIM);
 
 constexpr const char* kSampling = "sampling the solid";
 
