@@ -5,6 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
+#include "support/made.h"
 #include "support/meshes.h"
 #include "support/molecules.h"
 #include "support/scratch.h"
@@ -16,12 +17,8 @@ using core::Atom;
 
 namespace {
 
-core::FunctionResult evaluate(const TriangleMesh& mesh,
-                              std::vector<std::pair<std::string, std::string>> given) {
-  core::ParameterReader reader({"atomic-density", std::move(given)});
-  const auto function = morse::make_atomic_density(reader);
-  reader.finish();
-  return function->evaluate(mesh, {});
+core::FunctionResult evaluate(const TriangleMesh& mesh, Given given) {
+  return made(morse::make_atomic_density, "atomic-density", std::move(given))->evaluate(mesh, {});
 }
 
 TriangleMesh scaled(const TriangleMesh& mesh, double factor, const Point& shift) {

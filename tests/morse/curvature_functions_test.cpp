@@ -9,6 +9,7 @@
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/discrete_curvature.h"
 #include "morsel/morse/functions/quadric_curvature.h"
+#include "support/made.h"
 #include "support/shapes.h"
 
 using namespace morsel;
@@ -16,8 +17,6 @@ using namespace morsel::test;
 using core::ScalarField;
 
 namespace {
-
-using Given = std::vector<std::pair<std::string, std::string>>;
 using Make = std::unique_ptr<core::MorseFunction> (*)(core::ParameterReader&);
 
 const std::map<std::string, Make> kFunctions = {{"mean-curvature", morse::make_mean_curvature},
@@ -27,18 +26,11 @@ const std::map<std::string, Make> kFunctions = {{"mean-curvature", morse::make_m
                                                 {"shape-index", morse::make_shape_index}};
 
 core::FunctionResult evaluate(const TriangleMesh& mesh, const std::string& name, Given given = {}) {
-  core::ParameterReader reader({name, std::move(given)});
-  const auto function = kFunctions.at(name)(reader);
-  reader.finish();
-  return function->evaluate(mesh, {});
+  return made(kFunctions.at(name), name, std::move(given))->evaluate(mesh, {});
 }
 
 std::size_t total(const TriangleMesh& mesh, const std::string& name, Given given = {}) {
   return morse::classify(evaluate(mesh, name, std::move(given)).field).total();
-}
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
 }
 
 }  // namespace

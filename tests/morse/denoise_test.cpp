@@ -13,6 +13,7 @@
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/height.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/shapes.h"
 
 using namespace morsel;
@@ -21,22 +22,13 @@ using core::ScalarField;
 using morse::BilateralDenoising;
 using morse::LaplacianDenoising;
 using morse::SurfaceSmoothing;
-using Given = std::vector<std::pair<std::string, std::string>>;
-
 namespace {
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
-}
 
 /// Of height along (1, 2, 3), or of another function.
 core::MethodResult apply(const ScalarField& field, Given given, core::MethodContext context = {}) {
-  core::ParameterReader reader({"denoise", std::move(given)});
-  const auto method = morse::make_denoise(reader);
-  reader.finish();
   if (!context.morse_function)
     context.morse_function = [](const TriangleMesh& mesh) { return morse::height(mesh, {{1, 2, 3}}); };
-  return method->apply(field, context);
+  return made(morse::make_denoise, "denoise", std::move(given))->apply(field, context);
 }
 
 Point plain_normal(const TriangleMesh& mesh, Index v) {

@@ -9,21 +9,17 @@
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
 using namespace morsel::test;
 using core::ScalarField;
 using morse::EdgeWeights;
-using Given = std::vector<std::pair<std::string, std::string>>;
-
 namespace {
 
 core::MethodResult laplacian(const ScalarField& field, Given given) {
-  core::ParameterReader reader({"laplacian", std::move(given)});
-  const auto method = morse::make_laplacian(reader);
-  reader.finish();
-  return method->apply(field, {});
+  return made(morse::make_laplacian, "laplacian", std::move(given))->apply(field, {});
 }
 
 constexpr EdgeWeights kWeights[] = {EdgeWeights::uniform, EdgeWeights::cotangent, EdgeWeights::clamped};

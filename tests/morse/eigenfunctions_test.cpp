@@ -12,6 +12,7 @@
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/operators/edge_lengths.h"
 #include "morsel/morse/operators/laplacian.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -43,12 +44,8 @@ TriangleMesh rectangle(double width, double height, int columns, int rows) {
   return soup.mesh();
 }
 
-core::FunctionResult evaluate(const TriangleMesh& mesh,
-                              std::vector<std::pair<std::string, std::string>> given) {
-  core::ParameterReader reader({"eigenfunction", std::move(given)});
-  const auto function = morse::make_eigenfunction(reader);
-  reader.finish();
-  return function->evaluate(mesh, {});
+core::FunctionResult evaluate(const TriangleMesh& mesh, Given given) {
+  return made(morse::make_eigenfunction, "eigenfunction", std::move(given))->evaluate(mesh, {});
 }
 
 }  // namespace

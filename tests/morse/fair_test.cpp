@@ -15,6 +15,7 @@
 #include "morsel/persistence/diagram.h"
 #include "morsel/persistence/pairing.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 #include "support/random_surfaces.h"
 
@@ -42,12 +43,8 @@ core::MethodContext context() {
   return result;
 }
 
-core::MethodResult apply(const ScalarField& field, std::vector<std::pair<std::string, std::string>> given,
-                         const core::MethodContext& with = context()) {
-  core::ParameterReader reader({"fair", std::move(given)});
-  const auto method = morse::make_fair(reader);
-  reader.finish();
-  return method->apply(field, with);
+core::MethodResult apply(const ScalarField& field, Given given, const core::MethodContext& with = context()) {
+  return made(morse::make_fair, "fair", std::move(given))->apply(field, with);
 }
 
 Index least_extrema(const TriangleMesh& mesh) {

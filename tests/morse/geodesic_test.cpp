@@ -12,6 +12,7 @@
 #include "morsel/morse/operators/edge_paths.h"
 #include "morsel/morse/operators/intrinsic_triangles.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 #include "support/random_surfaces.h"
 
@@ -29,13 +30,9 @@ std::vector<double> from(const TriangleMesh& mesh, std::vector<Index> sources,
   return {field.values().begin(), field.values().end()};
 }
 
-core::FunctionResult evaluate(const TriangleMesh& mesh,
-                              std::vector<std::pair<std::string, std::string>> given,
+core::FunctionResult evaluate(const TriangleMesh& mesh, Given given,
                               const core::MeshSource* source = nullptr) {
-  core::ParameterReader reader({"geodesic", std::move(given)});
-  const auto function = morse::make_geodesic(reader);
-  reader.finish();
-  return function->evaluate(mesh, {source, {}});
+  return made(morse::make_geodesic, "geodesic", std::move(given))->evaluate(mesh, {source, {}});
 }
 
 /// A plane of width 1, `columns` × `rows` vertices.

@@ -6,6 +6,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/morse/critical_points.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -14,12 +15,8 @@ using core::ScalarField;
 
 namespace {
 
-core::FunctionResult evaluate(const TriangleMesh& mesh,
-                              std::vector<std::pair<std::string, std::string>> given) {
-  core::ParameterReader reader({"height", std::move(given)});
-  const auto function = morse::make_height(reader);
-  reader.finish();
-  return function->evaluate(mesh, {});
+core::FunctionResult evaluate(const TriangleMesh& mesh, Given given) {
+  return made(morse::make_height, "height", std::move(given))->evaluate(mesh, {});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "morsel/morse/smoothing/gaussian.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -15,18 +16,13 @@ using namespace morsel::test;
 using core::ScalarField;
 using morse::IterationControl;
 using morse::StopCriteria;
-using Given = std::vector<std::pair<std::string, std::string>>;
-
 namespace {
 
 using Make = std::unique_ptr<core::Method> (*)(core::ParameterReader&);
 
 core::MethodResult run(Make make, const ScalarField& field, Given given,
                        const core::MethodContext& context = {}) {
-  core::ParameterReader reader({"method", std::move(given)});
-  const auto method = make(reader);
-  reader.finish();
-  return method->apply(field, context);
+  return made(make, "method", std::move(given))->apply(field, context);
 }
 
 core::ParameterValue detail(const core::MethodResult& result, const std::string& name) {

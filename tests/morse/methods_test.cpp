@@ -4,6 +4,7 @@
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -12,15 +13,8 @@ using core::ScalarField;
 
 namespace {
 
-core::MethodResult apply(const ScalarField& field, std::vector<std::pair<std::string, std::string>> given) {
-  core::ParameterReader reader({"salient", std::move(given)});
-  const auto method = morse::make_salient(reader);
-  reader.finish();
-  return method->apply(field, {});
-}
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
+core::MethodResult apply(const ScalarField& field, Given given) {
+  return made(morse::make_salient, "salient", std::move(given))->apply(field, {});
 }
 
 }  // namespace

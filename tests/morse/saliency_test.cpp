@@ -10,24 +10,16 @@
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
 using core::ScalarField;
-using Given = std::vector<std::pair<std::string, std::string>>;
-
 namespace {
 
 core::MethodResult apply(const ScalarField& field, Given given) {
-  core::ParameterReader reader({"saliency", std::move(given)});
-  const auto method = morse::make_saliency(reader);
-  reader.finish();
-  return method->apply(field, {});
-}
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
+  return made(morse::make_saliency, "saliency", std::move(given))->apply(field, {});
 }
 
 /// The papers' steps one after the other.

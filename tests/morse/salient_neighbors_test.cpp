@@ -13,6 +13,7 @@
 #include "morsel/morse/operators/laplacian.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/salient_reference.h"
 #include "support/shapes.h"
 
@@ -33,10 +34,6 @@ SalientOptions options(int iterations, double sigma, const char* range, Neighbor
   result.weights = weights;
   result.ball = ball;
   return result;
-}
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
 }
 
 /// Halves the edges of the triangles that lie above the equator and puts the new vertices on the unit sphere; other

@@ -10,6 +10,7 @@
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 #include "support/salient_reference.h"
 #include "support/shapes.h"
@@ -32,10 +33,6 @@ SalientOptions options(int iterations, double sigma, const char* range_text, dou
   result.range = range(range_text);
   result.support = support;
   return result;
-}
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
 }
 
 /// The population's standard deviation, plainly.

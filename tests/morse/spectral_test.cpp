@@ -10,6 +10,7 @@
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/operators/eigenfunctions.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -18,15 +19,8 @@ using core::ScalarField;
 
 namespace {
 
-core::MethodResult apply(const ScalarField& field, std::vector<std::pair<std::string, std::string>> given) {
-  core::ParameterReader reader({"spectral", std::move(given)});
-  const auto method = morse::make_spectral(reader);
-  reader.finish();
-  return method->apply(field, {});
-}
-
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
+core::MethodResult apply(const ScalarField& field, Given given) {
+  return made(morse::make_spectral, "spectral", std::move(given))->apply(field, {});
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
+#include "support/made.h"
 #include "support/meshes.h"
 #include "support/scratch.h"
 
@@ -18,10 +19,6 @@ ScalarField read(const Scratch& scratch, std::string_view text, const core::Mesh
   return morse::vertex_scalar(square_pair().mesh(), source, {scratch.file("values.txt", text), ""});
 }
 
-std::vector<double> values_of(const ScalarField& field) {
-  return {field.values().begin(), field.values().end()};
-}
-
 /// Six vertices in the file: 1 was dropped, 4 was welded to 0.
 core::MeshSource repaired_source() {
   core::MeshSource source;
@@ -29,11 +26,8 @@ core::MeshSource repaired_source() {
   return source;
 }
 
-std::unique_ptr<core::MorseFunction> make(std::vector<std::pair<std::string, std::string>> given) {
-  core::ParameterReader reader({"vertex-scalar", std::move(given)});
-  auto function = morse::make_vertex_scalar(reader);
-  reader.finish();
-  return function;
+std::unique_ptr<core::MorseFunction> make(Given given) {
+  return made(morse::make_vertex_scalar, "vertex-scalar", std::move(given));
 }
 
 }  // namespace

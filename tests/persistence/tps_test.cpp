@@ -7,6 +7,7 @@
 #include "morsel/persistence/cancellation.h"
 #include "morsel/persistence/threshold.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 
 using namespace morsel;
@@ -17,13 +18,8 @@ using persistence::Threshold;
 
 namespace {
 
-using Given = std::vector<std::pair<std::string, std::string>>;
-
 core::MethodResult apply_tps(const Given& given, const ScalarField& field) {
-  core::ParameterReader reader({"tps", given});
-  const auto method = persistence::make_tps(reader);
-  reader.finish();
-  return method->apply(field, {});
+  return made(persistence::make_tps, "tps", given)->apply(field, {});
 }
 
 template <class T>
