@@ -55,10 +55,11 @@ Index nearest(const core::TriangleMesh& mesh, Index v, double reach, const Wante
 
 CriticalPointTracker::CriticalPointTracker(const core::ScalarField& input, double reach,
                                            const core::Progress& progress)
-    : field_(std::make_shared<core::ScalarField>(input)),
-      reach_(reach),
-      progress_(progress),
-      points_(classify(input, progress)) {
+    : CriticalPointTracker(std::make_shared<core::ScalarField>(input), reach, progress) {}
+
+CriticalPointTracker::CriticalPointTracker(std::shared_ptr<const core::ScalarField> input, double reach,
+                                           const core::Progress& progress)
+    : field_(std::move(input)), reach_(reach), progress_(progress), points_(classify(*field_, progress)) {
   for (const CriticalPoint& point : points_.points) origins_.push_back(point.vertex);
 }
 

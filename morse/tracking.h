@@ -25,8 +25,10 @@ namespace morsel::morse {
 /// appeared on the same hill. A value type; copies are independent and share the field.
 class CriticalPointTracker {
  public:
-  /// `reach` is a length, not negative.
+  /// `reach` is a length, not negative. Keeps a copy of the input, or shares it.
   CriticalPointTracker(const core::ScalarField& input, double reach, const core::Progress& progress = {});
+  CriticalPointTracker(std::shared_ptr<const core::ScalarField> input, double reach,
+                       const core::Progress& progress = {});
 
   /// The next field on the same mesh. O(n) and what the ways take; parallel, the same for every number of threads.
   void advance(const core::ScalarField& next);

@@ -34,9 +34,7 @@ class StepWatcher {
  public:
   /// Either may be null.
   StepWatcher(morse::CriticalPointTracker* tracker, TargetSearch* search)
-      : tracker_(tracker), search_(search) {
-    if (tracker_ != nullptr) at_start_ = *tracker_;
-  }
+      : tracker_(tracker), search_(search) {}
 
   bool wanted() const { return tracker_ != nullptr || search_ != nullptr; }
 
@@ -49,14 +47,18 @@ class StepWatcher {
   void finish(const core::ScalarField& field) {
     if (!wanted() || ended_) return;
     const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->reached();
-    if (!(passed_ && is_same(last, field))) pass(field);
+    const bool nothing_new = passed_ || search_ == nullptr;
+    if (!(nothing_new && is_same(last, field))) pass(field);
   }
 
  private:
   void restart() {
     ended_ = false;
     passed_ = false;
-    if (tracker_ != nullptr) *tracker_ = *at_start_;
+    if (tracker_ != nullptr && at_start_)
+      *tracker_ = *at_start_;
+    else if (tracker_ != nullptr)
+      at_start_ = *tracker_;
     if (search_ != nullptr) search_->restart();
   }
 
@@ -72,8 +74,8 @@ class StepWatcher {
 
   morse::CriticalPointTracker* tracker_;
   TargetSearch* search_;
-  std::optional<morse::CriticalPointTracker> at_start_;
-  bool passed_ = false;  // a field that counts
+  std::optional<morse::CriticalPointTracker> at_start_;  // once the first iteration is seen
+  bool passed_ = false;                                  // a field that counts
   bool ended_ = false;
 };
 

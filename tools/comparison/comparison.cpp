@@ -1,5 +1,6 @@
 #include "morsel/tools/comparison/comparison.h"
 
+#include <memory>
 #include <optional>
 
 #include "morsel/core/error.h"
@@ -40,10 +41,13 @@ PreparedComparison prepare(const ComparisonRequest& request) {
 
 void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress) {
-  const FieldOutcome input = evaluate_field(loaded, comparison.function, progress);
+  const auto shared =
+      std::make_shared<const FieldOutcome>(evaluate_field(loaded, comparison.function, progress));
+  const FieldOutcome& input = *shared;
   for (ComparisonSink* sink : sinks) sink->field(input);
   const double radius = matching_radius(loaded.mesh);
-  const morse::CriticalPointTracker at_input(input.field, radius, progress);
+  const morse::CriticalPointTracker at_input(std::shared_ptr<const core::ScalarField>(shared, &input.field),
+                                             radius, progress);
   std::optional<morse::CriticalPoints> first;
   for (const MethodChain& chain : comparison.chains) {
     for (ComparisonSink* sink : sinks) sink->begin_method(chain.name);
