@@ -52,14 +52,15 @@ void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& co
   for (const MethodChain& chain : comparison.chains) {
     for (ComparisonSink* sink : sinks) sink->begin_method(chain.name);
     const Stopwatch watch;
-    morse::CriticalPointTracker tracker = at_input;
+    std::optional<morse::CriticalPointTracker> tracker = at_input;
     ChainOutcome made = apply_chain(chain, loaded, comparison.function, input.field,
-                                    {comparison.target, true, &tracker}, progress);
+                                    {comparison.target, true, &*tracker}, progress);
+    std::vector<core::Index> origins(tracker->origins().begin(), tracker->origins().end());
+    tracker.reset();  // its field is not needed while the result is measured
     Timings timings = {{"method", watch.seconds()}};
     Measurement measurement = measure(made.field, timings, progress);
     if (!first) first = measurement.critical_points;
     Matching matching = match_critical_points(loaded.mesh, *first, measurement.critical_points, radius);
-    std::vector<core::Index> origins(tracker.origins().begin(), tracker.origins().end());
     std::vector<core::Index> places(origins.size());
     for (std::size_t i = 0; i < places.size(); ++i)
       places[i] = comparison.snap && origins[i] != core::kNone ? origins[i]
