@@ -77,9 +77,8 @@ class HeaderReader {
       if (!scanner_.next_line()) scanner_.fail_at_end("within its header");
       const std::string_view keyword = scanner_.word();
       if (keyword == "comment" || keyword == "obj_info") continue;
-      if (keyword == "end_header")
-        break;
-      else if (keyword == "format")
+      if (keyword == "end_header") break;
+      if (keyword == "format")
         read_format();
       else if (keyword == "element")
         read_element();

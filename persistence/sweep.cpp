@@ -11,8 +11,6 @@
 namespace morsel::persistence::detail {
 namespace {
 
-using core::kNone;
-
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());

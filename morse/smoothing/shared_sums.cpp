@@ -150,7 +150,7 @@ class SharedSums::Pass {
         values_(values),
         per_sigma_(sums.per_sigma_),
         per_place_(1 / (kStep * sigma_s)),
-        middle_(grid.first + kPanel / 2 * grid.panels * kStep * sigma_s),
+        middle_(grid.first + 0.5 * kPanel * grid.panels * kStep * sigma_s),
         width_(static_cast<std::size_t>(grid.panels) * kPanel) {}
 
   std::size_t width() const { return width_; }

@@ -11,7 +11,6 @@ namespace {
 
 using core::Index;
 using morse::CriticalPoint;
-using morse::CriticalType;
 
 /// Matches what is left of one type: the nearest pair first. Each reference point has one candidate in the
 /// queue, its nearest free counterpart; where that was taken meanwhile, the next one is looked up. So memory
@@ -26,6 +25,7 @@ class NearestFirst {
              std::vector<Match>& moved) {
     if (lost.empty() || found.empty()) return;
     std::vector<core::Point> positions;
+    positions.reserve(found.size());
     for (const std::size_t j : found) positions.push_back(mesh_.position(other_[j].vertex));
     const core::PointSearch search(positions);
     std::vector<bool> taken(found.size(), false);
