@@ -1,17 +1,15 @@
 #include "morsel/core/mesh_io.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "morsel/core/file_bytes.h"
+#include "morsel/core/file_extension.h"
 #include "morsel/core/mesh_formats.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
 MeshFormat mesh_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = file_extension(path);
   if (extension == ".off") return MeshFormat::off;
   if (extension == ".obj") return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;

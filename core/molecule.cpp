@@ -8,6 +8,7 @@
 #include "morsel/core/atom_records.h"
 #include "morsel/core/error.h"
 #include "morsel/core/file_bytes.h"
+#include "morsel/core/file_extension.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
@@ -18,9 +19,7 @@ constexpr std::array<const char*, 3> kHeteroNames = {"none", "residues", "all"};
 AtomRecords read_records(const std::filesystem::path& path, const Progress& progress) {
   const std::string name = path.string();
   const FileBytes bytes(path, name);
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = file_extension(path);
   if (extension == ".pdb" || extension == ".ent") return read_pdb(bytes.view(), name, progress);
   if (extension == ".cif" || extension == ".mmcif") return read_mmcif(bytes.view(), name, progress);
   fail_reading(name, "molecules are read from .pdb, .ent, .cif and .mmcif files, not " +

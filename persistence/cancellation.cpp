@@ -21,8 +21,9 @@ CancellationResult cancel(const core::ScalarField& f, const CancellationOptions&
   if (options.count) {
     const detail::CountSearch search(canceller, *options.count, progress);
     progress.update("cancellation", 1);
-    return {search.field(), search.cancelled_pairs(), search.largest_cancelled(), search.reached(),
-            search.note()};
+    const std::span<const PersistencePair> pairs = search.cancelled();
+    return {search.field(),   pairs.size(),  search.largest_cancelled(),
+            search.reached(), search.note(), {pairs.begin(), pairs.end()}};
   }
   std::vector<PersistencePair> staying;
   double largest = 0;

@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "morsel/core/method.h"
 #include "morsel/core/parameters.h"
 #include "morsel/core/progress.h"
 #include "morsel/core/scalar_field.h"
+#include "morsel/persistence/diagram.h"
 #include "morsel/persistence/threshold.h"
 
 namespace morsel::persistence {
@@ -29,6 +31,7 @@ struct CancellationResult {
   double largest_cancelled = 0;   ///< the largest persistence of a cancelled pair; 0 if there is none
   std::size_t reached_count = 0;  ///< critical points of `field`, as classification counts them
   std::string note;               ///< with `count`: why another number was reached; empty if it was
+  std::vector<PersistencePair> pairs = {};  ///< with `count`: the cancelled pairs in the order of persistence
 };
 
 /// Returns a field g on the mesh of f, with an order of its own. With t the largest cancelled persistence:

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,9 @@ class CountSearch {
   /// `wanted` critical points. Runs the search: 2²² / n tries, but at least 12, of O(n) each.
   CountSearch(const Canceller& canceller, std::size_t wanted, const core::Progress& progress);
 
-  /// The number of pairs whose cancelling leaves the most critical points that are not above what was wanted, or
+  /// The pairs whose cancelling leaves the most critical points that are not above what was wanted, or
   /// else the fewest above; of several numbers with one result the smallest that was tried.
-  std::size_t cancelled_pairs() const { return best_; }
+  std::span<const PersistencePair> cancelled() const { return diagram_.finite_pairs().first(best_); }
   std::size_t reached() const { return static_cast<std::size_t>(totals_.at(best_)); }
   const core::ScalarField& field() const { return *field_; }
   /// The largest persistence of a cancelled pair; 0 if there is none.

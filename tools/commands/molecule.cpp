@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/core/mesh_writer.h"
 #include "morsel/core/molecule.h"
@@ -34,9 +35,7 @@ struct Options {
 };
 
 bool is_ply(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = core::file_extension(path);
   if (extension != ".off" && extension != ".ply")
     throw core::InvalidArgument("a surface is written to .off or .ply, not to \"" + path.string() + "\"");
   return extension == ".ply";

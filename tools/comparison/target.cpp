@@ -9,7 +9,6 @@
 #include "morsel/morse/smoothing/keep_order.h"
 #include "morsel/morse/unfolding.h"
 #include "morsel/persistence/cancellation.h"
-#include "morsel/persistence/pairing.h"
 
 namespace morsel::tools {
 namespace {
@@ -99,13 +98,9 @@ TargetSearch::Result TargetSearch::finish() const {
   outcome.reached = cancelled.reached_count;
   outcome.iterations = iterations_;
   outcome.blend = share;
-  outcome.before_cancelling = morse::classify(smoothed, progress_).total();
+  outcome.before_cancelling = blends ? morse::classify(smoothed, progress_).total() : total_;
+  outcome.cancelled = std::move(cancelled.pairs);
   outcome.largest_cancelled = cancelled.largest_cancelled;
-  if (cancelled.cancelled_pairs > 0) {
-    const persistence::Diagram diagram = persistence::pair_extrema(smoothed, progress_);
-    outcome.cancelled.assign(diagram.pairs.begin(),
-                             diagram.pairs.begin() + static_cast<std::ptrdiff_t>(cancelled.cancelled_pairs));
-  }
   unfold(cancelled.field, outcome);
   if (outcome.reached != wanted_) {
     outcome.note = std::move(cancelled.note);

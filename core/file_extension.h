@@ -1,0 +1,12 @@
+#pragma once
+/// What a file is by its name.
+
+#include <filesystem>
+#include <string>
+
+namespace morsel::core {
+
+/// The extension with its dot and in small letters (ASCII, whatever the locale): ".off"; empty if there is none.
+std::string file_extension(const std::filesystem::path& path);
+
+}  // namespace morsel::core
