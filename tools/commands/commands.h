@@ -10,6 +10,7 @@
 
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/console.h"
+#include "morsel/tools/comparison/made_field.h"
 
 namespace morsel::tools {
 
@@ -44,6 +45,11 @@ void add_common_options(CLI::App& command, CommonOptions& common, bool with_repa
 
 /// --target K
 void add_target_option(CLI::App& command, std::optional<std::size_t>& target);
+
+/// MESH, --field, --method and --target of the commands that work on one field.
+void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request);
+/// Says why a wanted number of critical points was not reached.
+void tell_target(const MadeField& made, Console& console);
 
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_field(CLI::App& app, Invocation& invocation);

@@ -25,6 +25,21 @@ void add_target_option(CLI::App& command, std::optional<std::size_t>& target) {
       ->type_name("K");
 }
 
+void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request) {
+  command.add_option("MESH", mesh, kMeshHelp)->required();
+  command.add_option("--field", request.field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
+  command.add_option("--method", request.method, "A method or chain of methods (below)")
+      ->type_name("M")
+      ->capture_default_str();
+  add_target_option(command, request.target);
+}
+
+void tell_target(const MadeField& made, Console& console) {
+  if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
+}
+
 std::string specification_help() {
   return "\nF and M are written name or name:key=value,key=value; methods chain as M+M; a backslash keeps , "
          ": + = /\n"

@@ -32,8 +32,7 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
 }
 
 PreparedComparison prepare(const ComparisonRequest& request) {
-  if (request.target && *request.target == 0)
-    throw core::InvalidArgument("a target of 0 critical points cannot be reached: every field has a minimum");
+  check_target(request.target);
   PreparedComparison comparison{make_function(request.field), {}, request.target, request.snap};
   for (const std::string& method : request.methods) comparison.chains.push_back(make_method(method));
   return comparison;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/smoothing/keep_order.h"
@@ -46,6 +47,11 @@ void unfold(core::ScalarField& field, TargetOutcome& outcome) {
 }
 
 }  // namespace
+
+void check_target(std::optional<std::size_t> target) {
+  if (target && *target == 0)
+    throw core::InvalidArgument("a target of 0 critical points cannot be reached: every field has a minimum");
+}
 
 TargetSearch::TargetSearch(const core::ScalarField& start, std::size_t wanted, bool blends,
                            const core::Progress& progress)

@@ -30,6 +30,9 @@ struct TargetOutcome {
   friend bool operator==(const TargetOutcome&, const TargetOutcome&) = default;
 };
 
+/// Throws InvalidArgument if a wanted number is given that no field can have.
+void check_target(std::optional<std::size_t> target);
+
 /// The way of a method, watched field by field. Fields count as long as they have at least the wanted number of critical
 /// points. If the next one has fewer, the furthest point on the straight line to it is looked for that has not (by
 /// halving, 12 times, the logarithm of what is left to it). What is left above the number is cancelled in the order of persistence. Each pair takes two

@@ -1,11 +1,10 @@
 #include "morsel/tools/report/report_writer.h"
 
-#include <cmath>
 #include <span>
 
 #include "morsel/persistence/diagram.h"
 #include "morsel/tools/report/mesh_section.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
 namespace {
@@ -16,54 +15,14 @@ Json timings_json(const Timings& timings) {
   return json;
 }
 
-/// One step's values as they are, a chain's by step.
-template <class Values>
-Json by_step(const std::vector<StepOutcome>& steps, Values StepOutcome::*values) {
-  if (steps.size() == 1) return to_json(steps.front().*values);
-  Json list = Json::array();
-  for (const StepOutcome& step : steps)
-    list.push_back({{"name", step.name}, {"values", to_json(step.*values)}});
-  return {{"steps", std::move(list)}};
-}
-
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 }  // namespace
-
-Json to_json(const core::ParameterValue& value) {
-  return std::visit(
-      [](const auto& held) -> Json {
-        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>) return finite_or_null(held);
-        return held;
-      },
-      value);
-}
-
-Json to_json(const core::Parameters& parameters) {
-  Json json = Json::object();
-  for (const auto& [name, value] : parameters) json[name] = to_json(value);
-  return json;
-}
-
-Json to_json(const std::vector<core::IterationRecord>& iterations) {
-  Json list = Json::array();
-  for (const core::IterationRecord& record : iterations)
-    list.push_back({{"iteration", record.iteration},
-                    {"minima", record.minima},
-                    {"saddles", record.saddles},
-                    {"saddle_multiplicity", record.saddle_multiplicity},
-                    {"maxima", record.maxima},
-                    {"total", record.total()},
-                    {"change", record.change}});
-  return list;
-}
 
 ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                            const ComparisonRequest& request)
     : json_(json), loaded_(loaded), items_(input.items), timings_({{"load", input.load_seconds}}) {
   json_.begin_object();
   json_.member("schema", "morsel.comparison/1");
-  json_.member("tool", {{"name", "morsel"}, {"version", kVersion}});
+  json_.member("tool", tool_section());
   Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
   if (!input.items) asked["items"] = false;
   if (request.target) asked["target"] = *request.target;
@@ -73,10 +32,7 @@ ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const
 }
 
 void ReportWriter::field(const FieldOutcome& outcome) {
-  json_.member("field", {{"name", outcome.name},
-                         {"parameters", to_json(outcome.parameters)},
-                         {"min", outcome.field.min()},
-                         {"max", outcome.field.max()}});
+  json_.member("field", field_section(outcome));
   timings_["field"] = outcome.seconds;
   timings_["methods"] = Json::array();
   json_.begin_array("methods");
@@ -86,9 +42,7 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   const Measurement& m = outcome.measurement;
   json_.begin_object();
   json_.member("name", outcome.name);
-  json_.member("parameters", by_step(outcome.steps, &StepOutcome::parameters));
-  json_.member("details", by_step(outcome.steps, &StepOutcome::details));
-  json_.member("iterations", by_step(outcome.steps, &StepOutcome::iterations));
+  add_members(steps_section(outcome.steps));
   if (outcome.target) write_target(*outcome.target);
   json_.member("field", {{"min", outcome.field.min()}, {"max", outcome.field.max()}});
   json_.member("critical_points", {{"minima", m.critical_points.minima},
@@ -118,20 +72,13 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   timings_["methods"].push_back(std::move(seconds));
 }
 
+void ReportWriter::add_members(const Json& section) {
+  for (const auto& [key, value] : section.items()) json_.member(key, value);
+}
+
 void ReportWriter::write_target(const TargetOutcome& target) {
   json_.begin_object("target");
-  json_.member("wanted", target.wanted);
-  json_.member("reached", target.reached);
-  json_.member("iterations", target.iterations);
-  json_.member("blend", target.blend);
-  json_.member("before_cancelling", target.before_cancelling);
-  json_.member("cancelled_pairs", target.cancelled.size());
-  json_.member("largest_cancelled", target.largest_cancelled);
-  Json unfolded = Json::array();
-  for (const core::Index v : target.unfolded) unfolded.push_back(loaded_.source.numbering.input_vertex(v));
-  json_.member("unfolded", unfolded);
-  json_.member("largest_unfolding", target.largest_unfolding);
-  json_.member("note", target.note);
+  add_members(target_section(target, loaded_.source.numbering));
   if (items_) {
     json_.begin_array("cancelled");
     json_.rows(target.cancelled.size(), [&](std::size_t i, const TakeRow& take) {

@@ -30,6 +30,7 @@ class ReportWriter : public ComparisonSink {
   void finish();
 
  private:
+  void add_members(const Json& section);
   void write_target(const TargetOutcome& target);
   void write_persistence(const MethodOutcome& outcome);
   void write_diagram(const MethodOutcome& outcome);
@@ -41,11 +42,5 @@ class ReportWriter : public ComparisonSink {
   Json timings_;
   Stopwatch watch_;
 };
-
-/// A parameter's value as JSON; non-finite numbers become null.
-Json to_json(const core::ParameterValue& value);
-Json to_json(const core::Parameters& parameters);
-/// The curve of an iterative method: an object for each of its fields.
-Json to_json(const std::vector<core::IterationRecord>& iterations);
 
 }  // namespace morsel::tools

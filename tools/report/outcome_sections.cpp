@@ -1,0 +1,94 @@
+#include "morsel/tools/report/outcome_sections.h"
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "morsel/tools/report/version.h"
+
+namespace morsel::tools {
+namespace {
+
+/// One step's values as they are, a chain's by step.
+template <class Values>
+Json by_step(const std::vector<StepOutcome>& steps, Values StepOutcome::*values) {
+  if (steps.size() == 1) return to_json(steps.front().*values);
+  Json list = Json::array();
+  for (const StepOutcome& step : steps)
+    list.push_back({{"name", step.name}, {"values", to_json(step.*values)}});
+  return {{"steps", std::move(list)}};
+}
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+}  // namespace
+
+Json to_json(const core::ParameterValue& value) {
+  return std::visit(
+      [](const auto& held) -> Json {
+        if constexpr (std::is_same_v<std::decay_t<decltype(held)>, double>) return finite_or_null(held);
+        return held;
+      },
+      value);
+}
+
+Json to_json(const core::Parameters& parameters) {
+  Json json = Json::object();
+  for (const auto& [name, value] : parameters) json[name] = to_json(value);
+  return json;
+}
+
+Json to_json(const std::vector<core::IterationRecord>& iterations) {
+  Json list = Json::array();
+  for (const core::IterationRecord& record : iterations)
+    list.push_back({{"iteration", record.iteration},
+                    {"minima", record.minima},
+                    {"saddles", record.saddles},
+                    {"saddle_multiplicity", record.saddle_multiplicity},
+                    {"maxima", record.maxima},
+                    {"total", record.total()},
+                    {"change", record.change}});
+  return list;
+}
+
+Json tool_section() { return {{"name", "morsel"}, {"version", kVersion}}; }
+
+Json field_section(const FieldOutcome& outcome) {
+  return {{"name", outcome.name},
+          {"parameters", to_json(outcome.parameters)},
+          {"min", outcome.field.min()},
+          {"max", outcome.field.max()}};
+}
+
+Json steps_section(const std::vector<StepOutcome>& steps) {
+  return {{"parameters", by_step(steps, &StepOutcome::parameters)},
+          {"details", by_step(steps, &StepOutcome::details)},
+          {"iterations", by_step(steps, &StepOutcome::iterations)}};
+}
+
+Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering) {
+  Json unfolded = Json::array();
+  for (const core::Index v : target.unfolded) unfolded.push_back(numbering.input_vertex(v));
+  return {{"wanted", target.wanted},
+          {"reached", target.reached},
+          {"iterations", target.iterations},
+          {"blend", target.blend},
+          {"before_cancelling", target.before_cancelling},
+          {"cancelled_pairs", target.cancelled.size()},
+          {"largest_cancelled", target.largest_cancelled},
+          {"unfolded", unfolded},
+          {"largest_unfolding", target.largest_unfolding},
+          {"note", target.note}};
+}
+
+Json method_section(const FieldRecipe& recipe, const MadeField& made,
+                    const core::VertexNumbering& numbering) {
+  Json section = {{"name", recipe.chain.name}};
+  section.update(steps_section(made.outcome.steps));
+  if (made.outcome.target) section["target"] = target_section(*made.outcome.target, numbering);
+  section["min"] = made.field().min();
+  section["max"] = made.field().max();
+  return section;
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,31 @@
+#pragma once
+/// What every JSON document of the program says of its field and methods, in the same words.
+
+#include <vector>
+
+#include "morsel/core/mesh_builder.h"
+#include "morsel/core/parameters.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/report/json_stream.h"
+
+namespace morsel::tools {
+
+/// A parameter's value as JSON; non-finite numbers become null.
+Json to_json(const core::ParameterValue& value);
+Json to_json(const core::Parameters& parameters);
+/// The curve of an iterative method: an object for each of its fields.
+Json to_json(const std::vector<core::IterationRecord>& iterations);
+
+/// {"name", "version"} of the program.
+Json tool_section();
+/// {"name", "parameters", "min", "max"}
+Json field_section(const FieldOutcome& outcome);
+/// {"parameters", "details", "iterations"}: one step's as they are, a chain's by step.
+Json steps_section(const std::vector<StepOutcome>& steps);
+/// How a wanted number came about, without the list of the cancelled pairs; vertices in the input's numbers.
+Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering);
+/// The method that made a field: {"name", "parameters", "details", "iterations", "target" (if there was one), "min", "max"}
+Json method_section(const FieldRecipe& recipe, const MadeField& made, const core::VertexNumbering& numbering);
+
+}  // namespace morsel::tools
