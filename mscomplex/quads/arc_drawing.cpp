@@ -12,6 +12,13 @@ namespace morsel::mscomplex {
 using core::Index;
 using core::kNone;
 
+namespace {
+
+/// None: arcs follow angles better where lengths are not evened out.
+constexpr int kStretchRounds = 0;
+
+}  // namespace
+
 ArcDrawing::ArcDrawing(const MorseSmaleComplex& complex)
     : complex_(complex),
       mesh_(complex.mesh()),
@@ -109,7 +116,7 @@ void ArcDrawing::embed(Star& star) const {
   std::vector<Index> at;
   for (const Spoke& spoke : star.spokes) at.push_back(spoke.at);
   star.place = border_on_circle(mesh_, star.disc, at);
-  embed_inside(mesh_, star.disc, star.place, "the " + name(star.node));
+  embed_inside(mesh_, star.disc, kStretchRounds, star.place, "the " + name(star.node));
 }
 
 void ArcDrawing::draw(const Star& star, bool moves) {

@@ -17,6 +17,9 @@ using Eigen::Vector2d;
 
 namespace {
 
+/// Rounds of evening out what a patch's parametrisation makes tiny.
+constexpr int kStretchRounds = 5;
+
 std::string name_of(Index q) { return "patch " + std::to_string(q); }
 
 Index halfedge(const LayoutMesh& mesh, Index from, Index to) {
@@ -82,7 +85,7 @@ void parametrise(const LayoutMesh& mesh, Index q, PatchMap& patch) {
     for (Index i = patch.corner[side]; i < patch.corner[side + 1]; ++i)
       patch.place[i] = corners[side] + share[i - patch.corner[side]] * (corners[side + 1] - corners[side]);
   }
-  embed_inside(mesh, patch.disc, patch.place, name_of(q));
+  embed_inside(mesh, patch.disc, kStretchRounds, patch.place, name_of(q));
 }
 
 void sample_inside(const LayoutMesh& mesh, Index q, const PatchMap& patch, Index n, Point* samples) {
