@@ -23,11 +23,7 @@ using Corners = std::array<Point, 3>;
 double half_tangent(const Corners& p, int i) {
   const Point u = p[(i + 1) % 3] - p[i];
   const Point v = p[(i + 2) % 3] - p[i];
-  const double lengths = u.norm() * v.norm();
-  if (!(lengths > 0)) return 1e-3;
-  const double cosine = std::clamp(u.dot(v) / lengths, -1.0, 1.0);
-  const double sine = std::min(1.0, u.cross(v).norm() / lengths);
-  return std::clamp(sine / (1 + cosine), 1e-3, 1e3);
+  return std::clamp(std::tan(std::atan2(u.cross(v).norm(), u.dot(v)) / 2), 1e-3, 1e3);
 }
 
 /// The linear systems of one disc: each inner vertex is a weighted mean of its neighbours.
