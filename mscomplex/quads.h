@@ -86,27 +86,38 @@ struct QuadMesh {
 /// threads.
 QuadMesh sample(const QuadLayout& layout, core::Index resolution, const core::Progress& progress = {});
 
+/// How well the quads of one patch are shaped.
+struct PatchQuality {
+  double area = 0;        ///< of its quads together
+  double angle_mean = 0;  ///< of |angle − 90°|
+  double scaled_jacobian_min = 0;
+};
+
 /// How good a quad mesh is. Angles in degrees, lengths in the mesh's unit.
+///
+/// A quad is seen along the normal of its two diagonals: its area is half the length of their cross product, an angle of
+/// more than 180° is one that points inwards there, and its scaled Jacobian is the least sine of its four angles: 1 for
+/// a rectangle, negative if an angle points inwards.
 struct QuadQuality {
   std::vector<std::size_t> valence;  ///< number of vertices of each valence
   std::size_t extraordinary = 0;     ///< vertices of a valence other than 4
   double angle_mean = 0;             ///< of |angle − 90°| over all corners
   double angle_max = 0;
-  double scaled_jacobian_mean =
-      0;  ///< over quads, of the least over corners of the sine, negative if turned over
+  double scaled_jacobian_mean = 0;
   double scaled_jacobian_min = 0;
-  std::size_t turned_over = 0;  ///< quads with a corner that is turned over against the others
-  double area_mean = 0;         ///< of a quad
-  double area_deviation = 0;    ///< standard deviation of quad areas, as a share of the mean
-  double area_min = 0;          ///< least and largest area as a share of the mean
+  std::size_t concave = 0;    ///< quads of a negative scaled Jacobian
+  double area_mean = 0;       ///< of a quad
+  double area_deviation = 0;  ///< standard deviation of quad areas, as a share of the mean
+  double area_min = 0;        ///< the least and the largest area as a share of the mean
   double area_max = 0;
   double distance_max = 0;   ///< largest distance to the input, from vertices, edge midpoints and centres
   double distance_mean = 0;  ///< over quad centres
-  double distance_from_input = 0;  ///< largest distance of an input vertex to the quad mesh
+  double distance_from_input =
+      0;  ///< largest distance of an input vertex to the quads, cut into two triangles each
+  std::vector<PatchQuality> patches;
 };
 
-/// Measures `quads` against the surface they were made of. Quads are taken as bilinear patches (their centres), and as
-/// two triangles each for distances from the input. O(n log n), parallel.
+/// Measures `quads` against the surface they were made of. O(n log n), parallel, the same bits for every number of threads.
 QuadQuality measure(const QuadMesh& quads, const core::TriangleMesh& input,
                     const core::Progress& progress = {});
 

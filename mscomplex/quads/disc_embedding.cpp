@@ -99,7 +99,8 @@ class Means {
       }
     }
     for (Weight& w : weights_)
-      if (area[w.column] > 0 && stretch[w.column] > 0) w.value /= std::sqrt(stretch[w.column] / area[w.column]);
+      if (area[w.column] > 0 && stretch[w.column] > 0)
+        w.value /= std::sqrt(stretch[w.column] / area[w.column]);
     return total;
   }
 
@@ -110,7 +111,8 @@ class Means {
   };
   Corners corners(std::size_t k) const {
     const Index h = 3 * disc_.triangles[k];
-    return {mesh_.position(mesh_.origin(h)), mesh_.position(mesh_.origin(h + 1)), mesh_.position(mesh_.origin(h + 2))};
+    return {mesh_.position(mesh_.origin(h)), mesh_.position(mesh_.origin(h + 1)),
+            mesh_.position(mesh_.origin(h + 2))};
   }
 
   const LayoutMesh& mesh_;
@@ -127,9 +129,10 @@ void embed_inside(const LayoutMesh& mesh, const Disc& disc, int rounds, std::vec
   if (disc.vertex_count() == disc.border_size()) return;
   Means means(mesh, disc);
   if (!means.solve(place))
-    throw core::BadInput("the region of " + what + " (" + std::to_string(disc.triangles.size()) +
-                         " triangles) cannot be laid out in the plane: its linear system is singular in double "
-                         "precision; a mesh without degenerate triangles would help");
+    throw core::BadInput(
+        "the region of " + what + " (" + std::to_string(disc.triangles.size()) +
+        " triangles) cannot be laid out in the plane: its linear system is singular in double "
+        "precision; a mesh without degenerate triangles would help");
   std::vector<Vector2d> next = place;
   double stretch = means.weaken_stretched(place);
   for (int round = 0; round < rounds && means.solve(next); ++round) {

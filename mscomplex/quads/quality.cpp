@@ -23,7 +23,7 @@ struct Shape {
   double angle_sum = 0, angle_max = 0;
   double jacobian_sum = 0, jacobian_min = 1;
   double distance_sum = 0, distance_max = 0;
-  std::size_t turned_over = 0;
+  std::size_t concave = 0;
 };
 
 Shape together(Shape a, const Shape& b) {
@@ -33,11 +33,17 @@ Shape together(Shape a, const Shape& b) {
   a.jacobian_min = std::min(a.jacobian_min, b.jacobian_min);
   a.distance_sum += b.distance_sum;
   a.distance_max = std::max(a.distance_max, b.distance_max);
-  a.turned_over += b.turned_over;
+  a.concave += b.concave;
   return a;
 }
 
-/// Adds a quad and returns its area, that of the two triangles into which its normal (that of its diagonals) sees it cut.
+std::array<Point, 4> corners(const QuadMesh& mesh, std::size_t q) {
+  std::array<Point, 4> p;
+  for (int i = 0; i < 4; ++i) p[i] = mesh.positions[mesh.quads[q][i]];
+  return p;
+}
+
+/// Adds a quad and returns its area.
 double add_quad(const std::array<Point, 4>& p, Shape& shape) {
   const Point normal = (p[2] - p[0]).cross(p[3] - p[1]);
   const double size = normal.norm();
@@ -57,7 +63,7 @@ double add_quad(const std::array<Point, 4>& p, Shape& shape) {
   }
   shape.jacobian_sum += least;
   shape.jacobian_min = std::min(shape.jacobian_min, least);
-  if (least < 0) ++shape.turned_over;
+  if (least < 0) ++shape.concave;
   return size / 2;
 }
 
@@ -69,6 +75,20 @@ void measure_valence(const QuadMesh& mesh, QuadQuality& quality) {
     if (quality.valence.size() <= k) quality.valence.resize(k + 1, 0);
     ++quality.valence[k];
     if (k != 4) ++quality.extraordinary;
+  }
+}
+
+void measure_patches(const QuadMesh& mesh, QuadQuality& quality) {
+  for (std::size_t first = 0; first < mesh.quads.size();) {
+    Shape shape;
+    PatchQuality patch;
+    std::size_t q = first;
+    for (; q < mesh.quads.size() && mesh.patch[q] == mesh.patch[first]; ++q)
+      patch.area += add_quad(corners(mesh, q), shape);
+    patch.angle_mean = shape.angle_sum / (4 * static_cast<double>(q - first));
+    patch.scaled_jacobian_min = shape.jacobian_min;
+    quality.patches.push_back(patch);
+    first = q;
   }
 }
 
@@ -102,8 +122,7 @@ QuadQuality measure(const QuadMesh& quads, const core::TriangleMesh& input, cons
         progress.throw_if_cancelled();
         Shape part;
         for (std::size_t q = first; q < last; ++q) {
-          std::array<Point, 4> p;
-          for (int i = 0; i < 4; ++i) p[i] = quads.positions[quads.quads[q][i]];
+          const std::array<Point, 4> p = corners(quads, q);
           area[q] = add_quad(p, part);
           const double middle = surface.distance((p[0] + p[1] + p[2] + p[3]) / 4);
           part.distance_sum += middle;
@@ -122,9 +141,10 @@ QuadQuality measure(const QuadMesh& quads, const core::TriangleMesh& input, cons
   quality.angle_max = shape.angle_max;
   quality.scaled_jacobian_mean = shape.jacobian_sum / count;
   quality.scaled_jacobian_min = shape.jacobian_min;
-  quality.turned_over = shape.turned_over;
+  quality.concave = shape.concave;
   quality.distance_mean = shape.distance_sum / count;
   measure_areas(area, quality);
+  measure_patches(quads, quality);
   progress.update("measuring quads", 0.6);
 
   const auto largest = [](double a, double b) { return std::max(a, b); };
