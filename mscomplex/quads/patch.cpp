@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 namespace {
 
 /// Rounds of evening out what a patch's parametrisation makes tiny.
-constexpr int kStretchRounds = 5;
+constexpr int kStretchRounds = 30;
 
 std::string name_of(Index q) { return "patch " + std::to_string(q); }
 

@@ -17,7 +17,7 @@ namespace {
 
 struct Options {
   std::string mesh;
-  FieldRequest field{.field = "eigenfunction:index=40"};
+  FieldRequest field{"eigenfunction:index=40", "conventional", std::nullopt};
   QuadRequest quads;
   std::string output;
   std::string json;
