@@ -39,16 +39,24 @@ struct LayoutOptions {
   int relaxation = 3;
 };
 
-/// A layout of quad patches on a closed surface: the complex with its arcs as curves that meet in nodes alone.
+/// A layout of patches on a surface: the complex with its arcs as curves that meet in nodes alone. Patches have four
+/// sides, their arcs; where one arrives at a boundary loop it has five, a piece of the loop between the ends of two arcs.
 struct QuadLayout {
-  core::TriangleMesh surface;            ///< the input surface with edges split where arcs cross them
-  std::vector<core::Index> node_vertex;  ///< per node of the complex: vertex of `surface`
-  std::vector<std::vector<core::Index>>
-      arcs;                   ///< per arc: vertices from the saddle's to its end's, neighbours each
-  std::vector<Quad> patches;  ///< the complex's quads
-  std::vector<core::Index> patch_of_triangle;  ///< per triangle of `surface`
-  core::Index missed =
-      0;  ///< arcs drawn through the fewest triangles, their straight lines being too fine for doubles
+  core::TriangleMesh input;  ///< that of the complex
+  /// The input with edges split where arcs cross them, and each boundary loop closed by a fan of triangles, its
+  /// cap. At boundaries it is not quite in place: vertices are moved inwards a little to make room for a collar.
+  core::TriangleMesh surface;
+  /// Per node of the complex: vertex of `surface`. Caps, the last nodes, are in the middles of their fans.
+  std::vector<core::Index> node_vertex;
+  /// Per arc: vertices of `surface`, neighbours each, from the saddle's to its end's, or to one of the loop.
+  std::vector<std::vector<core::Index>> arcs;
+  std::vector<Quad> patches;                   ///< the complex's quads
+  std::vector<core::Index> patch_of_triangle;  ///< per triangle of `surface`; kNone in fans
+  /// Arcs drawn through the fewest triangles, their straight lines being too fine for double precision.
+  core::Index missed = 0;
+
+  core::Index cap_count() const { return input.boundary_loop_count(); }
+  bool is_cap(core::Index node) const { return node + cap_count() >= node_vertex.size(); }
 
   /// Checks everything that a layout must be, for tests: arcs along edges from node to node, disjoint but for nodes, in
   /// the complex's cyclic order; patches that are discs between their four arcs. Throws std::logic_error.
@@ -64,8 +72,10 @@ struct QuadLayout {
 /// at the midpoints of their critical edges; so those of a multiple saddle are apart. Then each relaxation moves every
 /// node, and draws its arcs anew, in the disc of the patches around it.
 ///
-/// The surface must be closed and no arc may dangle (repair_dangling()); throws BadInput otherwise. A sparse system is
-/// solved for each region; parallel in part, the same bits for every number of threads.
+/// Boundary loops are nodes above all others, their caps; what the arcs to them and the patches there are on the
+/// surface ends at the loop. No arc of a minimum or maximum may dangle (repair_dangling()) and no component be without
+/// a saddle; throws BadInput otherwise. A sparse system is solved for each region; parallel in part, the same bits
+/// for every number of threads.
 QuadLayout embed_layout(const MorseSmaleComplex& complex, const LayoutOptions& options = {},
                         const core::Progress& progress = {});
 
@@ -78,11 +88,15 @@ struct QuadMesh {
 };
 
 /// Parametrises each patch over the unit square, its sides by arc length and its inside with mean-value coordinates
-/// (Floater 2003), and samples it on a grid of resolution × resolution quads. Samples on arcs and nodes are shared by the
-/// patches there, so that the mesh is as watertight as the surface. Vertices: nodes first (in the complex's order), then
-/// arc by arc from its saddle, then patch by patch; all lie on the surface. Quads come patch by patch. Throws
-/// InvalidArgument for a resolution below 2 (valence-two nodes would make two quads of the same four corners) and
-/// BadInput where a patch is too thin to be parametrised in double precision. Parallel, the same bits for every number of
+/// (Floater 2003), evened out to less stretch (Yoshizawa, Belyaev, Seidel 2004), and samples it on a grid of
+/// resolution × resolution quads. A patch with a side on a boundary loop goes over a regular pentagon, which is cut
+/// into five at its middle. Samples on arcs and nodes are shared by the patches there, so that the mesh is as
+/// watertight as the surface.
+///
+/// Vertices: nodes but caps first (in the complex's order), then arc by arc from its saddle, then those on loops, then
+/// patch by patch; all lie on the input. Quads come patch by patch. Throws InvalidArgument for a resolution below 2
+/// (valence-two nodes would make two quads of the same four corners) or an odd one with boundary loops, and BadInput
+/// where a patch is too thin to be parametrised in double precision. Parallel, the same bits for every number of
 /// threads.
 QuadMesh sample(const QuadLayout& layout, core::Index resolution, const core::Progress& progress = {});
 
@@ -121,8 +135,8 @@ struct QuadQuality {
 QuadQuality measure(const QuadMesh& quads, const core::TriangleMesh& input,
                     const core::Progress& progress = {});
 
-/// Checks that it is a closed manifold with consistently oriented quads, of the Euler characteristic given; throws
-/// std::logic_error otherwise. O(n log n).
-void validate(const QuadMesh& quads, long euler_characteristic);
+/// Checks that it is a manifold with consistently oriented quads, of that Euler characteristic and with so many boundary
+/// loops (none: watertight); throws std::logic_error otherwise. O(n log n).
+void validate(const QuadMesh& quads, long euler_characteristic, core::Index boundary_loops = 0);
 
 }  // namespace morsel::mscomplex

@@ -19,21 +19,25 @@ constexpr int kStretchRounds = 0;
 
 }  // namespace
 
-ArcDrawing::ArcDrawing(const MorseSmaleComplex& complex)
+ArcDrawing::ArcDrawing(const MorseSmaleComplex& complex) : ArcDrawing(complex, cap(complex.mesh())) {}
+
+ArcDrawing::ArcDrawing(const MorseSmaleComplex& complex, const CappedSurface& capped)
     : complex_(complex),
-      mesh_(complex.mesh()),
+      mesh_(capped.mesh),
       finder_(mesh_),
       drawer_(mesh_),
       node_vertex_(complex.node_count(), kNone) {
   for (Index n = 0; n < complex.node_count(); ++n)
     if (complex.kind(n) != NodeKind::saddle) node_vertex_[n] = complex.node(n).vertex;
+  for (Index k = 0; k < complex.cap_count(); ++k) node_vertex_[complex.cap_node(k)] = capped.cap_vertex[k];
 }
 
 std::string ArcDrawing::name(Index node) const {
   const Node n = complex_.node(node);
-  const char* kind = n.kind == NodeKind::minimum  ? "minimum"
-                     : n.kind == NodeKind::saddle ? "saddle"
-                                                  : "maximum";
+  const char* kind = n.kind == NodeKind::minimum   ? "minimum"
+                     : n.kind == NodeKind::saddle  ? "saddle"
+                     : n.kind == NodeKind::maximum ? "maximum"
+                                                   : "boundary loop";
   return std::string(kind) + " at vertex " + std::to_string(n.vertex);
 }
 
@@ -45,15 +49,31 @@ void ArcDrawing::draw_first() {
 
   std::vector<Index> extrema;
   for (Index i = 0; i < complex_.maximum_count(); ++i) extrema.push_back(complex_.maximum_node(i));
+  for (Index k = 0; k < complex_.cap_count(); ++k) extrema.push_back(complex_.cap_node(k));
   draw_stars(extrema, false);
   for (Index h = 0; h < mesh_.halfedge_count(); ++h)
     if (const Index label = mesh_.label(h);
         label == LayoutMesh::kCut ||
         (label != LayoutMesh::kFree && MorseSmaleComplex::arc_kind(label) == ArcKind::descending))
       mesh_.set_label(h, LayoutMesh::kFree);
+  mark_rims();
   extrema.clear();
   for (Index i = 0; i < complex_.minimum_count(); ++i) extrema.push_back(i);
   draw_stars(extrema, false);
+}
+
+/// From here on the caps' fans are out of the way: rays to their middles have crossed the rims, each once.
+void ArcDrawing::mark_rims() {
+  on_rim_.assign(complex_.cap_count() > 0 ? mesh_.vertex_count() : 0, false);
+  for (Index k = 0; k < complex_.cap_count(); ++k) {
+    const Index start = mesh_.leaving(node_vertex_[complex_.cap_node(k)]);
+    Index h = start;
+    do {
+      mesh_.set_label(LayoutMesh::next(h), LayoutMesh::kRim);
+      on_rim_[mesh_.target(h)] = true;
+      h = mesh_.next_around(h);
+    } while (h != start);
+  }
 }
 
 /// Marks the edges of the V-paths from both ends of all critical edges: cut along these and the critical edges, the
@@ -146,9 +166,9 @@ Index ArcDrawing::start_of(Index arc) const {
   return mesh_.leaving_with_label(node_vertex_[complex_.arc_saddle(arc)], arc);
 }
 
-/// The next half-edge along the arc that h is on; kNone at its end.
+/// The next half-edge along the arc that h is on; kNone at its end and at a rim.
 Index ArcDrawing::next_of_arc(Index h) const {
-  if (node_at(mesh_.target(h)) != kNone) return kNone;
+  if (node_at(mesh_.target(h)) != kNone || is_on_rim(mesh_.target(h))) return kNone;
   const Index back = mesh_.twin(h);
   Index on = mesh_.next_around(back);
   while (mesh_.label(on) != mesh_.label(h)) on = mesh_.next_around(on);
@@ -193,14 +213,22 @@ void ArcDrawing::redraw_saddle(Index saddle) {
     border = LayoutMesh::next(border);
     while (mesh_.is_free(border)) border = LayoutMesh::next(mesh_.twin(border));
   } while (node_at(mesh_.origin(border)) == kNone);
-  for (Index k = 0; k < 4; ++k) erase(first + k);
+  std::array<Index, 4> end{};
+  std::vector<Index> arc;
+  for (Index k = 0; k < 4; ++k) {
+    follow(first + k, arc);
+    end[k] = arc.back();
+    erase(first + k);
+  }
+  const auto is_corner = [&](Index v) {  // a node, or where an arc ended at a rim
+    return node_at(v) != kNone || (is_on_rim(v) && (v == end[1] || v == end[3]));
+  };
   Star star;
   star.node = saddle;
   star.disc = finder_.find(border, name(saddle));
   Index corners = 0;
   for (Index i = 0; i < star.disc.border_size(); ++i)
-    if (node_at(star.disc.vertex[i]) != kNone && corners++ % 2 == 0)
-      star.spokes.push_back({i, first + corners / 2});
+    if (is_corner(star.disc.vertex[i]) && corners++ % 2 == 0) star.spokes.push_back({i, first + corners / 2});
   if (corners != 8)
     throw std::logic_error("quad layout: the patches round the " + name(saddle) + " are out of order");
   embed(star);

@@ -39,10 +39,6 @@ std::vector<Dangling> find_dangling(const MorseSmaleComplex& complex) {
 
 void require_arcs(const MorseSmaleComplex& complex) {
   const core::TriangleMesh& mesh = complex.mesh();
-  if (!mesh.is_closed())
-    throw core::BadInput(
-        "a quad layout needs a closed surface; this one has " + std::to_string(mesh.boundary_loop_count()) +
-        (mesh.boundary_loop_count() == 1 ? " boundary loop" : " boundary loops") + ": fill its holes first");
   std::vector<bool> has_saddle(mesh.component_count(), false);
   for (const CriticalCell& s : complex.gradient().saddles())
     has_saddle[mesh.component_of_vertex(s.vertex)] = true;
@@ -53,7 +49,7 @@ void require_arcs(const MorseSmaleComplex& complex) {
         (has_saddle.size() == 1
              ? std::string("the field")
              : "on component " + std::to_string(bare - has_saddle.begin()) + " of the surface the field") +
-        " has one minimum and one maximum, and no saddle between them (any more); a field with more "
+        " has one minimum, one maximum or boundary loop, and no saddle (any more); a field with more "
         "critical points, such as an eigenfunction of higher index, would help");
 }
 

@@ -5,9 +5,9 @@
 
 namespace morsel::mscomplex {
 
-/// Throws BadInput if the surface is bounded, or if some component has no saddle.
+/// Throws BadInput if some component has no saddle.
 void require_arcs(const MorseSmaleComplex& complex);
-/// Throws BadInput if some extremum has a single arc.
+/// Throws BadInput if some minimum or maximum has a single arc. (A cap may: its arc ends at the loop.)
 void require_no_dangling(const MorseSmaleComplex& complex);
 
 }  // namespace morsel::mscomplex

@@ -15,6 +15,7 @@ class LayoutMesh {
   /// Labels on edges: an arc of the complex, or one of these.
   static constexpr core::Index kFree = core::kNone;
   static constexpr core::Index kCut = core::kNone - 1;  ///< an arc's way, but of which arcs is not said
+  static constexpr core::Index kRim = core::kNone - 2;  ///< where the surface ends and a cap begins
 
   /// A copy of a closed mesh, without labels.
   explicit LayoutMesh(const core::TriangleMesh& mesh);

@@ -13,14 +13,14 @@ using core::Point;
 
 namespace {
 
-double square_to_segment(const Point& x, const Point& a, const Point& b) {
+Point nearest_on_segment(const Point& x, const Point& a, const Point& b) {
   const Point ab = b - a;
   const double length = ab.squaredNorm();
   const double t = length > 0 ? std::clamp((x - a).dot(ab) / length, 0.0, 1.0) : 0;
-  return (x - a - t * ab).squaredNorm();
+  return a + t * ab;
 }
 
-double square_to_triangle(const Point& x, const std::array<Point, 3>& p) {
+Point nearest_on_triangle(const Point& x, const std::array<Point, 3>& p) {
   const Point u = p[1] - p[0];
   const Point v = p[2] - p[0];
   const Point normal = u.cross(v);
@@ -29,13 +29,12 @@ double square_to_triangle(const Point& x, const std::array<Point, 3>& p) {
     const Point w = x - p[0];
     const double b = w.cross(v).dot(normal) / area;
     const double c = u.cross(w).dot(normal) / area;
-    if (b >= 0 && c >= 0 && b + c <= 1) {
-      const double height = w.dot(normal);
-      return height * height / area;
-    }
+    if (b >= 0 && c >= 0 && b + c <= 1) return p[0] + b * u + c * v;
   }
-  return std::min(
-      {square_to_segment(x, p[0], p[1]), square_to_segment(x, p[1], p[2]), square_to_segment(x, p[2], p[0])});
+  Point nearest = nearest_on_segment(x, p[0], p[1]);
+  for (const Point& other : {nearest_on_segment(x, p[1], p[2]), nearest_on_segment(x, p[2], p[0])})
+    if ((other - x).squaredNorm() < (nearest - x).squaredNorm()) nearest = other;
+  return nearest;
 }
 
 }  // namespace
@@ -97,14 +96,19 @@ void TriangleSearch::build(Index node, std::size_t first, std::size_t last, std:
   build(2 * node + 2, half, last, order, middle);
 }
 
-double TriangleSearch::distance(const Point& x) const {
-  double best = std::numeric_limits<double>::infinity();
+void TriangleSearch::search(const Point& x, double& best, Point& at) const {
   const auto square_to = [&](const Box& box) {
     return (box.min - x).cwiseMax(x - box.max).cwiseMax(Point::Zero()).squaredNorm();
   };
-  const auto search = [&](const auto& self, std::size_t node, std::size_t first, std::size_t last) -> void {
+  const auto visit = [&](const auto& self, std::size_t node, std::size_t first, std::size_t last) -> void {
     if (node >= boxes_.size() / 2) {
-      for (std::size_t i = first; i < last; ++i) best = std::min(best, square_to_triangle(x, corners_[i]));
+      for (std::size_t i = first; i < last; ++i) {
+        const Point nearest = nearest_on_triangle(x, corners_[i]);
+        const double square = (nearest - x).squaredNorm();
+        if (square >= best) continue;
+        best = square;
+        at = nearest;
+      }
       return;
     }
     const std::size_t half = first + (last - first) / 2;
@@ -122,8 +126,21 @@ double TriangleSearch::distance(const Point& x) const {
     else
       self(self, 2 * node + 1, first, half);
   };
-  search(search, 0, 0, corners_.size());
+  visit(visit, 0, 0, corners_.size());
+}
+
+double TriangleSearch::distance(const Point& x) const {
+  double best = std::numeric_limits<double>::infinity();
+  Point at;
+  search(x, best, at);
   return std::sqrt(best);
+}
+
+Point TriangleSearch::nearest(const Point& x) const {
+  double best = std::numeric_limits<double>::infinity();
+  Point at = x;
+  search(x, best, at);
+  return at;
 }
 
 }  // namespace morsel::mscomplex

@@ -17,11 +17,15 @@ class TriangleSearch {
 
   /// The distance from `x` to the nearest point of the triangles; infinite if there are none.
   double distance(const core::Point& x) const;
+  /// That nearest point; there must be triangles.
+  core::Point nearest(const core::Point& x) const;
 
  private:
   struct Box {
     core::Point min, max;
   };
+  /// Replaces `best`, a square of a distance, and `at` if some triangle is nearer.
+  void search(const core::Point& x, double& best, core::Point& at) const;
   void build(core::Index node, std::size_t first, std::size_t last, std::vector<core::Index>& order,
              const std::vector<core::Point>& middle);
 

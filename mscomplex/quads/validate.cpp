@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "morsel/core/require.h"
-#include "morsel/core/union_find.h"
 #include "morsel/mscomplex/quads.h"
 #include "morsel/mscomplex/quads/patch.h"
 
@@ -30,7 +29,8 @@ void QuadLayout::validate(const MorseSmaleComplex& complex) const {
   require(node_vertex.size() == complex.node_count() && arcs.size() == complex.arc_count() &&
               patches.size() == complex.quad_count() && patch_of_triangle.size() == surface.triangle_count(),
           "table sizes; arcs", static_cast<Index>(arcs.size()));
-  require(surface.euler_characteristic() == complex.mesh().euler_characteristic(),
+  require(surface.euler_characteristic() ==
+              complex.mesh().euler_characteristic() + long{complex.mesh().boundary_loop_count()},
           "Euler characteristic of surface", 0);
   std::vector<bool> used(surface.vertex_count(), false);
   for (const Index v : node_vertex) {
@@ -38,11 +38,24 @@ void QuadLayout::validate(const MorseSmaleComplex& complex) const {
     used[v] = true;
   }
   std::vector<Index> arc_of_halfedge(surface.halfedge_count(), kNone);
+  std::vector<Index> cap_at(surface.vertex_count(), kNone);  // per vertex on a rim
+  std::vector<bool> is_rim(surface.halfedge_count(), false);
+  for (Index k = 0; k < complex.cap_count(); ++k)
+    surface.for_each_outgoing(node_vertex[complex.cap_node(k)], [&](Index h) {
+      cap_at[surface.target(h)] = complex.cap_node(k);
+      is_rim[TriangleMesh::next(h)] = is_rim[surface.twin(TriangleMesh::next(h))] = true;
+      require(patch_of_triangle[TriangleMesh::triangle_of(h)] == kNone, "a patch in a cap's fan", k);
+    });
   for (Index a = 0; a < complex.arc_count(); ++a) {
     const auto& arc = arcs[a];
-    require(arc.size() >= 2 && arc.front() == node_vertex[complex.arc_saddle(a)] &&
-                arc.back() == node_vertex[complex.arc_end(a)],
-            "ends of arc", a);
+    const Index end = complex.arc_end(a);
+    require(arc.size() >= 2 && arc.front() == node_vertex[complex.arc_saddle(a)], "start of arc", a);
+    if (is_cap(end)) {
+      require(cap_at[arc.back()] == end && !used[arc.back()], "end of arc at a rim; arc", a);
+      used[arc.back()] = true;
+    } else {
+      require(arc.back() == node_vertex[end], "end of arc", a);
+    }
     for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
       if (i > 0) {
         require(!used[arc[i]], "arcs meet outside nodes: arc", a);
@@ -59,7 +72,12 @@ void QuadLayout::validate(const MorseSmaleComplex& complex) const {
     complex.for_each_arc_around(n, [&](Index a) { expected.push_back(a); });
     std::vector<Index> found;
     surface.for_each_outgoing(node_vertex[n], [&](Index h) {
-      if (arc_of_halfedge[h] != kNone) found.push_back(arc_of_halfedge[h]);
+      if (!is_cap(n)) {
+        if (arc_of_halfedge[h] != kNone) found.push_back(arc_of_halfedge[h]);
+        return;
+      }
+      for (const Index a : expected)
+        if (arcs[a].back() == surface.target(h)) found.push_back(a);
     });
     require(found.size() == expected.size() && !found.empty(), "arcs at node", n);
     const auto start = std::find(found.begin(), found.end(), expected.front());
@@ -67,7 +85,7 @@ void QuadLayout::validate(const MorseSmaleComplex& complex) const {
     require(found == expected, "cyclic order of arcs at node", n);
   }
   for (Index h = 0; h < surface.halfedge_count(); ++h)
-    if (arc_of_halfedge[h] == kNone)
+    if (arc_of_halfedge[h] == kNone && !is_rim[h])
       require(patch_of_triangle[TriangleMesh::triangle_of(h)] ==
                   patch_of_triangle[TriangleMesh::triangle_of(surface.twin(h))],
               "a patch ends off the arcs at half-edge", h);
@@ -81,7 +99,7 @@ void QuadLayout::validate(const MorseSmaleComplex& complex) const {
   }
 }
 
-void validate(const QuadMesh& quads, long euler_characteristic) {
+void validate(const QuadMesh& quads, long euler_characteristic, Index boundary_loops) {
   constexpr core::Require require("validate(QuadMesh)");
   struct Side {
     Index from, to, quad;
@@ -100,33 +118,55 @@ void validate(const QuadMesh& quads, long euler_characteristic) {
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);
   };
   std::sort(sides.begin(), sides.end(), order);
-  const auto across = [&](Index from, Index to) {
-    return std::lower_bound(sides.begin(), sides.end(), Side{to, from, 0}, order);
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    require(order(sides[i - 1], sides[i]), "two quads on one side of an edge: quad", sides[i].quad);
+  constexpr auto kNowhere = static_cast<std::size_t>(-1);
+  const auto find = [&](Index from, Index to) {
+    const auto found = std::lower_bound(sides.begin(), sides.end(), Side{from, to, 0}, order);
+    const bool there = found != sides.end() && found->from == from && found->to == to;
+    return there ? static_cast<std::size_t>(found - sides.begin()) : kNowhere;
   };
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Side& s = sides[i];
-    require(i == 0 || order(sides[i - 1], s), "two quads on one side of an edge: quad", s.quad);
-    const auto twin = across(s.from, s.to);
-    require(twin != sides.end() && twin->from == s.to && twin->to == s.from,
-            "no quad on the other side of quad", s.quad);
-  }
-  // The quads round a vertex are one cycle: as many as leave it.
+
+  // The quads round a vertex are one fan, from the boundary on if it is there, or one cycle.
   std::vector<bool> seen(vertices, false);
   std::vector<bool> walked(sides.size(), false);
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (walked[i]) continue;
-    const Index v = sides[i].from;
+  const auto walk_round = [&](std::size_t start) {
+    const Index v = sides[start].from;
     require(!seen[v], "two fans of quads at vertex", v);
     seen[v] = true;
-    for (std::size_t k = i; !walked[k];) {
+    for (std::size_t k = start; k != kNowhere && !walked[k];) {
       walked[k] = true;
       const auto& corners = quads.quads[sides[k].quad];
       const auto at = std::find(corners.begin(), corners.end(), v) - corners.begin();
-      k = static_cast<std::size_t>(across(corners[(at + 3) % 4], v) - sides.begin());
+      k = find(v, corners[(at + 3) % 4]);
+    }
+  };
+  std::vector<std::size_t> boundary(vertices,
+                                    kNowhere);  // per vertex: the side that leaves it along the boundary
+  long boundary_sides = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (find(sides[i].to, sides[i].from) == kNowhere) {
+      boundary[sides[i].from] = i;
+      ++boundary_sides;
+      walk_round(i);
+    }
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (!walked[i]) walk_round(i);
+  for (Index v = 0; v < vertices; ++v) require(seen[v], "in no quad: vertex", v);
+
+  Index loops = 0;
+  for (Index v = 0; v < vertices; ++v) {
+    if (boundary[v] == kNowhere) continue;
+    ++loops;
+    for (Index u = v; boundary[u] != kNowhere;) {
+      const Index next = sides[boundary[u]].to;
+      boundary[u] = kNowhere;
+      u = next;
     }
   }
-  for (Index v = 0; v < vertices; ++v) require(seen[v], "in no quad: vertex", v);
-  require(long{vertices} - 2 * long{count} + long{count} == euler_characteristic, "Euler characteristic", 0);
+  require(loops == boundary_loops, "boundary loops:", loops);
+  const long edges = (static_cast<long>(sides.size()) + boundary_sides) / 2;
+  require(long{vertices} - edges + long{count} == euler_characteristic, "Euler characteristic");
 }
 
 }  // namespace morsel::mscomplex
