@@ -113,8 +113,8 @@ struct PatchQuality {
 /// more than 180° is one that points inwards there, and its scaled Jacobian is the least sine of its four angles: 1 for
 /// a rectangle, negative if an angle points inwards.
 struct QuadQuality {
-  std::vector<std::size_t> valence;  ///< number of vertices of each valence
-  std::size_t extraordinary = 0;     ///< vertices of a valence other than 4
+  std::vector<std::size_t> valence;  ///< number of vertices with so many edges
+  std::size_t extraordinary = 0;     ///< vertices of a valence other than 4, 3 on the boundary
   double angle_mean = 0;             ///< of |angle − 90°| over all corners
   double angle_max = 0;
   double scaled_jacobian_mean = 0;

@@ -86,9 +86,7 @@ void ArcDrawing::cut_along_descents() {
     for (Index v : mesh.edge_vertices(saddle.cell))
       for (Index down; !done[v] && (down = gradient.descend(v)) != kNone; v = down) {
         done[v] = true;
-        mesh.for_each_outgoing(v, [&](Index h) {
-          if (mesh.target(h) == down) mesh_.set_label(h, LayoutMesh::kCut);
-        });
+        mesh_.set_label(mesh_.leaving_for(v, down), LayoutMesh::kCut);
       }
 }
 
@@ -98,9 +96,7 @@ void ArcDrawing::put_saddles_on_edges() {
     const Index edge_halfedge = mesh.edge_halfedge(complex_.gradient().saddles()[i].cell);
     const Index a = mesh.origin(edge_halfedge);
     const Index b = mesh.target(edge_halfedge);
-    // Earlier splits may have given it another number.
-    Index h = mesh_.leaving(a);
-    while (mesh_.target(h) != b) h = mesh_.next_around(h);
+    const Index h = mesh_.leaving_for(a, b);  // earlier splits may have given it another number
     node_vertex_[complex_.saddle_node(i)] = mesh_.split_edge(h, 0.5);
     mesh_.set_label(h, 4 * i);
     mesh_.set_label(LayoutMesh::next(mesh_.far_side_at_target(h)), 4 * i + 2);

@@ -15,6 +15,16 @@ LayoutMesh::LayoutMesh(const core::TriangleMesh& mesh)
   for (Index h = 0; h < mesh.halfedge_count(); ++h) origin_[h] = mesh.origin(h);
 }
 
+Index LayoutMesh::leaving_for(Index from, Index to) const {
+  const Index start = leaving_[from];
+  Index h = start;
+  do {
+    if (target(h) == to) return h;
+    h = next_around(h);
+  } while (h != start);
+  return kNone;
+}
+
 Index LayoutMesh::leaving_with_label(Index v, Index label) const {
   const Index start = leaving_[v];
   Index h = start;

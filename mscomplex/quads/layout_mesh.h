@@ -40,6 +40,8 @@ class LayoutMesh {
   core::Index label(core::Index h) const { return label_[h]; }
   bool is_free(core::Index h) const { return label_[h] == kFree; }
   void set_label(core::Index h, core::Index label) { label_[h] = label_[twin_[h]] = label; }
+  /// The half-edge from one vertex to another; kNone if there is none.
+  core::Index leaving_for(core::Index from, core::Index to) const;
   /// The half-edge that leaves v with this label, the first counter-clockwise from leaving(v); kNone if there is none.
   core::Index leaving_with_label(core::Index v, core::Index label) const;
 

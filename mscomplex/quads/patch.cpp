@@ -24,12 +24,9 @@ constexpr int kStretchRounds = 30;
 std::string name_of(Index q) { return "patch " + std::to_string(q); }
 
 Index halfedge(const LayoutMesh& mesh, Index from, Index to) {
-  const Index start = mesh.leaving(from);
-  for (Index h = start;;) {
-    if (mesh.target(h) == to) return h;
-    h = mesh.next_around(h);
-    if (h == start) throw std::logic_error("quad layout: an arc leaves the edges");
-  }
+  const Index h = mesh.leaving_for(from, to);
+  if (h == kNone) throw std::logic_error("quad layout: an arc leaves the edges");
+  return h;
 }
 
 }  // namespace

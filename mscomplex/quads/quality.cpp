@@ -68,13 +68,22 @@ double add_quad(const std::array<Point, 4>& p, Shape& shape) {
 }
 
 void measure_valence(const QuadMesh& mesh, QuadQuality& quality) {
-  std::vector<Index> valence(mesh.positions.size(), 0);
+  std::vector<std::array<Index, 2>> sides;
   for (const auto& quad : mesh.quads)
-    for (const Index v : quad) ++valence[v];
-  for (const Index k : valence) {
-    if (quality.valence.size() <= k) quality.valence.resize(k + 1, 0);
-    ++quality.valence[k];
-    if (k != 4) ++quality.extraordinary;
+    for (int i = 0; i < 4; ++i) sides.push_back({quad[i], quad[(i + 1) % 4]});
+  std::sort(sides.begin(), sides.end());
+  std::vector<Index> valence(mesh.positions.size(), 0);
+  std::vector<bool> is_boundary(mesh.positions.size(), false);
+  for (const auto& [from, to] : sides) {
+    ++valence[from];
+    if (std::binary_search(sides.begin(), sides.end(), std::array{to, from})) continue;
+    ++valence[to];
+    is_boundary[from] = is_boundary[to] = true;
+  }
+  for (std::size_t v = 0; v < valence.size(); ++v) {
+    if (quality.valence.size() <= valence[v]) quality.valence.resize(valence[v] + 1, 0);
+    ++quality.valence[valence[v]];
+    if (valence[v] != (is_boundary[v] ? 3 : 4)) ++quality.extraordinary;
   }
 }
 

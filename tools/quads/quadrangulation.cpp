@@ -51,6 +51,10 @@ QuadRecipe prepare(const QuadRequest& request) {
 
 Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
                               const core::Progress& progress) {
+  if (recipe.resolution % 2 != 0 && !field.mesh().is_closed())
+    throw core::InvalidArgument(
+        "--resolution must be even on a surface with boundary loops, where patches of five sides "
+        "are cut into five at their middles");
   const Stopwatch layout_watch;
   Simplified simplified = simplify(field, recipe, progress);
   mscomplex::RepairedComplex repaired =
@@ -60,13 +64,20 @@ Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& 
   const double layout_seconds = layout_watch.seconds();
   const Stopwatch sampling_watch;
   mscomplex::QuadMesh mesh = mscomplex::sample(layout, recipe.resolution, progress);
-  mscomplex::validate(mesh, field.mesh().euler_characteristic());
+  mscomplex::validate(mesh, field.mesh().euler_characteristic(), field.mesh().boundary_loop_count());
   const double sampling_seconds = sampling_watch.seconds();
   const Stopwatch measuring_watch;
   mscomplex::QuadQuality quality = mscomplex::measure(mesh, field.mesh(), progress);
   return {simplified.threshold, simplified.cancelled, std::move(repaired),
           std::move(layout),    std::move(mesh),      std::move(quality),
           layout_seconds,       sampling_seconds,     measuring_watch.seconds()};
+}
+
+core::Index boundary_patches(const mscomplex::MorseSmaleComplex& complex) {
+  core::Index count = 0;
+  for (core::Index q = 0; q < complex.quad_count(); ++q)
+    if (complex.kind(complex.quad(q).nodes[2]) == mscomplex::NodeKind::cap) ++count;
+  return count;
 }
 
 std::string described(const Quadrangulation& result, double diagonal) {
@@ -81,16 +92,19 @@ std::string described(const Quadrangulation& result, double diagonal) {
   text += "layout: " + plural(complex.quad_count(), "patch", "patches") + " between " +
           plural(complex.minimum_count(), "minimum", "minima") + ", " +
           plural(complex.saddle_count(), "saddle", "saddles") + " and " +
-          plural(complex.maximum_count(), "maximum", "maxima") + "\n";
+          plural(complex.maximum_count(), "maximum", "maxima");
+  if (complex.cap_count() > 0)
+    text += "; " + plural(boundary_patches(complex), "patch", "patches") + " at " +
+            plural(complex.cap_count(), "boundary loop", "boundary loops") + ", of five sides";
+  text += "\n";
   if (result.layout.missed > 0)
     text += "        " + plural(result.layout.missed, "arc takes", "arcs take") +
             " the way through the fewest triangles, a straight line being too fine for double precision\n";
   text += "quads: " + grouped(result.mesh.quads.size()) + " on " + grouped(result.mesh.positions.size()) +
           " vertices, of which " + grouped(q.extraordinary) + " extraordinary (valence";
   for (std::size_t k = 0; k < q.valence.size(); ++k)
-    if (k != 4 && q.valence[k] > 0) text += " " + std::to_string(k) + ": " + grouped(q.valence[k]) + ",";
-  text.back() = q.extraordinary > 0 ? ')' : ' ';
-  if (q.extraordinary == 0) text += "4 everywhere)";
+    if (q.valence[k] > 0) text += " " + std::to_string(k) + ": " + grouped(q.valence[k]) + ",";
+  text.back() = ')';
   text += "\nangles: off 90° by " + number(q.angle_mean, 1) + "° in the mean, " + number(q.angle_max, 1) +
           "° at most; scaled Jacobian " + number(q.scaled_jacobian_mean, 3) + " in the mean, " +
           number(q.scaled_jacobian_min, 3) + " at least; " + plural(q.concave, "quad", "quads") +

@@ -39,10 +39,13 @@ struct Quadrangulation {
   double measuring_seconds = 0;
 };
 
-/// The quads are checked to be a closed manifold of the surface's Euler characteristic before they are handed out. Throws
-/// BadInput where the field gives no layout.
+/// The quads are checked to be a manifold of the surface's Euler characteristic and boundary loops before they are handed
+/// out. Throws BadInput where the field gives no layout, and InvalidArgument for an odd resolution on a bounded surface.
 Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
                               const core::Progress& progress = {});
+
+/// Patches at boundary loops, which have five sides.
+core::Index boundary_patches(const mscomplex::MorseSmaleComplex& complex);
 
 /// For people: what was cancelled, what the layout is, and how good the quads are.
 std::string described(const Quadrangulation& result, double diagonal);

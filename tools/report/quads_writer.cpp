@@ -66,6 +66,7 @@ void write_quads(JsonSink& json, const QuadsInput& input, const HashedMesh& mesh
                          {"maxima", complex.maximum_count()},
                          {"arcs", complex.arc_count()},
                          {"patches", complex.quad_count()},
+                         {"boundary_patches", boundary_patches(complex)},
                          {"arcs_by_fewest_triangles", result.layout.missed}});
   json.member("quads", {{"vertices", result.mesh.positions.size()}, {"quads", result.mesh.quads.size()}});
   json.member("quality", quality_section(result.quality));
@@ -74,6 +75,7 @@ void write_quads(JsonSink& json, const QuadsInput& input, const HashedMesh& mesh
     const mscomplex::Quad quad = complex.quad(q);
     const mscomplex::PatchQuality& quality = result.quality.patches[q];
     json.row({{"patch", std::uint64_t{q}},
+              {"sides", std::uint64_t{complex.kind(quad.nodes[2]) == mscomplex::NodeKind::cap ? 5u : 4u}},
               {"minimum", vertex_of(quad.nodes[0])},
               {"saddle", vertex_of(quad.nodes[1])},
               {"maximum", vertex_of(quad.nodes[2])},
