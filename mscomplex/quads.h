@@ -95,7 +95,7 @@ struct QuadMesh {
 ///
 /// Vertices: nodes but caps first (in the complex's order), then arc by arc from its saddle, then those on loops, then
 /// patch by patch; all lie on the input. Quads come patch by patch. Throws InvalidArgument for a resolution below 2
-/// (valence-two nodes would make two quads of the same four corners) or an odd one with boundary loops, and BadInput
+/// (valence-two nodes would make two quads of the same four corners) or, with boundary loops, one that is odd or below 4, and BadInput
 /// where a patch is too thin to be parametrised in double precision. Parallel, the same bits for every number of
 /// threads.
 QuadMesh sample(const QuadLayout& layout, core::Index resolution, const core::Progress& progress = {});

@@ -118,10 +118,9 @@ void sample_arcs(const QuadLayout& layout, const Numbering& number, Index n, std
 
 void check_resolution(const QuadLayout& layout, Index n) {
   if (n < 2) throw core::InvalidArgument("a patch needs a resolution of 2 quads a side or more");
-  if (n % 2 != 0 && layout.cap_count() > 0)
-    throw core::InvalidArgument(
-        "the resolution must be even, not " + std::to_string(n) +
-        ": patches at a boundary loop have five sides, and are cut into five at their middles");
+  if (layout.cap_count() > 0 && (n % 2 != 0 || n < 4))
+    throw core::InvalidArgument("the resolution must be 4 or more and even, not " + std::to_string(n) +
+                                ": patches at a boundary loop have five sides, and are cut into five");
   if (!(double(layout.patches.size()) * n * n < 1e9))
     throw core::InvalidArgument("a resolution of " + std::to_string(n) + " makes more than a billion quads");
 }

@@ -191,7 +191,8 @@ TEST_CASE("what has no layout is refused") {
   const TriangleMesh disc = grid(6, 6).mesh();
   const ScalarField bumpy(disc, random_values(disc.vertex_count(), 1));
   const auto repaired = mscomplex::repair_dangling(bumpy, MorseSmaleComplex(bumpy));
-  CHECK_THROWS_AS(mscomplex::sample(mscomplex::embed_layout(repaired.complex), 3), core::InvalidArgument);
+  for (const Index n : {2u, 5u})
+    CHECK_THROWS_AS(mscomplex::sample(mscomplex::embed_layout(repaired.complex), n), core::InvalidArgument);
   CHECK_THROWS_AS(mscomplex::embed_layout(complex, {.relaxation = -1}), core::InvalidArgument);
 }
 
@@ -201,10 +202,10 @@ TEST_CASE("layouts of every mesh of the zoo") {
     for (const NamedField& f : field_zoo(entry.mesh, 81))
       for (const int relaxation : {0, 1}) {
         INFO(entry.name << " | " << f.name << " | relaxed " << relaxation);
-        laid_out += check_layout(f.field, relaxation, 2);
+        laid_out += check_layout(f.field, relaxation, entry.mesh.is_closed() ? 2 : 4);
       }
   }
-  CHECK(laid_out >= 150);
+  CHECK(laid_out >= 130);
 }
 
 TEST_CASE("layouts of random surfaces and fields") {
@@ -213,7 +214,7 @@ TEST_CASE("layouts of random surfaces and fields") {
     const TriangleMesh mesh = random_surface(seed);
     INFO("seed " << seed);
     laid_out += check_layout({mesh, random_values(mesh.vertex_count(), seed)}, 2, 4);
-    laid_out += check_layout({mesh, smooth_values(mesh, 2, seed)}, 0, 2);
+    laid_out += check_layout({mesh, smooth_values(mesh, 2, seed)}, 0, 4);
   }
   CHECK(laid_out >= 100);
 }
@@ -238,24 +239,23 @@ TEST_CASE("quads of the bunny, the elephant and the lion") {
   for (const char* file : {"bunny00.off", "refined_elephant.off", "lion-head.off"}) {
     INFO(file);
     const TriangleMesh mesh = core::read_mesh(sample(file)).mesh;
-    const ScalarField field = eigenfunction(mesh, 30);
+    const ScalarField field = eigenfunction(mesh, 20);
     const auto repaired = mscomplex::repair_dangling(field, MorseSmaleComplex(field));
-    const QuadLayout rough = mscomplex::embed_layout(repaired.complex, {.relaxation = 0});
-    const QuadLayout relaxed = mscomplex::embed_layout(repaired.complex, {.relaxation = 1});
-    CHECK(rough.missed == 0);
-    double angle = 0;
-    for (const QuadLayout* layout : {&rough, &relaxed}) {
-      layout->validate(repaired.complex);
-      const QuadMesh quads = mscomplex::sample(*layout, 10);
+    std::vector<double> angles;
+    for (const int relaxation : {0, 1}) {
+      const QuadLayout layout = mscomplex::embed_layout(repaired.complex, {relaxation});
+      CHECK(layout.missed == 0);
+      layout.validate(repaired.complex);
+      const QuadMesh quads = mscomplex::sample(layout, 10);
       mscomplex::validate(quads, mesh.euler_characteristic(), mesh.boundary_loop_count());
       check_on_surface(quads, mesh);
       const mscomplex::QuadQuality quality = mscomplex::measure(quads, mesh);
       CHECK(quality.concave < quads.quads.size() / 10);
       CHECK(quality.distance_max < 0.05 * mesh.bounding_box().diagonal());
       CHECK(quality.distance_from_input < 0.1 * mesh.bounding_box().diagonal());
-      if (layout == &relaxed) CHECK(quality.angle_mean < angle);
-      angle = quality.angle_mean;
+      angles.push_back(quality.angle_mean);
     }
+    CHECK(angles[1] < angles[0]);
   }
 }
 

@@ -86,7 +86,8 @@ void add_quads(CLI::App& app, Invocation& invocation) {
       "in\n"
       "nodes alone. Smooth fields with evenly spread critical points give good layouts: eigenfunctions, the "
       "more\n"
-      "patches the higher the index. At a boundary loop patches have five sides; there N must be even. An extremum with a single arc is cancelled "
+      "patches the higher the index. At a boundary loop patches have five sides; there N must be 4 or more "
+      "and even. An extremum with a single arc is cancelled "
       "with\n"
       "its saddle, and reported; a field that leaves a component without a saddle is refused.\n" +
       specification_help());

@@ -51,10 +51,10 @@ QuadRecipe prepare(const QuadRequest& request) {
 
 Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
                               const core::Progress& progress) {
-  if (recipe.resolution % 2 != 0 && !field.mesh().is_closed())
+  if (!field.mesh().is_closed() && (recipe.resolution % 2 != 0 || recipe.resolution < 4))
     throw core::InvalidArgument(
-        "--resolution must be even on a surface with boundary loops, where patches of five sides "
-        "are cut into five at their middles");
+        "--resolution must be 4 or more and even on a surface with boundary loops, where patches have five "
+        "sides and are cut into five at their middles");
   const Stopwatch layout_watch;
   Simplified simplified = simplify(field, recipe, progress);
   mscomplex::RepairedComplex repaired =
