@@ -18,6 +18,9 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
+/// Rounds without less stretch after which no more are tried.
+constexpr int kMostInVain = 3;
+
 /// tan of half the angle at corner i of a triangle: how the mean-value weights of the two edges there begin. Slivers have
 /// angles of nearly π, whose tangents would drown all other weights.
 double half_tangent(const Corners& p, int i) {
@@ -135,11 +138,16 @@ void embed_inside(const LayoutMesh& mesh, const Disc& disc, int rounds, std::vec
         "precision; a mesh without degenerate triangles would help");
   std::vector<Vector2d> next = place;
   double stretch = means.weaken_stretched(place);
-  for (int round = 0; round < rounds && means.solve(next); ++round) {
+  int in_vain = 0;
+  for (int round = 0; round < rounds && in_vain < kMostInVain && means.solve(next); ++round) {
     const double now = means.weaken_stretched(next);
-    if (!(now < stretch)) break;
-    stretch = now;
-    place = next;
+    if (now < stretch) {
+      stretch = now;
+      place = next;
+      in_vain = 0;
+    } else {
+      ++in_vain;
+    }
   }
 }
 

@@ -13,8 +13,8 @@ namespace morsel::mscomplex {
 /// provided that no inner edge joins two border vertices on one straight piece of the curve. `place` has an entry per
 /// disc vertex, those of the border set.
 ///
-/// Such a map makes what sticks out of the disc (an ear, a leg) tiny. So it is evened out in at most `rounds` rounds, as
-/// long as the stretch decreases, by weakening edges where it is large (Yoshizawa, Belyaev, Seidel 2004, "A fast and
+/// Such a map makes what sticks out of the disc (an ear, a leg) tiny. So it is evened out in at most `rounds` rounds, fewer
+/// when the stretch no longer decreases, by weakening edges where it is large (Yoshizawa, Belyaev, Seidel 2004, "A fast and
 /// simple stretch-minimizing mesh parameterization"); weights stay positive.
 ///
 /// Throws BadInput, naming `what`, if the linear system cannot be solved.
