@@ -31,6 +31,7 @@ struct CriticalCell {
 /// run's lowest; and where the whole link is lower, the highest triangle (by sorted ranks) stays critical.
 ///
 /// Immutable; copies are deep. Memory: 4 bytes a vertex and 1 a triangle, and the critical cells.
+/// with_reversed() makes a simpler one of it, whose critical cells are some of the field's.
 class DiscreteGradient {
  public:
   /// O(n + Σ runs log runs), whatever the degrees; parallel over vertices, the same bits for every number of
@@ -47,7 +48,7 @@ class DiscreteGradient {
   /// Critical triangles by ascending vertex. The caps, critical too, are not among them.
   std::span<const CriticalCell> maxima() const { return maxima_; }
 
-  /// The other end of the edge that v is paired with, v's lowest neighbour; kNone at a minimum.
+  /// The other end of the edge that v is paired with (from lower stars v's lowest neighbour); kNone at a minimum.
   core::Index descend(core::Index v) const { return lower_[v]; }
   std::span<const core::Index> descents() const { return lower_; }
   /// The half-edge, in triangle t, of the edge that t is paired with; kNone at a critical triangle.
@@ -82,9 +83,20 @@ class DiscreteGradient {
     return paired_vertex(e) == core::kNone && paired_triangle(e) == core::kNone;
   }
 
-  /// Checks every rule for `field`, for tests: each cell in at most one pair, pairs of facet and cofacet with
-  /// one highest vertex, no closed V-path, lists that name exactly the cells in no pair, Euler's identity
-  /// component by component. Throws std::logic_error naming the first contradiction. O(n).
+  /// The gradient with the V-paths of these arcs turned round one after the other, so that the saddle and the
+  /// extremum at each arc's ends are critical no longer (Forman 1998, "Morse theory for cell complexes"). Arcs are
+  /// numbered as the Morse-Smale complex of this gradient has them: 4i + k for side k of saddles()[i]; where an arc
+  /// ends is changed by those before it. Throws InvalidArgument for a saddle that is not there (any more), an arc
+  /// that ends in a cap, and one whose saddle reaches the same extremum on both sides, which would close a V-path. The
+  /// result's pairs no longer share their highest vertices. O(n) and the lengths of both ways from each saddle.
+  DiscreteGradient with_reversed(std::span<const core::Index> arcs) const;
+
+  /// Checks what every discrete gradient must be, for tests: each cell in at most one pair, no closed V-path, lists
+  /// that name exactly the cells in no pair in their order, Euler's identity component by component. Throws
+  /// std::logic_error naming the first contradiction. O(n).
+  void validate() const;
+  /// Checks also that it is that of `field`'s lower stars: pairs of facet and cofacet with one highest vertex, each vertex
+  /// paired with the edge to its lowest neighbour, critical cells at their highest vertex. O(n).
   void validate(const core::ScalarField& field) const;
 
  private:
@@ -95,6 +107,8 @@ class DiscreteGradient {
     std::vector<CriticalCell> saddles;
     std::vector<CriticalCell> maxima;
   };
+  void reverse_descent(core::Index edge, core::Index arc);
+  void reverse_ascent(core::Index edge, core::Index arc);
   void process_lower_star(std::span<const core::Index> rank, core::Index v, Scratch& scratch,
                           CriticalCells& critical);
 

@@ -28,25 +28,15 @@ void require_acyclic(Index count, const Next& next, const char* what) {
 
 }  // namespace
 
-void DiscreteGradient::validate(const core::ScalarField& field) const {
-  require(field.mesh().is_same(mesh_), "the field is on another mesh than the gradient; vertices",
-          mesh_.vertex_count());
-  const auto rank = field.ranks();
-  const auto highest = [&](auto cell) {
-    return *std::max_element(cell.begin(), cell.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
-  };
-
+void DiscreteGradient::validate() const {
   // Every cell's pairs, counted.
-  std::vector<Index> vertex_pairs(mesh_.vertex_count(), 0);
   std::vector<Index> edge_pairs(mesh_.edge_count(), 0);
   std::vector<Index> ring;
   for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+    if (lower_[v] == kNone) continue;
     mesh_.neighbors(v, ring);
-    const Index lowest =
-        *std::min_element(ring.begin(), ring.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
-    require(lower_[v] == (rank[lowest] < rank[v] ? lowest : kNone),
-            "not its lowest neighbour: the pair of vertex", v);
-    if (lower_[v] != kNone) ++vertex_pairs[v];
+    require(std::find(ring.begin(), ring.end(), lower_[v]) != ring.end(),
+            "paired with no edge of its own: vertex", v);
   }
   for (Index e = 0; e < mesh_.edge_count(); ++e) {
     const auto [a, b] = mesh_.edge_vertices(e);
@@ -58,12 +48,12 @@ void DiscreteGradient::validate(const core::ScalarField& field) const {
     if (side_[t] == kCritical) continue;
     const Index e = mesh_.edge(3 * t + side_[t]);
     ++edge_pairs[e];
-    require(highest(mesh_.edge_vertices(e)) == highest(mesh_.triangle(t)),
-            "pair across lower stars: triangle", t);
     require(paired_triangle(e) == t, "paired_triangle() of edge", e);
   }
-  for (Index e = 0; e < mesh_.edge_count(); ++e) require(edge_pairs[e] <= 1, "several pairs of edge", e);
-
+  for (Index e = 0; e < mesh_.edge_count(); ++e) {
+    require(edge_pairs[e] <= 1, "several pairs of edge", e);
+    require(is_critical_edge(e) == (edge_pairs[e] == 0), "is_critical_edge() of edge", e);
+  }
   require_acyclic(
       mesh_.vertex_count(), [&](Index v) { return descend(v); }, "closed V-path through vertex");
   require_acyclic(
@@ -72,29 +62,25 @@ void DiscreteGradient::validate(const core::ScalarField& field) const {
   // The lists are the cells in no pair, in their order.
   std::vector<Index> minima;
   for (Index v = 0; v < mesh_.vertex_count(); ++v)
-    if (vertex_pairs[v] == 0) minima.push_back(v);
-  require(std::equal(minima.begin(), minima.end(), minima_.begin(), minima_.end()),
-          "list of minima; vertices", static_cast<Index>(minima.size()));
-
-  std::vector<CriticalCell> saddles;
-  std::vector<CriticalCell> maxima;
-  for (Index e = 0; e < mesh_.edge_count(); ++e) {
-    require(is_critical_edge(e) == (edge_pairs[e] == 0), "is_critical_edge() of edge", e);
-    if (edge_pairs[e] == 0) saddles.push_back({e, highest(mesh_.edge_vertices(e))});
-  }
-  for (Index t = 0; t < mesh_.triangle_count(); ++t)
-    if (side_[t] == kCritical) maxima.push_back({t, highest(mesh_.triangle(t))});
-  const auto lower_end_rank = [&](const CriticalCell& saddle) {
-    const auto [a, b] = mesh_.edge_vertices(saddle.cell);
-    return std::min(rank[a], rank[b]);
+    if (lower_[v] == kNone) minima.push_back(v);
+  require(minima == minima_, "list of minima; vertices", static_cast<Index>(minima.size()));
+  const auto by_vertex = [](const CriticalCell& a, const CriticalCell& b) { return a.vertex < b.vertex; };
+  const auto check_list = [&](const std::vector<CriticalCell>& list, const auto& is_critical, Index cells,
+                              const char* what) {
+    require(std::is_sorted(list.begin(), list.end(), by_vertex), what, static_cast<Index>(list.size()));
+    std::vector<Index> listed;
+    for (const CriticalCell& critical : list) listed.push_back(critical.cell);
+    std::sort(listed.begin(), listed.end());
+    std::vector<Index> found;
+    for (Index cell = 0; cell < cells; ++cell)
+      if (is_critical(cell)) found.push_back(cell);
+    require(listed == found, what, static_cast<Index>(found.size()));
   };
-  std::sort(saddles.begin(), saddles.end(), [&](const CriticalCell& a, const CriticalCell& b) {
-    return a.vertex < b.vertex || (a.vertex == b.vertex && lower_end_rank(a) < lower_end_rank(b));
-  });
-  std::sort(maxima.begin(), maxima.end(),
-            [](const CriticalCell& a, const CriticalCell& b) { return a.vertex < b.vertex; });
-  require(saddles == saddles_, "list of saddles; edges", static_cast<Index>(saddles.size()));
-  require(maxima == maxima_, "list of maxima; triangles", static_cast<Index>(maxima.size()));
+  check_list(
+      saddles_, [&](Index e) { return edge_pairs[e] == 0; }, mesh_.edge_count(), "list of saddles; edges");
+  check_list(
+      maxima_, [&](Index t) { return side_[t] == kCritical; }, mesh_.triangle_count(),
+      "list of maxima; triangles");
 
   std::vector<long> euler(mesh_.component_count(), 0);
   for (const Index v : minima_) ++euler[mesh_.component_of_vertex(v)];
@@ -102,6 +88,40 @@ void DiscreteGradient::validate(const core::ScalarField& field) const {
   for (const CriticalCell& m : maxima_) ++euler[mesh_.component_of_vertex(m.vertex)];
   for (Index c = 0; c < mesh_.component_count(); ++c)
     require(euler[c] == mesh_.euler_characteristic(c), "Euler's identity in component", c);
+}
+
+void DiscreteGradient::validate(const core::ScalarField& field) const {
+  require(field.mesh().is_same(mesh_), "the field is on another mesh than the gradient; vertices",
+          mesh_.vertex_count());
+  validate();
+  const auto rank = field.ranks();
+  const auto by_rank = [&](Index a, Index b) { return rank[a] < rank[b]; };
+  const auto highest = [&](auto cell) { return *std::max_element(cell.begin(), cell.end(), by_rank); };
+  std::vector<Index> ring;
+  for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+    mesh_.neighbors(v, ring);
+    const Index lowest = *std::min_element(ring.begin(), ring.end(), by_rank);
+    require(lower_[v] == (rank[lowest] < rank[v] ? lowest : kNone),
+            "not its lowest neighbour: the pair of vertex", v);
+  }
+  for (Index t = 0; t < mesh_.triangle_count(); ++t)
+    if (side_[t] != kCritical)
+      require(highest(mesh_.edge_vertices(mesh_.edge(3 * t + side_[t]))) == highest(mesh_.triangle(t)),
+              "pair across lower stars: triangle", t);
+  for (const CriticalCell& m : maxima_)
+    require(m.vertex == highest(mesh_.triangle(m.cell)), "not at its highest vertex: triangle", m.cell);
+  for (const CriticalCell& s : saddles_)
+    require(s.vertex == highest(mesh_.edge_vertices(s.cell)), "not at its highest vertex: edge", s.cell);
+  const auto lower_end_rank = [&](const CriticalCell& saddle) {
+    const auto [a, b] = mesh_.edge_vertices(saddle.cell);
+    return std::min(rank[a], rank[b]);
+  };
+  require(std::is_sorted(saddles_.begin(), saddles_.end(),
+                         [&](const CriticalCell& a, const CriticalCell& b) {
+                           return a.vertex < b.vertex ||
+                                  (a.vertex == b.vertex && lower_end_rank(a) < lower_end_rank(b));
+                         }),
+          "order of saddles at one vertex; saddles", static_cast<Index>(saddles_.size()));
 }
 
 }  // namespace morsel::mscomplex
