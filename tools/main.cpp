@@ -46,6 +46,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   Invocation invocation;
   add_compare(app, invocation);
   add_field(app, invocation);
+  add_hierarchy(app, invocation);
   add_info(app, invocation);
   add_check(app, invocation);
   add_molecule(app, invocation);

@@ -53,6 +53,7 @@ void tell_target(const MadeField& made, Console& console);
 
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_field(CLI::App& app, Invocation& invocation);
+void add_hierarchy(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_check(CLI::App& app, Invocation& invocation);
 void add_molecule(CLI::App& app, Invocation& invocation);

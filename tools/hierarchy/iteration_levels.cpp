@@ -118,8 +118,8 @@ std::string with_iterations(const std::string& method, int needed) {
   const core::Specification& last = chain.back();
   const auto entry = std::ranges::find_if(methods(), [&](const auto& e) { return e.name == last.name; });
   if (!is_iterative(*entry))
-    throw InvalidArgument(last.name + " has no iterations that could be levels; the methods that have: " +
-                          iterative_methods());
+    throw InvalidArgument(
+        last.name + " has no iterations that could be levels; the methods that have: " + iterative_methods());
   for (const auto& [key, value] : last.given) {
     if (key != "iterations") continue;
     if (core::parse_integer(core::unescape(value), last.name + ":iterations") < needed)

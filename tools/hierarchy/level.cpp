@@ -1,5 +1,7 @@
 #include "morsel/tools/hierarchy/level.h"
 
+#include <numeric>
+
 namespace morsel::tools {
 
 using core::Index;
@@ -37,6 +39,17 @@ Index Level::label_count(CellKind kind) const {
       break;
   }
   return segmentation.morse_smale.count;
+}
+
+std::vector<Index> Level::labels(CellKind kind) const {
+  const mscomplex::SegmentLabels& labels = cells(kind);
+  std::vector<Index> carried(label_count(kind));
+  std::iota(carried.begin(), carried.end(), Index{0});
+  if (labels.count == carried.size()) return carried;
+  std::vector<std::uint8_t> occurs(carried.size(), 0);
+  for (const Index label : labels.triangle) occurs[label] = 1;
+  std::erase_if(carried, [&](Index label) { return occurs[label] == 0; });
+  return carried;
 }
 
 PointStatus Level::status(std::size_t point) const {

@@ -22,7 +22,7 @@ namespace morsel::tools {
 /// How far cancellation went to a level by persistence.
 struct CancelledLevel {
   core::Index cancellations = 0;
-  double largest = 0;  ///< the largest persistence among them
+  double largest = 0;                     ///< the largest persistence among them
   std::optional<double> threshold = {};   ///< that was asked for, in the field's unit
   std::optional<std::size_t> count = {};  ///< of critical cells that was asked for
 };
@@ -76,6 +76,8 @@ struct Level {
   const CellLinks& cell_links(CellKind kind) const { return links[static_cast<std::size_t>(kind)]; }
   /// Labels are below this; those that no triangle carries are counted here, and in cells().count they are not.
   core::Index label_count(CellKind kind) const;
+  /// The labels that triangles carry, ascending; as many as cells().count. O(n).
+  std::vector<core::Index> labels(CellKind kind) const;
 
   PointStatus status(std::size_t point) const;
   std::size_t count(PointStatus status) const;

@@ -17,11 +17,10 @@ auto timed(Timings& timings, const char* step, const Run& run) {
 
 Level make_level(LevelSeed seed, std::size_t place, const core::Progress& progress) {
   Timings timings;
-  auto complex = timed(timings, "complex", [&] {
-    return mscomplex::MorseSmaleComplex(*seed.field, seed.gradient(), progress);
-  });
-  auto segmentation = timed(
-      timings, "segmentation", [&] { return mscomplex::segment(*seed.field, complex.gradient(), progress); });
+  auto complex = timed(timings, "complex",
+                       [&] { return mscomplex::MorseSmaleComplex(*seed.field, seed.gradient(), progress); });
+  auto segmentation = timed(timings, "segmentation",
+                            [&] { return mscomplex::segment(*seed.field, complex.gradient(), progress); });
   return {place,
           std::move(seed.name),
           std::move(seed.field),
