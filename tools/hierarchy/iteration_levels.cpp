@@ -135,6 +135,7 @@ IterationLevels iteration_levels(const MethodChain& chain, const core::LoadedMes
                                  const std::vector<int>& levels, const core::Progress& progress) {
   LevelCollector collector(levels, matching_radius(loaded.mesh), progress);
   ChainOptions options;
+  options.count_iterations = true;
   options.on_iteration = [&](int iteration, const ScalarField& field) {
     return collector.take(iteration, field);
   };
