@@ -17,6 +17,7 @@
 #include "morsel/persistence/cancellation.h"
 #include "morsel/persistence/pairing.h"
 #include "support/fields.h"
+#include "support/greedy_hierarchy.h"
 #include "support/meshes.h"
 #include "support/random_surfaces.h"
 
@@ -226,6 +227,26 @@ TEST_CASE("every level of a hierarchy is the complex of the gradient with V-path
         INFO(entry.name << " | " << f.name << " | seed " << seed);
         check_hierarchy(f.field, seed);
       }
+}
+
+TEST_CASE("cancellations are those of the shortest arc again and again") {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const TriangleMesh mesh = random_surface(seed);
+    INFO("seed " << seed);
+    const PersistenceHierarchy hierarchy({mesh, random_values(mesh.vertex_count(), seed)});
+    const auto greedy = cancel_greedily(hierarchy.complex());
+    REQUIRE(greedy.size() == hierarchy.levels());
+    std::set<std::array<Index, 2>> saddles_and_extrema;
+    std::set<std::array<Index, 2>>
+        expected;  // the saddle's vertex: a multiple saddle may give either of its cells
+    for (std::size_t i = 0; i < greedy.size(); ++i) {
+      const Cancellation& c = hierarchy.cancellations()[i];
+      REQUIRE(c.persistence == greedy[i].persistence);
+      saddles_and_extrema.insert({hierarchy.complex().node(hierarchy.saddle_of(c)).vertex, c.extremum});
+      expected.insert({hierarchy.complex().node(greedy[i].saddle).vertex, greedy[i].extremum});
+    }
+    REQUIRE(saddles_and_extrema == expected);
+  }
 }
 
 TEST_CASE("hierarchies of random surfaces") {
