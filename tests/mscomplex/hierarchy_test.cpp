@@ -151,6 +151,30 @@ void check_against_cancelled(const ScalarField& field, const PersistenceHierarch
   REQUIRE(extrema_of(fresh) == extrema_of(kept));
 }
 
+/// Share of the vertices that lie in the basin of the same minimum, and of the triangles on the hill of the same maximum
+/// or cap, at a level and in the field with the same pairs cancelled. Near saddles that flooding moves they may differ.
+std::array<double, 2> agreement(const ScalarField& field, const PersistenceHierarchy& hierarchy,
+                                Index level) {
+  const double threshold = hierarchy.cancellations()[level - 1].persistence;
+  const ScalarField cancelled =
+      persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}).field;
+  const DiscreteGradient kept = hierarchy.gradient(level);
+  const DiscreteGradient fresh(cancelled);
+  const auto a = mscomplex::segment(field, kept);
+  const auto b = mscomplex::segment(cancelled, fresh);
+  const auto top = [](const DiscreteGradient& gradient, Index label) {
+    const auto maxima = gradient.maxima();
+    return label < maxima.size() ? long{maxima[label].vertex} : -1 - static_cast<long>(label - maxima.size());
+  };
+  Index vertices = 0;
+  for (Index v = 0; v < field.mesh().vertex_count(); ++v)
+    if (kept.minima()[a.ascending.vertex[v]] == fresh.minima()[b.ascending.vertex[v]]) ++vertices;
+  Index triangles = 0;
+  for (Index t = 0; t < field.mesh().triangle_count(); ++t)
+    if (top(kept, a.descending.triangle[t]) == top(fresh, b.descending.triangle[t])) ++triangles;
+  return {1.0 * vertices / field.mesh().vertex_count(), 1.0 * triangles / field.mesh().triangle_count()};
+}
+
 ScalarField curvature_of(const std::string& file) {
   return morse::mean_curvature(core::read_mesh(sample(file)).mesh);
 }
@@ -317,6 +341,8 @@ TEST_CASE("hierarchies of real meshes") {
       cursor.go_to(level);
       check_level(field, cursor, hierarchy);
       check_against_cancelled(field, hierarchy, level);
+      for (const double share : agreement(field, hierarchy, level))
+        CHECK(share > 0.95);  // 0.958 to 0.999 seen
     }
     cursor.go_to(hierarchy.levels());
     check_level(field, cursor, hierarchy);
