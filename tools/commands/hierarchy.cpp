@@ -97,12 +97,12 @@ void add_hierarchy(CLI::App& app, Invocation& invocation) {
       .add_option("--levels", request.levels,
                   "By iteration their numbers, 0 being the method's input (default: 1,5,10); by persistence\n"
                   "thresholds, in the field's unit or in % of its extent (default: 0.1%,1%,5%); in any order")
-      ->type_name("L,L,…");
+      ->type_name("L,L,...");
   command
       .add_option("--counts", request.counts,
                   "By persistence, in place of thresholds: critical cells to be left (minima, saddles with\n"
                   "their multiplicities, maxima), or the nearest smaller number that can be had")
-      ->type_name("N,N,…");
+      ->type_name("N,N,...");
   command
       .add_option("-o,--output", options->output,
                   "Write the levels and their links here, as JSON; - is standard output")
