@@ -35,6 +35,8 @@ Segmenter::Segmenter(const core::ScalarField& field, const PersistenceHierarchy&
   choose_triangles(base);
   if (kind != SegmentKind::morse_smale)
     label_ = std::move((kind == SegmentKind::ascending ? base.ascending : base.descending).triangle);
+  first_.assign(ends_.size(), kNone);
+  for (auto t = static_cast<Index>(label_.size()); t-- > 0;) first_[label_[t]] = t;
 }
 
 void Segmenter::label_by_quads(const core::ScalarField& field, const Segmentation& base) {
@@ -75,18 +77,14 @@ void Segmenter::choose_triangles(const Segmentation& base) {
   });
 }
 
-/// What is one segment at a level. Classes are named after one of their labels.
+/// What is one segment at a level. A class is named after one of its labels.
 struct Segmenter::Merged {
-  std::vector<Index> class_of;             // per label
-  std::vector<std::array<Index, 2>> ends;  // per class: minimum and top, nodes alive
-  std::vector<Index> first;                // per class but those of caps: smallest triangle, or kNone
-  std::optional<core::ConcurrentUnionFind>
-      pieces;               // of triangles; joins those of caps only, if there are caps
-  Index first_cap = kNone;  // node
+  std::vector<Index> class_of;       // per label
+  std::vector<std::uint8_t> is_cap;  // per label: whether it has become a cap's; empty where there are none
+  std::vector<Index> first;          // per class: its smallest triangle, or kNone; but for those of caps
+  std::optional<core::ConcurrentUnionFind> pieces;  // of triangles: joins those of caps, if there are any
 
-  bool is_cap(Index class_label) const {
-    return ends[class_label][1] != kNone && ends[class_label][1] >= first_cap;
-  }
+  bool is_in_pieces(Index class_label) const { return !is_cap.empty() && is_cap[class_label] != 0; }
 };
 
 Segmenter::Merged Segmenter::merge(Index level) const {
@@ -95,48 +93,72 @@ Segmenter::Merged Segmenter::merge(Index level) const {
     throw core::InvalidArgument("the hierarchy has levels 0 to " + std::to_string(hierarchy_.levels()) +
                                 ", none is " + std::to_string(level));
   Merged merged;
-  merged.first_cap = complex.cap_node(0);
-  merged.ends.resize(ends_.size());
-  core::parallel_for_each(ends_.size(), [&](std::size_t i) {
-    for (const std::size_t k : {0, 1})
-      merged.ends[i][k] = ends_[i][k] == kNone ? kNone : hierarchy_.survivor(ends_[i][k], level);
-  });
-  if (kind_ == SegmentKind::morse_smale) {
-    merged.class_of = quad_classes(level);
-  } else {
-    merged.class_of.resize(ends_.size());
-    const Index first_top = complex.maximum_node(0);
+  merged.class_of = kind_ == SegmentKind::morse_smale ? quad_classes(level) : extremum_classes(level);
+  if (kind_ != SegmentKind::ascending && !complex.mesh().is_closed()) {
+    merged.is_cap.resize(ends_.size());
     core::parallel_for_each(ends_.size(), [&](std::size_t i) {
-      const auto& [minimum, top] = merged.ends[i];
-      merged.class_of[i] = top == kNone ? minimum : top - first_top;
+      merged.is_cap[i] = hierarchy_.survivor(ends_[i][1], level) >= complex.cap_node(0) ? 1 : 0;
     });
   }
+  merged.first.assign(ends_.size(), kNone);
+  for (Index i = 0; i < ends_.size(); ++i) {
+    const Index c = merged.class_of[i];
+    if (!merged.is_in_pieces(c)) merged.first[c] = std::min(merged.first[c], first_[i]);
+  }
+  if (!merged.is_cap.empty()) find_pieces(merged);
   return merged;
 }
 
-/// Each cancellation opens the arcs of the other kind at its saddle.
-std::vector<Index> Segmenter::quad_classes(Index level) const {
+std::vector<Index> Segmenter::extremum_classes(Index level) const {
+  const std::size_t end = kind_ == SegmentKind::ascending ? 0 : 1;
+  const Index first_node = end == 0 ? 0 : hierarchy_.complex().maximum_node(0);
+  std::vector<Index> class_of(ends_.size());
+  core::parallel_for_each(ends_.size(), [&](std::size_t i) {
+    class_of[i] = hierarchy_.survivor(ends_[i][end], level) - first_node;
+  });
+  return class_of;
+}
+
+/// Calls visit(a, b) for the quads that a cancellation joins: those on both sides of the arcs of the other kind at its
+/// saddle.
+template <class Visit>
+void Segmenter::for_each_join(const Cancellation& c, const Visit& visit) const {
   const MorseSmaleComplex& complex = hierarchy_.complex();
+  for (const Index side : {1, 3}) {
+    const Index arc = c.arc - c.arc % 4 + (c.arc + side) % 4;
+    visit(complex.quad_left_of(arc), complex.quad_right_of(arc));
+  }
+}
+
+std::vector<Index> Segmenter::quad_classes(Index level) const {
   core::UnionFind sets(static_cast<Index>(ends_.size()));
   for (const Cancellation& c : hierarchy_.cancellations().first(level))
-    for (const Index side : {1, 3}) {
-      const Index arc = c.arc - c.arc % 4 + (c.arc + side) % 4;
-      sets.unite(complex.quad_left_of(arc), complex.quad_right_of(arc));
-    }
+    for_each_join(c, [&](Index a, Index b) { sets.unite(a, b); });
   std::vector<Index> class_of(ends_.size());
   for (Index i = 0; i < class_of.size(); ++i) class_of[i] = sets.find(i);
   return class_of;
 }
 
-/// Finds where each class begins, and the pieces of those of caps.
-void Segmenter::locate(Merged& merged) const {
+/// Without caps, whose pieces would have to be counted at each level.
+Index Segmenter::level_with_quads(Index wanted) const {
+  core::UnionFind sets(static_cast<Index>(ends_.size()));
+  std::vector<std::uint8_t> is_used(ends_.size());
+  Index used = 0;
+  for (Index i = 0; i < ends_.size(); ++i) used += is_used[i] = first_[i] != kNone ? 1 : 0;
+  Index level = 0;
+  for (; level < hierarchy_.levels() && used > wanted; ++level)
+    for_each_join(hierarchy_.cancellations()[level], [&](Index a, Index b) {
+      a = sets.find(a);
+      b = sets.find(b);
+      if (!sets.unite(a, b)) return;
+      used -= is_used[a] & is_used[b];
+      is_used[std::min(a, b)] = is_used[a] | is_used[b];
+    });
+  return level;
+}
+
+void Segmenter::find_pieces(Merged& merged) const {
   const TriangleMesh& mesh = hierarchy_.complex().mesh();
-  merged.first.assign(ends_.size(), kNone);
-  for (Index t = mesh.triangle_count(); t-- > 0;) {
-    const Index c = merged.class_of[label_[t]];
-    if (!merged.is_cap(c)) merged.first[c] = t;
-  }
-  if (kind_ == SegmentKind::ascending || mesh.is_closed()) return;
   core::ConcurrentUnionFind& pieces = merged.pieces.emplace(mesh.triangle_count());
   const auto class_of_triangle = [&](Index t) { return merged.class_of[label_[t]]; };
   if (kind_ == SegmentKind::descending) {
@@ -146,7 +168,7 @@ void Segmenter::locate(Merged& merged) const {
       if (across == kNone || across < h) return;
       const Index a = TriangleMesh::triangle_of(h);
       const Index b = TriangleMesh::triangle_of(across);
-      if (class_of_triangle(a) == class_of_triangle(b) && merged.is_cap(class_of_triangle(a)))
+      if (class_of_triangle(a) == class_of_triangle(b) && merged.is_in_pieces(class_of_triangle(a)))
         pieces.unite(a, b);
     });
     return;
@@ -157,7 +179,7 @@ void Segmenter::locate(Merged& merged) const {
       star.clear();
       mesh.for_each_outgoing(v, [&](Index h) {
         const Index t = TriangleMesh::triangle_of(h);
-        if (merged.is_cap(class_of_triangle(t))) star.push_back({class_of_triangle(t), t});
+        if (merged.is_in_pieces(class_of_triangle(t))) star.push_back({class_of_triangle(t), t});
       });
       std::sort(star.begin(), star.end());
       for (std::size_t i = 1; i < star.size(); ++i)
@@ -171,7 +193,6 @@ Index Segmenter::count(Index level) const {
   if (kind_ == SegmentKind::ascending) return hierarchy_.minimum_count(level);
   if (kind_ == SegmentKind::descending && complex.mesh().is_closed()) return hierarchy_.maximum_count(level);
   Merged merged = merge(level);
-  locate(merged);
   const auto number_of_classes =
       std::count_if(merged.first.begin(), merged.first.end(), [](Index t) { return t != kNone; });
   if (!merged.pieces) return static_cast<Index>(number_of_classes);
@@ -180,13 +201,15 @@ Index Segmenter::count(Index level) const {
       [&](std::size_t begin, std::size_t end) {
         Index roots = 0;
         for (auto t = static_cast<Index>(begin); t < end; ++t)
-          roots += merged.is_cap(merged.class_of[label_[t]]) && merged.pieces->find(t) == t ? 1 : 0;
+          roots += merged.is_in_pieces(merged.class_of[label_[t]]) && merged.pieces->find(t) == t ? 1 : 0;
         return roots;
       },
       [](Index a, Index b) { return a + b; });
 }
 
 Index Segmenter::level_with(Index wanted) const {
+  if (kind_ == SegmentKind::morse_smale && hierarchy_.complex().mesh().is_closed())
+    return level_with_quads(wanted);
   Index low = 0;
   Index high = hierarchy_.levels();
   while (low < high) {
@@ -202,7 +225,6 @@ Index Segmenter::level_with(Index wanted) const {
 Segments Segmenter::segments(Index level, const core::Progress& progress) const {
   progress.update("segments", 0);
   Merged merged = merge(level);
-  locate(merged);
   progress.update("segments", 0.2);
   Segments result;
   result.kind = kind_;
@@ -223,14 +245,19 @@ void Segmenter::number(Merged& merged, Segments& result) const {
   };
   std::vector<Found> found;
   for (Index c = 0; c < merged.first.size(); ++c)
-    if (merged.first[c] != kNone) found.push_back({merged.ends[c][0], merged.ends[c][1], merged.first[c], c});
-  const auto is_piece = [&](Index t) { return merged.pieces && merged.is_cap(merged.class_of[label_[t]]); };
+    if (merged.first[c] != kNone) found.push_back({kNone, kNone, merged.first[c], c});
+  const auto is_piece = [&](Index t) { return merged.is_in_pieces(merged.class_of[label_[t]]); };
   if (merged.pieces)
     for (Index t = 0; t < label_.size(); ++t)
-      if (is_piece(t) && merged.pieces->find(t) == t) {
-        const auto& [minimum, top] = merged.ends[merged.class_of[label_[t]]];
-        found.push_back({minimum, top, t, kNone});
-      }
+      if (is_piece(t) && merged.pieces->find(t) == t) found.push_back({kNone, kNone, t, kNone});
+  const auto alive = [&](Index node) {
+    return node == kNone ? kNone : hierarchy_.survivor(node, result.level);
+  };
+  core::parallel_for_each(found.size(), [&](std::size_t i) {
+    const auto& [minimum, top] = ends_[label_[found[i].first]];
+    found[i].minimum = alive(minimum);
+    found[i].top = alive(top);
+  });
   core::parallel_sort(found.begin(), found.end(),
                       [](const Found& a, const Found& b) { return a.key() < b.key(); });
 

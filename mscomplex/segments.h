@@ -104,7 +104,8 @@ class Segmenter {
   /// The number of segments at a level; it never grows with it. O(1) if ascending, or if descending on a closed mesh;
   /// otherwise O(n), parallel.
   core::Index count(core::Index level) const;
-  /// The first level with at most `wanted` segments, or the last one if there are never so few. O(log s) counts.
+  /// The first level with at most `wanted` segments, or the last one if there are never so few. O(log s) counts,
+  /// or less.
   core::Index level_with(core::Index wanted) const;
   /// The segments at a level. O(n) but for sorting each segment's border, parallel; the same bits for every number of
   /// threads. Throws InvalidArgument if there is no such level.
@@ -115,8 +116,12 @@ class Segmenter {
   void label_by_quads(const core::ScalarField& field, const Segmentation& base);
   void choose_triangles(const Segmentation& base);
   Merged merge(core::Index level) const;
+  std::vector<core::Index> extremum_classes(core::Index level) const;
   std::vector<core::Index> quad_classes(core::Index level) const;
-  void locate(Merged& merged) const;
+  template <class Visit>
+  void for_each_join(const Cancellation& cancellation, const Visit& visit) const;
+  core::Index level_with_quads(core::Index wanted) const;
+  void find_pieces(Merged& merged) const;
   void number(Merged& merged, Segments& result) const;
   std::array<core::Index, 4> labels_around(core::Index saddle) const;
   void find_saddles(const Merged& merged, Segments& result) const;
@@ -126,6 +131,7 @@ class Segmenter {
   std::vector<core::Index> label_;                // per triangle, at level 0
   core::FlatArray<core::Index> vertex_triangle_;  // per vertex: whose segment it has
   std::vector<std::array<core::Index, 2>> ends_;  // per label: minimum and top, nodes at level 0
+  std::vector<core::Index> first_;                // per label: its smallest triangle, or kNone
 };
 
 }  // namespace morsel::mscomplex
