@@ -77,7 +77,7 @@ void check(const SegmentRequest& request) {
 MadeSegments make_segments(const core::ScalarField& field, const SegmentRequest& request,
                            const core::Progress& progress) {
   check(request);
-  MadeSegments made{PersistenceHierarchy(field, progress), {}};
+  MadeSegments made{PersistenceHierarchy(field, progress)};
   const Segmenter segmenter(field, made.hierarchy, request.kind, progress);
   made.unmerged = segmenter.count(0);
   made.segments = segmenter.segments(level_for(segmenter, request, field), progress);

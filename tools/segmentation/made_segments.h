@@ -28,11 +28,11 @@ mscomplex::SegmentKind parse_segment_kind(const std::string& word);
 
 struct MadeSegments {
   mscomplex::PersistenceHierarchy hierarchy;
-  mscomplex::Segments segments;
+  mscomplex::Segments segments = {};
   core::Index unmerged = 0;         ///< segments before merging
   std::size_t cancelled_pairs = 0;  ///< of the extrema that the kind has segments of
   double largest_persistence = 0;   ///< of those; 0 if there is none
-  std::string note;                 ///< why there are more than were asked for; empty if there are not
+  std::string note = {};            ///< why there are more than were asked for; empty if there are not
 
   /// Smallest, middle (of two the lower) and largest area.
   struct Areas {
