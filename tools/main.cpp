@@ -51,6 +51,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_check(app, invocation);
   add_molecule(app, invocation);
   add_segment(app, invocation);
+  add_cut(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
