@@ -57,6 +57,8 @@ void add_hierarchy(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_check(CLI::App& app, Invocation& invocation);
 void add_molecule(CLI::App& app, Invocation& invocation);
+void add_segment(CLI::App& app, Invocation& invocation);
+void add_cut(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.
 std::string specification_help();
