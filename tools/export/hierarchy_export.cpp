@@ -52,6 +52,7 @@ void HierarchyExport::write_surface(const std::filesystem::path& path, const Lev
     persistence[point.vertex] = level.persistence[i];
   }
   std::vector<VtpArray> links;
+  links.reserve(2 * kCellKinds.size());
   for (const CellKind kind : kCellKinds) {
     const std::string name(to_string(kind));
     const std::vector<Index>& labels = level.cells(kind).triangle;

@@ -17,6 +17,15 @@ using core::InvalidArgument;
 constexpr std::int64_t kMostIterations = 1'000'000;
 constexpr std::int64_t kLargestCount = std::int64_t{1} << 40;
 
+[[noreturn]] void refuse_list(const std::string& option, const std::string& text) {
+  throw InvalidArgument(option + " is a list such as 1,5,10, not \"" + text + "\"");
+}
+
+[[noreturn]] void refuse_repeated(const std::string& option, const std::string& text,
+                                  const std::string& item) {
+  throw InvalidArgument(option + " " + text + " has " + item + " twice");
+}
+
 /// What `parse` makes of each of the texts that commas separate; none may be there twice.
 template <class Parse>
 auto parse_list(const std::string& text, const std::string& option, const Parse& parse) {
@@ -24,10 +33,9 @@ auto parse_list(const std::string& text, const std::string& option, const Parse&
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t comma = std::min(text.find(',', first), text.size());
     const std::string item = text.substr(first, comma - first);
-    if (item.empty()) throw InvalidArgument(option + " is a list such as 1,5,10, not \"" + text + "\"");
+    if (item.empty()) refuse_list(option, text);
     items.push_back(parse(item));
-    if (std::ranges::count(items, items.back()) > 1)
-      throw InvalidArgument(option + " " + text + " has " + item + " twice");
+    if (std::ranges::count(items, items.back()) > 1) refuse_repeated(option, text, item);
     first = comma + 1;
   }
   return items;
@@ -70,7 +78,8 @@ std::pair<MadeField, std::vector<LevelSeed>> make_iterations(const PreparedHiera
   const Stopwatch watch;
   IterationLevels levels = iteration_levels(prepared.recipe.chain, loaded, prepared.recipe.function,
                                             input.field, prepared.iterations, progress);
-  return {{std::move(input), std::move(levels.outcome), watch.seconds()}, std::move(levels.seeds)};
+  MadeField made{std::move(input), std::move(levels.outcome), watch.seconds()};
+  return {std::move(made), std::move(levels.seeds)};
 }
 
 }  // namespace

@@ -52,11 +52,13 @@ class LevelCollector {
 
   std::vector<LevelSeed> finish() {
     std::vector<LevelSeed> seeds;
+    seeds.reserve(kept_.size());
     for (std::size_t i = 0; i < kept_.size(); ++i) {
       Kept& kept = kept_[i];
       const std::vector<double> persistence = persistence::vertex_persistence(
           persistence::pair_extrema(*kept.field, progress_), kept.field->mesh().vertex_count());
       std::vector<double> of_points;
+      of_points.reserve(kept.points.points.size());
       for (const morse::CriticalPoint& point : kept.points.points)
         of_points.push_back(persistence[point.vertex]);
       const auto gradient = [field = kept.field, progress = progress_] {

@@ -50,6 +50,8 @@ void collect_points(const PersistenceHierarchy& hierarchy, Index level, LevelSee
     }
   }
   std::ranges::sort(entries, {}, [](const Entry& entry) { return entry.point.vertex; });
+  seed.points.points.reserve(entries.size());
+  seed.persistence.reserve(entries.size());
   for (const Entry& entry : entries) {
     seed.points.points.push_back(entry.point);
     seed.persistence.push_back(entry.persistence);
@@ -67,6 +69,7 @@ LevelSeed seed_of(const FieldHierarchy& from, Index level, bool is_finest, Level
   seed.name = std::move(name);
   seed.field = from.field;
   collect_points(*from.hierarchy, level, seed);
+  seed.parents.reserve(seed.points.points.size());
   for (const morse::CriticalPoint& point : seed.points.points)
     seed.parents.push_back(is_finest ? core::kNone : point.vertex);
   seed.gradient = [hierarchy = from.hierarchy, level] { return hierarchy->gradient(level); };
@@ -90,6 +93,7 @@ std::vector<LevelSeed> levels_by_threshold(const FieldHierarchy& from,
   const auto value = [&](const persistence::Threshold& t) { return t.on(*from.field); };
   std::ranges::stable_sort(thresholds, {}, value);
   std::vector<LevelSeed> seeds;
+  seeds.reserve(thresholds.size());
   for (const persistence::Threshold& threshold : thresholds)
     seeds.push_back(
         seed_of(from, from.hierarchy->level_above(value(threshold)), seeds.empty(),
@@ -101,6 +105,7 @@ std::vector<LevelSeed> levels_by_count(const FieldHierarchy& from, std::vector<s
   const PersistenceHierarchy& hierarchy = *from.hierarchy;
   std::ranges::sort(counts, std::greater<>());
   std::vector<LevelSeed> seeds;
+  seeds.reserve(counts.size());
   for (const std::size_t count : counts) {
     const Index level = hierarchy.level_with(count);
     seeds.push_back(
