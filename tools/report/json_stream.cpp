@@ -62,7 +62,7 @@ struct CellWriter {
       append_row(text, row);
       is_first = false;
     };
-    for (std::size_t i = 0; i < rows.count; ++i) rows.make(i, take);
+    for (std::size_t i = 0; i < rows.count; ++i) (*rows.make)(i, take);
     text += ']';
   }
 };

@@ -27,7 +27,8 @@ using MakeRow = std::function<void(std::size_t, const TakeRow&)>;
 /// An array of rows within a row; refers to `make`.
 struct NestedRows {
   std::size_t count;
-  const MakeRow& make;
+  const MakeRow* make;
+  NestedRows(std::size_t rows, const MakeRow& make_row) : count(rows), make(&make_row) {}
 };
 
 /// A row's value: null, a number (null if it is not finite), a text, a position or rows.
