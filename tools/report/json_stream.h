@@ -24,11 +24,11 @@ using TakeRow = std::function<void(Row)>;
 /// Hands the i-th of some rows to `take`.
 using MakeRow = std::function<void(std::size_t, const TakeRow&)>;
 
-/// An array of rows within a row; refers to `make`.
+/// An array of rows within a row; refers to what makes them.
 struct NestedRows {
+  NestedRows(std::size_t row_count, const MakeRow& make_row) : count(row_count), make(&make_row) {}
   std::size_t count;
   const MakeRow* make;
-  NestedRows(std::size_t rows, const MakeRow& make_row) : count(rows), make(&make_row) {}
 };
 
 /// A row's value: null, a number (null if it is not finite), a text, a position or rows.
