@@ -1,5 +1,7 @@
 // morsel segment: the segments of one field.
 
+#include <array>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,7 +9,6 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/mesh_io.h"
-#include "morsel/core/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/export/label_file.h"
 #include "morsel/tools/report/segments_writer.h"
@@ -38,15 +39,22 @@ SegmentRequest segment_request(const Options& options) {
   return request;
 }
 
+/// As many digits as a person wants to read.
+std::string rounded(double value) {
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
 std::string described(const MadeSegments& made) {
   const MadeSegments::Areas areas = made.areas();
   std::string text = "segments: " + grouped(made.segments.count());
   if (made.cancelled_pairs > 0)
     text += " of " + grouped(made.unmerged) + " (" + grouped(made.cancelled_pairs) +
             (made.cancelled_pairs == 1 ? " pair" : " pairs") + " cancelled, of persistence up to " +
-            core::shortest(made.largest_persistence) + ")";
-  return text + "; area smallest " + core::shortest(areas.smallest) + ", median " +
-         core::shortest(areas.median) + ", largest " + core::shortest(areas.largest);
+            rounded(made.largest_persistence) + ")";
+  return text + "; area smallest " + rounded(areas.smallest) + ", median " + rounded(areas.median) +
+         ", largest " + rounded(areas.largest);
 }
 
 int segment(const Options& options, const CommonOptions& common, Console& console) {
