@@ -19,7 +19,7 @@ namespace {
 
 struct Options {
   std::string mesh;
-  FieldRequest request{.field = "geodesic:mode=average"};
+  FieldRequest request{"height:axis=z", "conventional", {}};
   std::string output;
   bool no_shorten = false;
   std::string json;
