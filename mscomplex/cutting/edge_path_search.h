@@ -24,8 +24,8 @@ class EdgePathSearch {
   explicit EdgePathSearch(const core::TriangleMesh& mesh) : mesh_(mesh), reached_(mesh.vertex_count()) {}
 
   /// The half-edges of a shortest path that begins with one of `seeds` and ends with a half-edge that is a
-  /// goal, if it is shorter than `bound`; empty otherwise. at(h) tells what going along h means; vertices that
-  /// are entered must be inner ones. Of equally short paths the same one always.
+  /// goal, if it is shorter than `bound`; empty otherwise. at(h) tells what going along h means; vertices
+  /// that are entered must be inner ones. Of equally short paths the same one always.
   template <class At>
   std::vector<core::Index> find(std::span<const core::Index> seeds, double bound, const At& at,
                                 const core::Progress& progress) {
