@@ -32,7 +32,7 @@ struct CutGraph {
 
 /// A cut of the complex's mesh, of any genus and with any number of boundary loops, made of descending arcs
 /// (Ni, Garland, Hart 2004, "Fair Morse functions for extracting the topological structure of a surface
-/// mesh", section 6).
+/// mesh").
 ///
 /// A tree and its complement (Eppstein 2003): saddles join the tops, by their ascending arcs, to a graph;
 /// those of its spanning tree with the longest descending arcs are crossed, the descending arcs of the
