@@ -21,14 +21,11 @@ enum class Step { pass, blocked, goal };
 /// Dijkstra's search (1959) with Euclidean lengths, many times on one mesh: a search costs what it visits.
 class EdgePathSearch {
  public:
-  explicit EdgePathSearch(const core::TriangleMesh& mesh)
-      : mesh_(mesh),
-        distance_(mesh.vertex_count(), std::numeric_limits<double>::infinity()),
-        entered_(mesh.vertex_count(), core::kNone) {}
+  explicit EdgePathSearch(const core::TriangleMesh& mesh) : mesh_(mesh), reached_(mesh.vertex_count()) {}
 
   /// The half-edges of a shortest path that begins with one of `seeds` and ends with a half-edge that is a
-  /// goal, if it is shorter than `bound`; empty otherwise. at(h) tells what going along h means; vertices that
-  /// are entered must be inner ones. Of equally short paths the same one always.
+  /// goal, if it is shorter than `bound`; empty otherwise. at(h) tells what going along h means; vertices
+  /// that are entered must be inner ones. Of equally short paths the same one always.
   template <class At>
   std::vector<core::Index> find(std::span<const core::Index> seeds, double bound, const At& at,
                                 const core::Progress& progress) {
@@ -45,10 +42,9 @@ class EdgePathSearch {
         return;
       }
       const core::Index v = mesh_.target(h);
-      if (!(d < distance_[v])) return;
-      if (entered_[v] == core::kNone) visited_.push_back(v);
-      distance_[v] = d;
-      entered_[v] = h;
+      if (!(d < reached_[v].distance)) return;
+      if (reached_[v].by == core::kNone) visited_.push_back(v);
+      reached_[v] = {d, h};
       queue_.emplace(d, v);
     };
     for (const core::Index h : seeds) go(0, h);
@@ -57,11 +53,11 @@ class EdgePathSearch {
       if (!(d < shortest)) break;
       queue_.pop();
       if (count % 65536 == 0) progress.throw_if_cancelled();
-      if (d > distance_[v]) continue;
+      if (d > reached_[v].distance) continue;
       mesh_.for_each_outgoing(v, [&, base = d](core::Index h) { go(base, h); });
     }
     std::vector<core::Index> path;
-    for (core::Index h = goal; h != core::kNone; h = entered_[mesh_.origin(h)]) path.push_back(h);
+    for (core::Index h = goal; h != core::kNone; h = reached_[mesh_.origin(h)].by) path.push_back(h);
     std::reverse(path.begin(), path.end());
     clear();
     return path;
@@ -69,18 +65,18 @@ class EdgePathSearch {
 
  private:
   void clear() {
-    for (const core::Index v : visited_) {
-      distance_[v] = std::numeric_limits<double>::infinity();
-      entered_[v] = core::kNone;
-    }
+    for (const core::Index v : visited_) reached_[v] = {};
     visited_.clear();
     queue_ = {};
   }
 
+  struct Reached {  // together, for a visit is a cache miss
+    double distance = std::numeric_limits<double>::infinity();
+    core::Index by = core::kNone;  // the half-edge
+  };
   using Entry = std::pair<double, core::Index>;
   core::TriangleMesh mesh_;
-  std::vector<double> distance_;      // per vertex
-  std::vector<core::Index> entered_;  // per vertex: the half-edge by which it was reached
+  std::vector<Reached> reached_;  // per vertex
   std::vector<core::Index> visited_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

@@ -91,8 +91,8 @@ class Shortener {
     }
   }
 
-  /// The path whose trial is the longest ago, of those the longest; the number of paths if all were tried since
-  /// the cut last changed.
+  /// The path whose trial is the longest ago, of those the longest; the number of paths if all were tried
+  /// since the cut last changed.
   std::size_t next_path() const {
     std::size_t best = trials_.size();
     for (std::size_t p = 0; p < trials_.size(); ++p) {
