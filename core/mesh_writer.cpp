@@ -135,4 +135,31 @@ void write_ply(const std::filesystem::path& path, std::span<const Point> positio
   writer.commit();
 }
 
+void write_obj(const std::filesystem::path& path, std::span<const Point> positions,
+               std::span<const std::array<Index, 4>> quads, const Progress& progress) {
+  FileWriter writer(path);
+  const double all = static_cast<double>(positions.size() + quads.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if ((v & kProgressStep) == kProgressStep)
+      progress.update("writing the mesh", static_cast<double>(v) / all);
+    writer.write("v");
+    for (int axis = 0; axis < 3; ++axis) {
+      writer.write(" ");
+      writer.write_number(positions[v][axis]);
+    }
+    writer.write("\n");
+  }
+  for (std::size_t q = 0; q < quads.size(); ++q) {
+    if ((q & kProgressStep) == kProgressStep)
+      progress.update("writing the mesh", static_cast<double>(positions.size() + q) / all);
+    writer.write("f");
+    for (const Index v : quads[q]) {
+      writer.write(" ");
+      writer.write_number(std::uint64_t{v} + 1);
+    }
+    writer.write("\n");
+  }
+  writer.commit();
+}
+
 }  // namespace morsel::core

@@ -52,6 +52,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_molecule(app, invocation);
   add_segment(app, invocation);
   add_cut(app, invocation);
+  add_quads(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

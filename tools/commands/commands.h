@@ -59,6 +59,7 @@ void add_check(CLI::App& app, Invocation& invocation);
 void add_molecule(CLI::App& app, Invocation& invocation);
 void add_segment(CLI::App& app, Invocation& invocation);
 void add_cut(CLI::App& app, Invocation& invocation);
+void add_quads(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.
 std::string specification_help();

@@ -1,0 +1,70 @@
+#pragma once
+/// The complex on a LayoutMesh: where its nodes are, and arcs drawn node by node. Internal.
+
+#include <string>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/mscomplex/complex.h"
+#include "morsel/mscomplex/quads/capped_surface.h"
+#include "morsel/mscomplex/quads/spokes.h"
+
+namespace morsel::mscomplex {
+
+/// Draws the arcs of a complex as disjoint curves. Refers to the complex.
+class ArcDrawing {
+ public:
+  explicit ArcDrawing(const MorseSmaleComplex& complex);
+  ArcDrawing(const ArcDrawing&) = delete;
+  ArcDrawing& operator=(const ArcDrawing&) = delete;
+
+  /// All arcs, nodes at their critical cells.
+  void draw_first();
+  /// Moves every node into the middle of the disc of the patches around it: maxima, minima, then saddles.
+  void relax(const core::Progress& progress);
+
+  /// The capped surface.
+  const LayoutMesh& mesh() const { return mesh_; }
+  const std::vector<core::Index>& node_vertex() const { return node_vertex_; }
+  core::Index missed() const { return missed_; }
+
+  /// The half-edge with which an arc leaves its saddle, and the vertices of a drawn arc from there on: to its end, or to
+  /// the rim of the cap that it ends in.
+  core::Index start_of(core::Index arc) const;
+  void follow(core::Index arc, std::vector<core::Index>& vertices) const;
+
+ private:
+  struct Star {
+    core::Index node = core::kNone;
+    Disc disc;
+    std::vector<Spoke> spokes;
+    std::vector<Eigen::Vector2d> place;
+  };
+  ArcDrawing(const MorseSmaleComplex& complex, const CappedSurface& capped);
+  void put_saddles_on_edges();
+  void mark_rims();
+  void cut_along_descents();
+  core::Index node_at(core::Index v) const { return v < node_at_.size() ? node_at_[v] : core::kNone; }
+  bool is_on_rim(core::Index v) const { return v < on_rim_.size() && on_rim_[v]; }
+  core::Index next_of_arc(core::Index h) const;
+  void erase(core::Index arc);
+  std::string name(core::Index node) const;
+
+  Star find_star(core::Index extremum, core::Index some_border);
+  void draw_stars(const std::vector<core::Index>& extrema, bool moves);
+  void redraw(core::Index extremum_begin, core::Index extremum_end);
+  void redraw_saddle(core::Index saddle);
+  void embed(Star& star) const;
+  void draw(const Star& star, bool moves);
+
+  const MorseSmaleComplex& complex_;
+  LayoutMesh mesh_;
+  DiscFinder finder_;
+  SpokeDrawer drawer_;
+  std::vector<core::Index> node_vertex_;  // per node
+  std::vector<core::Index> node_at_;      // per vertex, up to the last that is one
+  std::vector<bool> on_rim_;              // per vertex, up to the last that is
+  core::Index missed_ = 0;
+};
+
+}  // namespace morsel::mscomplex

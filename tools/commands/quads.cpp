@@ -1,0 +1,101 @@
+// morsel quads: from a field to an all-quad mesh.
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
+#include "morsel/core/file_writer.h"
+#include "morsel/core/mesh_writer.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/quads_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  FieldRequest field{"eigenfunction:index=40", "conventional", std::nullopt};
+  QuadRequest quads;
+  std::string output;
+  std::string json;
+};
+
+int make(const Options& options, const CommonOptions& common, Console& console) {
+  const FieldRecipe recipe = prepare(options.field);
+  const QuadRecipe quads = prepare(options.quads);
+  if (core::file_extension(options.output) != ".obj")
+    throw core::InvalidArgument("quads are written as .obj, not to " + options.output);
+  { const core::FileWriter target(options.output); }  // one that cannot be written is told before the work
+  const bool json_to_stdout = options.json == "-";
+  std::optional<core::FileWriter> file;
+  if (!options.json.empty() && !json_to_stdout) file.emplace(options.json);
+
+  const core::Progress progress = console.progress();
+  const Stopwatch load_watch;
+  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, progress);
+  const double load_seconds = load_watch.seconds();
+  const MadeField made = make_field(recipe, input.loaded, progress);
+  tell_target(made, console);
+  const Quadrangulation result = quadrangulate(made.field(), quads, progress);
+  core::write_obj(options.output, result.mesh.positions, result.mesh.quads, progress);
+  if (file || json_to_stdout) {
+    JsonStream json(json_to_stdout ? std::cout : file->stream());
+    write_quads(json, {options.mesh, common.repair, load_seconds, options.field, options.quads}, input,
+                recipe, made, result);
+    if (file) file->commit();
+  }
+  if (!json_to_stdout) std::cout << described(result, input.loaded.mesh.bounding_box().diagonal());
+  console.message("quads: " + options.output);
+  if (file) console.message("report: " + options.json);
+  return kDone;
+}
+
+}  // namespace
+
+void add_quads(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "quads", "Turn the Morse-Smale complex of a field into an all-quad mesh of the surface");
+  add_field_options(command, options->mesh, options->field);
+  command
+      .add_option("--persistence", options->quads.persistence,
+                  "Cancel pairs of at most this persistence before the layout: a number in the field's unit\n"
+                  "or a share of its extent (1%)")
+      ->type_name("T");
+  command
+      .add_option("--resolution", options->quads.resolution, "Quads along each side of a patch, 2 or more")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option("--relaxation", options->quads.relaxation,
+                  "How often all corners of patches are moved to the middle of the patches around them;\n"
+                  "0 leaves them at the critical points")
+      ->type_name("R")
+      ->capture_default_str();
+  command.add_option("-o,--output", options->output, "The quads: .obj")->type_name("OUT.obj")->required();
+  command
+      .add_option("--json", options->json,
+                  "Write counts, repairs and quality of the quads and patches here; - is standard output")
+      ->type_name("FILE");
+  add_common_options(command, invocation.common);
+  command.footer(
+      "\nPatches are the quads of the field's Morse-Smale complex, their arcs drawn anew as curves that meet "
+      "in\n"
+      "nodes alone. Smooth fields with evenly spread critical points give good layouts: eigenfunctions, the "
+      "more\n"
+      "patches the higher the index. At a boundary loop patches have five sides; there N must be 4 or more "
+      "and even. An extremum with a single arc is cancelled "
+      "with\n"
+      "its saddle, and reported; a field that leaves a component without a saddle is refused.\n" +
+      specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return make(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,53 @@
+#pragma once
+/// From a field to a quad mesh: simplification, repair, layout, sampling and measurement in one go.
+
+#include <optional>
+#include <string>
+
+#include "morsel/mscomplex/quads.h"
+#include "morsel/persistence/threshold.h"
+
+namespace morsel::tools {
+
+/// In the words of the command line.
+struct QuadRequest {
+  std::string
+      persistence;  ///< "1%" or a number in the field's unit; empty: nothing is cancelled before the layout
+  core::Index resolution = 10;
+  int relaxation = 2;
+};
+
+/// A request whose values have been read.
+struct QuadRecipe {
+  std::optional<persistence::Threshold> persistence;
+  core::Index resolution = 0;
+  int relaxation = 0;
+};
+
+/// Throws InvalidArgument on values out of range.
+QuadRecipe prepare(const QuadRequest& request);
+
+struct Quadrangulation {
+  double threshold = 0;       ///< of persistence, in the field's unit
+  core::Index cancelled = 0;  ///< pairs of at most that
+  mscomplex::RepairedComplex repaired;
+  mscomplex::QuadLayout layout;
+  mscomplex::QuadMesh mesh;
+  mscomplex::QuadQuality quality;
+  double layout_seconds = 0;
+  double sampling_seconds = 0;
+  double measuring_seconds = 0;
+};
+
+/// The quads are checked to be a manifold of the surface's Euler characteristic and boundary loops before they are handed
+/// out. Throws BadInput where the field gives no layout, and InvalidArgument for an odd resolution on a bounded surface.
+Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
+                              const core::Progress& progress = {});
+
+/// Patches at boundary loops, which have five sides.
+core::Index boundary_patches(const mscomplex::MorseSmaleComplex& complex);
+
+/// For people: what was cancelled, what the layout is, and how good the quads are.
+std::string described(const Quadrangulation& result, double diagonal);
+
+}  // namespace morsel::tools
