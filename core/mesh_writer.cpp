@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
@@ -29,21 +31,33 @@ class LittleEndian {
   FileWriter& writer_;
 };
 
-void check_property(const VertexProperty& property, std::size_t vertices,
-                    std::span<const VertexProperty> earlier) {
-  const std::string& name = property.name;
-  const bool is_word = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) > ' ' && c != '\x7F';
-  });
-  const bool is_taken =
-      name == "x" || name == "y" || name == "z" ||
-      std::any_of(earlier.begin(), earlier.end(), [&](const VertexProperty& p) { return p.name == name; });
-  if (!is_word || is_taken)
-    throw InvalidArgument("a PLY file cannot hold a property named \"" + name + "\"" +
-                          (is_taken ? ": the name is taken" : ": names are single words"));
-  if (property.values.size() != vertices)
-    throw InvalidArgument("property " + name + " needs " + std::to_string(vertices) + " values, not " +
-                          std::to_string(property.values.size()));
+std::size_t size_of(const PropertyView& property) {
+  return std::visit([](const auto& values) { return values.size(); }, property.values);
+}
+
+void check_properties(std::span<const PropertyView> properties, std::size_t elements,
+                      std::vector<std::string_view> taken) {
+  for (const PropertyView& property : properties) {
+    const std::string& name = property.name;
+    const bool is_word = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+      return static_cast<unsigned char>(c) > ' ' && c != '\x7F';
+    });
+    const bool is_taken = std::find(taken.begin(), taken.end(), name) != taken.end();
+    if (!is_word || is_taken)
+      throw InvalidArgument("a PLY file cannot hold a property named \"" + name + "\"" +
+                            (is_taken ? ": the name is taken" : ": names are single words"));
+    if (size_of(property) != elements)
+      throw InvalidArgument("property " + name + " needs " + std::to_string(elements) + " values, not " +
+                            std::to_string(size_of(property)));
+    taken.push_back(name);
+  }
+}
+
+void declare(FileWriter& writer, std::span<const PropertyView> properties) {
+  for (const PropertyView& property : properties)
+    writer.write((std::holds_alternative<std::span<const double>>(property.values) ? "property double "
+                                                                                   : "property int ") +
+                 property.name + "\n");
 }
 
 }  // namespace
@@ -78,29 +92,37 @@ void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, cons
 
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh,
                std::span<const VertexProperty> properties, const Progress& progress) {
-  write_ply(path, mesh.positions(), mesh.triangles(), properties, progress);
+  std::vector<PropertyView> views;
+  for (const VertexProperty& property : properties) views.emplace_back(property.name, property.values);
+  write_ply(path, mesh.positions(), mesh.triangles(), views, {}, progress);
 }
 
 void write_ply(const std::filesystem::path& path, std::span<const Point> positions,
-               std::span<const Triangle> triangles, std::span<const VertexProperty> properties,
-               const Progress& progress) {
-  for (std::size_t i = 0; i < properties.size(); ++i)
-    check_property(properties[i], positions.size(), properties.first(i));
+               std::span<const Triangle> triangles, std::span<const PropertyView> vertex_properties,
+               std::span<const PropertyView> face_properties, const Progress& progress) {
+  check_properties(vertex_properties, positions.size(), {"x", "y", "z"});
+  check_properties(face_properties, triangles.size(), {"vertex_indices", "vertex_index"});
   FileWriter writer(path);
   writer.write("ply\nformat binary_little_endian 1.0\nelement vertex ");
   writer.write_number(std::uint64_t{positions.size()});
   writer.write("\nproperty double x\nproperty double y\nproperty double z\n");
-  for (const VertexProperty& p : properties) writer.write("property double " + p.name + "\n");
+  declare(writer, vertex_properties);
   writer.write("element face ");
   writer.write_number(std::uint64_t{triangles.size()});
-  writer.write("\nproperty list uchar uint vertex_indices\nend_header\n");
+  writer.write("\nproperty list uchar uint vertex_indices\n");
+  declare(writer, face_properties);
+  writer.write("end_header\n");
   LittleEndian values(writer);
+  const auto write_properties = [&](std::span<const PropertyView> properties, std::size_t i) {
+    for (const PropertyView& property : properties)
+      std::visit([&](const auto& numbers) { values.write(numbers[i]); }, property.values);
+  };
   for (std::size_t v = 0; v < positions.size(); ++v) {
     if ((v & kProgressStep) == kProgressStep)
       progress.update("writing the mesh",
                       0.5 * static_cast<double>(v) / static_cast<double>(positions.size()));
     for (int axis = 0; axis < 3; ++axis) values.write(positions[v][axis]);
-    for (const VertexProperty& p : properties) values.write(p.values[v]);
+    write_properties(vertex_properties, v);
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if ((t & kProgressStep) == kProgressStep)
@@ -108,6 +130,7 @@ void write_ply(const std::filesystem::path& path, std::span<const Point> positio
                       0.5 + 0.5 * static_cast<double>(t) / static_cast<double>(triangles.size()));
     values.write(std::uint8_t{3});
     for (const Index v : triangles[t]) values.write(std::uint32_t{v});
+    write_properties(face_properties, t);
   }
   writer.commit();
 }

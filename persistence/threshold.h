@@ -18,6 +18,8 @@ struct Threshold {
 
   /// In the unit of `field`. Throws InvalidArgument if the value is negative or not finite.
   double on(const core::ScalarField& field) const;
+
+  friend bool operator==(const Threshold&, const Threshold&) = default;
 };
 
 /// "0.1%" or "3.5"; parse_threshold() reads it back exactly.

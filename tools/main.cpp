@@ -46,9 +46,12 @@ int run(int argc, char** argv, std::stop_token stop) {
   Invocation invocation;
   add_compare(app, invocation);
   add_field(app, invocation);
+  add_hierarchy(app, invocation);
   add_info(app, invocation);
   add_check(app, invocation);
   add_molecule(app, invocation);
+  add_segment(app, invocation);
+  add_cut(app, invocation);
   add_quads(app, invocation);
   try {
     app.parse(argc, argv);

@@ -132,7 +132,8 @@ void IterationControl::record(std::vector<double> values) {
   ++iteration_;
   count(change);
   decide(change);
-  if (context_.on_iteration && !context_.on_iteration(iteration_, field_)) stopped_by_ = "caller";
+  const bool go_on = !context_.on_iteration || context_.on_iteration(iteration_, field_);
+  if (!go_on && stopped_by_.empty()) stopped_by_ = "caller";
 }
 
 void IterationControl::count(double change) {

@@ -57,7 +57,7 @@ class IterationControl {
   /// After the last iteration that was recorded, the input before the first.
   const core::ScalarField& field() const { return field_; }
   int iterations_run() const { return iteration_; }
-  /// "iterations", "until-count", "until-stable", "until-change", or "caller" if the context ended it; empty while
+  /// "iterations", "until-count", "until-stable", "until-change", or "caller" if only the context ended it; empty while
   /// more().
   std::string_view stopped_by() const { return stopped_by_; }
 

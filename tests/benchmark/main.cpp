@@ -14,7 +14,7 @@ using namespace morsel::benchmark;
 int main(int argc, char** argv) {
   if (argc > 2 && argv[1] == std::string_view(kWatch)) return watch_process(argv + 2);
   CLI::App app("Times every step beside its baselines");
-  std::vector<std::string> suites = {"steps", "memory", "salient", "methods", "files", "scaling"};
+  std::vector<std::string> suites = {"steps", "memory", "structures", "salient", "methods", "files", "scaling"};
   const std::vector<std::string> known = suites;
   std::string output;
   Plan plan;
@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
       };
       if (suite == "steps") run_steps(plan, factor, report);
       if (suite == "memory") run_memory(plan, report);
+      if (suite == "structures") run_structures(plan, report);
       if (suite == "salient") run_salient(plan, report);
       if (suite == "methods") run_methods(plan, report);
       if (suite == "files") run_files(plan, report);

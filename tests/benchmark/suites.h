@@ -31,6 +31,8 @@ void run_salient(const Plan& plan, const Report& report);
 void run_scaling(const Plan& plan, const Report& report);
 /// Every Morse function and method, beside the same made with stock libraries.
 void run_methods(const Plan& plan, const Report& report);
+/// What is built on the complex, beside plain versions.
+void run_structures(const Plan& plan, const Report& report);
 /// What reading and writing take of `morsel compare`.
 void run_files(const Plan& plan, const Report& report);
 

@@ -140,6 +140,9 @@ TEST_CASE("whoever watches an iterative method sees every field and may end it")
     CHECK(stopped_by(result) == "caller");
     CHECK(result.field.value(0) == last);
     CHECK(result.iterations.empty());
+    // Where the method would have ended anyway, that is what it says.
+    seen = 0;
+    CHECK(stopped_by(run(make, input, {{"iterations", "3"}}, context)) == "iterations");
   }
 }
 

@@ -17,6 +17,7 @@
 #include "morsel/persistence/cancellation.h"
 #include "morsel/persistence/pairing.h"
 #include "support/fields.h"
+#include "support/greedy_hierarchy.h"
 #include "support/meshes.h"
 #include "support/random_surfaces.h"
 
@@ -150,6 +151,30 @@ void check_against_cancelled(const ScalarField& field, const PersistenceHierarch
   REQUIRE(extrema_of(fresh) == extrema_of(kept));
 }
 
+/// Share of the vertices that lie in the basin of the same minimum, and of the triangles on the hill of the same maximum
+/// or cap, at a level and in the field with the same pairs cancelled. Near saddles that flooding moves they may differ.
+std::array<double, 2> agreement(const ScalarField& field, const PersistenceHierarchy& hierarchy,
+                                Index level) {
+  const double threshold = hierarchy.cancellations()[level - 1].persistence;
+  const ScalarField cancelled =
+      persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}).field;
+  const DiscreteGradient kept = hierarchy.gradient(level);
+  const DiscreteGradient fresh(cancelled);
+  const auto a = mscomplex::segment(field, kept);
+  const auto b = mscomplex::segment(cancelled, fresh);
+  const auto top = [](const DiscreteGradient& gradient, Index label) {
+    const auto maxima = gradient.maxima();
+    return label < maxima.size() ? long{maxima[label].vertex} : -1 - static_cast<long>(label - maxima.size());
+  };
+  Index vertices = 0;
+  for (Index v = 0; v < field.mesh().vertex_count(); ++v)
+    if (kept.minima()[a.ascending.vertex[v]] == fresh.minima()[b.ascending.vertex[v]]) ++vertices;
+  Index triangles = 0;
+  for (Index t = 0; t < field.mesh().triangle_count(); ++t)
+    if (top(kept, a.descending.triangle[t]) == top(fresh, b.descending.triangle[t])) ++triangles;
+  return {1.0 * vertices / field.mesh().vertex_count(), 1.0 * triangles / field.mesh().triangle_count()};
+}
+
 ScalarField curvature_of(const std::string& file) {
   return morse::mean_curvature(core::read_mesh(sample(file)).mesh);
 }
@@ -228,6 +253,26 @@ TEST_CASE("every level of a hierarchy is the complex of the gradient with V-path
       }
 }
 
+TEST_CASE("cancellations are those of the shortest arc again and again") {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const TriangleMesh mesh = random_surface(seed);
+    INFO("seed " << seed);
+    const PersistenceHierarchy hierarchy({mesh, random_values(mesh.vertex_count(), seed)});
+    const auto greedy = cancel_greedily(hierarchy.complex());
+    REQUIRE(greedy.size() == hierarchy.levels());
+    std::set<std::array<Index, 2>> saddles_and_extrema;
+    std::set<std::array<Index, 2>>
+        expected;  // the saddle's vertex: a multiple saddle may give either of its cells
+    for (std::size_t i = 0; i < greedy.size(); ++i) {
+      const Cancellation& c = hierarchy.cancellations()[i];
+      REQUIRE(c.persistence == greedy[i].persistence);
+      saddles_and_extrema.insert({hierarchy.complex().node(hierarchy.saddle_of(c)).vertex, c.extremum});
+      expected.insert({hierarchy.complex().node(greedy[i].saddle).vertex, greedy[i].extremum});
+    }
+    REQUIRE(saddles_and_extrema == expected);
+  }
+}
+
 TEST_CASE("hierarchies of random surfaces") {
   for (unsigned seed = 0; seed < 300; ++seed) {
     const TriangleMesh mesh = random_surface(seed);
@@ -296,6 +341,8 @@ TEST_CASE("hierarchies of real meshes") {
       cursor.go_to(level);
       check_level(field, cursor, hierarchy);
       check_against_cancelled(field, hierarchy, level);
+      for (const double share : agreement(field, hierarchy, level))
+        CHECK(share > 0.95);  // 0.958 to 0.999 seen
     }
     cursor.go_to(hierarchy.levels());
     check_level(field, cursor, hierarchy);

@@ -122,6 +122,35 @@ TEST_CASE("a row is the text of the object it stands for") {
   }
 }
 
+TEST_CASE("rows within a row are an array of objects in it") {
+  const tools::MakeRow inner = [](std::size_t i, const tools::TakeRow& take) {
+    take({{"j", i}, {"x", 0.5}});
+  };
+  const tools::MakeRow outer = [&](std::size_t i, const tools::TakeRow& take) {
+    take({{"i", i}, {"list", tools::NestedRows{i, inner}}, {"text", "after"}});
+  };
+  std::ostringstream out;
+  tools::JsonStream stream(out);
+  tools::ReportCollector collector;
+  for (tools::JsonSink* sink :
+       {static_cast<tools::JsonSink*>(&stream), static_cast<tools::JsonSink*>(&collector)}) {
+    sink->begin_object();
+    sink->begin_array("rows");
+    sink->rows(3, outer);
+    sink->end_array();
+    sink->end_object();
+  }
+  const Json none = Json::array();
+  const Json one = {{"j", 0}, {"x", 0.5}};
+  const Json two = {{"j", 1}, {"x", 0.5}};
+  const Json expected = {{"rows",
+                          {{{"i", 0}, {"list", none}, {"text", "after"}},
+                           {{"i", 1}, {"list", Json::array({one})}, {"text", "after"}},
+                           {{"i", 2}, {"list", Json::array({one, two})}, {"text", "after"}}}}};
+  CHECK(Json::parse(out.str()) == expected);
+  CHECK(collector.take().head == expected);
+}
+
 TEST_CASE("many rows at once are the same text as one after the other") {
   const core::ThreadLimit limit(4);
   for (const std::size_t count : {0u, 1u, 511u, 512u, 513u, 40000u, 65536u}) {

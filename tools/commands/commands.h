@@ -53,9 +53,12 @@ void tell_target(const MadeField& made, Console& console);
 
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_field(CLI::App& app, Invocation& invocation);
+void add_hierarchy(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_check(CLI::App& app, Invocation& invocation);
 void add_molecule(CLI::App& app, Invocation& invocation);
+void add_segment(CLI::App& app, Invocation& invocation);
+void add_cut(CLI::App& app, Invocation& invocation);
 void add_quads(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.

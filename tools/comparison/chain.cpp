@@ -88,15 +88,19 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
   context.count_iterations = options.count_iterations;
   ChainOutcome outcome{field, {}, {}};
   for (const MethodStep& step : chain.steps) {
+    const bool is_last = &step == &chain.steps.back();
+    const bool told = is_last && options.on_iteration;
     std::optional<TargetSearch> search;
-    if (options.target && &step == &chain.steps.back())
+    if (options.target && is_last)
       search.emplace(outcome.field, *options.target, step.role != MethodRole::cancels, progress);
     StepWatcher watcher(options.tracker, search ? &*search : nullptr);
     context.on_iteration = {};
-    if (watcher.wanted())
+    if (watcher.wanted() || told)
       context.on_iteration = [&](int number, const core::ScalarField& passed) {
-        return watcher.iteration(number, passed);
+        const bool go_on = !watcher.wanted() || watcher.iteration(number, passed);
+        return !(told && !options.on_iteration(number, passed)) && go_on;
       };
+    if (told) options.on_iteration(0, outcome.field);
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
     outcome.steps.push_back(

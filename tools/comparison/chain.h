@@ -2,6 +2,7 @@
 /// Applying a chain of methods, watched: what each step told, where critical points came from, and a wanted number.
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ struct ChainOptions {
   bool count_iterations = false;  ///< of iterative methods
   morse::CriticalPointTracker* tracker =
       nullptr;  ///< made for the input; told every field that is passed through
+  /// As core::MethodContext's, of the last step alone; told its input first, as iteration 0.
+  std::function<bool(int iteration, const core::ScalarField& field)> on_iteration = {};
 };
 
 struct ChainOutcome {

@@ -62,7 +62,7 @@ void write_field(const std::filesystem::path& path, const core::ScalarField& fie
     document.point_arrays = {{name, std::span<const double>(values)}};
     write_vtp(path, document);
   } else {
-    const core::VertexProperty property{name, values};
+    const core::PropertyView property(name, values);
     core::write_ply(path, input_positions, triangles, {&property, 1});
   }
 }

@@ -16,10 +16,14 @@ std::string fixed(double value, const char* format) {
 
 }  // namespace
 
+std::string field_line(const FieldOutcome& outcome) {
+  return outcome.name + ": " + fixed(outcome.field.min(), "%.6g") + " to " +
+         fixed(outcome.field.max(), "%.6g") + " on " + grouped(outcome.field.mesh().vertex_count()) +
+         " vertices";
+}
+
 void ComparisonTable::field(const FieldOutcome& outcome) {
-  headline_ = outcome.name + ": " + fixed(outcome.field.min(), "%.6g") + " to " +
-              fixed(outcome.field.max(), "%.6g") + " on " + grouped(outcome.field.mesh().vertex_count()) +
-              " vertices\n";
+  headline_ = field_line(outcome) + "\n";
   rows_ = {{"method", "minima", "saddles", "(mult.)", "maxima", "total", "pairs", ">1 %", "arcs", "cells",
             "kept", "moved", "added", "seconds"}};
 }

@@ -20,6 +20,8 @@ std::string indented(const std::string& text, std::size_t depth) {
   return result;
 }
 
+void append_row(std::string& text, Row row);
+
 /// Appends a row's values as Json::dump() writes them, without allocating.
 struct CellWriter {
   std::string& text;
@@ -50,6 +52,17 @@ struct CellWriter {
       (*this)(x);
       separator = ',';
     }
+    text += ']';
+  }
+  void operator()(const NestedRows& rows) const {
+    text += '[';
+    bool is_first = true;
+    const TakeRow take = [&](Row row) {
+      if (!is_first) text += ',';
+      append_row(text, row);
+      is_first = false;
+    };
+    for (std::size_t i = 0; i < rows.count; ++i) (*rows.make)(i, take);
     text += ']';
   }
 };
@@ -123,7 +136,7 @@ void JsonStream::row(Row row) {
   write_out();
 }
 
-void JsonStream::rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) {
+void JsonStream::rows(std::size_t count, const MakeRow& make) {
   constexpr std::size_t kRows = 512;  // a text
   std::vector<std::string> texts(64);
   for (std::size_t begin = 0; begin < count; begin += kRows * texts.size()) {

@@ -17,16 +17,27 @@ namespace morsel::tools {
 
 using Json = nlohmann::ordered_json;
 
-/// A row's value: null, a number (null if it is not finite), a text or a position.
-using Cell =
-    std::variant<std::nullptr_t, std::uint64_t, double, std::string_view, std::span<const double, 3>>;
+struct RowMember;
+/// An object of scalars, of which a document has many: written without a JSON value for each.
+using Row = std::initializer_list<RowMember>;
+using TakeRow = std::function<void(Row)>;
+/// Hands the i-th of some rows to `take`.
+using MakeRow = std::function<void(std::size_t, const TakeRow&)>;
+
+/// An array of rows within a row; refers to what makes them.
+struct NestedRows {
+  NestedRows(std::size_t row_count, const MakeRow& make_row) : count(row_count), make(&make_row) {}
+  std::size_t count;
+  const MakeRow* make;
+};
+
+/// A row's value: null, a number (null if it is not finite), a text, a position or rows.
+using Cell = std::variant<std::nullptr_t, std::uint64_t, double, std::string_view, std::span<const double, 3>,
+                          NestedRows>;
 struct RowMember {
   std::string_view key;
   Cell value;
 };
-/// An object of scalars, of which a document has many: written without a JSON value for each.
-using Row = std::initializer_list<RowMember>;
-using TakeRow = std::function<void(Row)>;
 
 /// Receives a JSON document piece by piece. The caller keeps it well-formed: keys in objects, none in arrays,
 /// every begin with its end.
@@ -43,7 +54,7 @@ class JsonSink {
   virtual void row(Row row) = 0;
   /// Many elements of the current array: make(i, take), for each i < count, hands the i-th to take. Calls of
   /// `make` may run in parallel and in any order.
-  virtual void rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) = 0;
+  virtual void rows(std::size_t count, const MakeRow& make) = 0;
 };
 
 /// Writes it as text, with two-space indentation and a line to each row.
@@ -58,7 +69,7 @@ class JsonStream : public JsonSink {
   void end_array() override { end(']'); }
   void member(std::string_view key, const Json& value) override;
   void row(Row row) override;
-  void rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) override;
+  void rows(std::size_t count, const MakeRow& make) override;
 
  private:
   void begin(std::string_view key, char bracket);

@@ -60,6 +60,34 @@ Json field_section(const FieldOutcome& outcome) {
           {"max", outcome.field.max()}};
 }
 
+Json counts_section(const morse::CriticalPoints& points) {
+  return {{"minima", points.minima},
+          {"saddles", points.saddles},
+          {"saddle_multiplicity", points.saddle_multiplicity},
+          {"maxima", points.maxima},
+          {"total", points.total()}};
+}
+
+Json complex_section(const mscomplex::MorseSmaleComplex& complex,
+                     const mscomplex::Segmentation& segmentation) {
+  return {{"minima", complex.minimum_count()},
+          {"saddles", complex.saddle_count()},
+          {"maxima", complex.maximum_count()},
+          {"caps", complex.cap_count()},
+          {"arcs", complex.arc_count()},
+          {"quads", complex.quad_count()},
+          {"segments",
+           {{"descending", segmentation.descending.count},
+            {"ascending", segmentation.ascending.count},
+            {"morse_smale", segmentation.morse_smale.count}}}};
+}
+
+Json timings_section(const Timings& timings) {
+  Json json = Json::object();
+  for (const auto& [step, seconds] : timings) json[step] = seconds;
+  return json;
+}
+
 Json steps_section(const std::vector<StepOutcome>& steps) {
   return {{"parameters", by_step(steps, &StepOutcome::parameters)},
           {"details", by_step(steps, &StepOutcome::details)},

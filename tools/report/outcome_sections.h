@@ -21,6 +21,13 @@ Json to_json(const std::vector<core::IterationRecord>& iterations);
 Json tool_section();
 /// {"name", "parameters", "min", "max"}
 Json field_section(const FieldOutcome& outcome);
+/// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
+Json counts_section(const morse::CriticalPoints& points);
+/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending", "morse_smale"}}
+Json complex_section(const mscomplex::MorseSmaleComplex& complex,
+                     const mscomplex::Segmentation& segmentation);
+/// Steps with their seconds.
+Json timings_section(const Timings& timings);
 /// {"parameters", "details", "iterations"}: one step's as they are, a chain's by step.
 Json steps_section(const std::vector<StepOutcome>& steps);
 /// How a wanted number came about, without the list of the cancelled pairs; vertices in the input's numbers.

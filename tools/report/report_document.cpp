@@ -17,17 +17,28 @@ bool has_keys(const Json& row, const std::vector<std::string>& keys) {
                     [](const auto& member, const auto& key) { return member.key() == key; });
 }
 
-Json to_json(const Cell& cell) {
-  return std::visit(
-      [](const auto& value) -> Json {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>)
-          return std::isfinite(value) ? Json(value) : Json();
-        else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::span<const double, 3>>)
-          return {to_json(value[0]), to_json(value[1]), to_json(value[2])};
-        else
-          return value;
-      },
-      cell);
+Json to_json(Row row);
+
+struct CellToJson {
+  Json operator()(std::nullptr_t) const { return nullptr; }
+  Json operator()(std::uint64_t value) const { return value; }
+  Json operator()(double value) const { return std::isfinite(value) ? Json(value) : Json(); }
+  Json operator()(std::string_view value) const { return value; }
+  Json operator()(std::span<const double, 3> value) const {
+    return {(*this)(value[0]), (*this)(value[1]), (*this)(value[2])};
+  }
+  Json operator()(const NestedRows& rows) const {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < rows.count; ++i) (*rows.make)(i, [&](Row row) { list.push_back(to_json(row)); });
+    return list;
+  }
+};
+
+Json to_json(Row row) {
+  Json object = Json::object();
+  for (const RowMember& member : row)
+    object[std::string(member.key)] = std::visit(CellToJson{}, member.value);
+  return object;
 }
 
 }  // namespace
@@ -154,8 +165,7 @@ void ReportCollector::member(std::string_view key, const Json& value) {
 }
 
 void ReportCollector::row(Row row) {
-  Json object = Json::object();
-  for (const RowMember& member : row) object[std::string(member.key)] = to_json(member.value);
+  Json object = to_json(row);
   if (PackedRows* rows = finder_.rows(open_.size()))
     rows->add(object);
   else
@@ -163,7 +173,7 @@ void ReportCollector::row(Row row) {
   finder_.end(open_.size());
 }
 
-void ReportCollector::rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) {
+void ReportCollector::rows(std::size_t count, const MakeRow& make) {
   const TakeRow take = [&](Row row) { this->row(row); };
   for (std::size_t i = 0; i < count; ++i) make(i, take);
 }

@@ -86,7 +86,7 @@ class ReportCollector : public JsonSink {
   void end_array() override { end(); }
   void member(std::string_view key, const Json& value) override;
   void row(Row row) override;
-  void rows(std::size_t count, const std::function<void(std::size_t, const TakeRow&)>& make) override;
+  void rows(std::size_t count, const MakeRow& make) override;
   ReportDocument take() { return std::move(document_); }
 
  private:

@@ -7,16 +7,6 @@
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
-namespace {
-
-Json timings_json(const Timings& timings) {
-  Json json = Json::object();
-  for (const auto& [step, seconds] : timings) json[step] = seconds;
-  return json;
-}
-
-}  // namespace
-
 ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                            const ComparisonRequest& request)
     : json_(json), loaded_(loaded), items_(input.items), timings_({{"load", input.load_seconds}}) {
@@ -45,21 +35,8 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   add_members(steps_section(outcome.steps));
   if (outcome.target) write_target(*outcome.target);
   json_.member("field", {{"min", outcome.field.min()}, {"max", outcome.field.max()}});
-  json_.member("critical_points", {{"minima", m.critical_points.minima},
-                                   {"saddles", m.critical_points.saddles},
-                                   {"saddle_multiplicity", m.critical_points.saddle_multiplicity},
-                                   {"maxima", m.critical_points.maxima},
-                                   {"total", m.critical_points.total()}});
-  json_.member("ms_complex", {{"minima", m.complex.minimum_count()},
-                              {"saddles", m.complex.saddle_count()},
-                              {"maxima", m.complex.maximum_count()},
-                              {"caps", m.complex.cap_count()},
-                              {"arcs", m.complex.arc_count()},
-                              {"quads", m.complex.quad_count()},
-                              {"segments",
-                               {{"descending", m.segmentation.descending.count},
-                                {"ascending", m.segmentation.ascending.count},
-                                {"morse_smale", m.segmentation.morse_smale.count}}}});
+  json_.member("critical_points", counts_section(m.critical_points));
+  json_.member("ms_complex", complex_section(m.complex, m.segmentation));
   json_.member("compared_to_first", {{"kept", outcome.compared_to_first.kept.size()},
                                      {"moved", outcome.compared_to_first.moved.size()},
                                      {"added", outcome.compared_to_first.added},
@@ -68,7 +45,7 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   if (items_) write_items(outcome);
   json_.end_object();
   Json seconds = {{"name", outcome.name}};
-  seconds.update(timings_json(outcome.timings));
+  seconds.update(timings_section(outcome.timings));
   timings_["methods"].push_back(std::move(seconds));
 }
 

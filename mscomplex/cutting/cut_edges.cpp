@@ -1,0 +1,97 @@
+#include "morsel/mscomplex/cutting/cut_edges.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "morsel/core/error.h"
+
+namespace morsel::mscomplex {
+
+using core::Index;
+using core::kNone;
+using core::TriangleMesh;
+
+double edge_length(const TriangleMesh& mesh, Index halfedge) {
+  return (mesh.position(mesh.target(halfedge)) - mesh.position(mesh.origin(halfedge))).norm();
+}
+
+Walls::Walls(const TriangleMesh& mesh, std::span<const Index> edges)
+    : mesh_(mesh), cut_(mesh.edge_count(), 0), degree_(mesh.vertex_count(), 0) {
+  for (Index k = 0; k < mesh.boundary_loop_count(); ++k)
+    for (const Index h : mesh.boundary_loop(k)) degree_[mesh.origin(h)] = 2;
+  for (const Index e : edges) {
+    if (e >= mesh.edge_count())
+      throw core::InvalidArgument("cannot cut along edge " + std::to_string(e) + ": the mesh has " +
+                                  std::to_string(mesh.edge_count()) + " edges, numbered from 0");
+    if (mesh.is_boundary_edge(e))
+      throw core::InvalidArgument("cannot cut along edge " + std::to_string(e) + ": it is on the boundary");
+    if (!is_cut(e)) add(e);
+  }
+}
+
+std::vector<Index> halfedges_along(const TriangleMesh& mesh, std::span<const Index> vertices) {
+  std::vector<Index> halfedges;
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+    Index found = kNone;
+    mesh.for_each_outgoing(vertices[i], [&](Index h) {
+      if (mesh.target(h) == vertices[i + 1]) found = h;
+    });
+    if (found == kNone)
+      throw core::InvalidArgument("no inner edge leads from vertex " + std::to_string(vertices[i]) +
+                                  " to vertex " + std::to_string(vertices[i + 1]));
+    halfedges.push_back(found);
+  }
+  return halfedges;
+}
+
+CutGraph make_cut_graph(const TriangleMesh& mesh, std::vector<Index> edges) {
+  struct Side {
+    Index vertex;
+    Index edge;  // as a position in `edges`
+    bool operator<(const Side& other) const {
+      return std::pair(vertex, edge) < std::pair(other.vertex, other.edge);
+    }
+  };
+  std::vector<Side> sides;
+  for (Index i = 0; i < edges.size(); ++i)
+    for (const Index v : mesh.edge_vertices(edges[i])) sides.push_back({v, i});
+  std::sort(sides.begin(), sides.end());
+  const auto around = [&](Index v) {
+    const auto first = std::lower_bound(sides.begin(), sides.end(), Side{v, 0});
+    auto last = first;
+    while (last != sides.end() && last->vertex == v) ++last;
+    return std::span<const Side>(first, last);
+  };
+
+  CutGraph graph;
+  std::vector<std::uint8_t> is_done(edges.size(), 0);
+  for (std::size_t start = 0, end = 0; start < sides.size(); start = end) {
+    const Index first = sides[start].vertex;
+    while (end < sides.size() && sides[end].vertex == first) ++end;
+    if (end - start == 2 && !mesh.is_boundary_vertex(first)) continue;  // in the middle of a path
+    for (std::size_t s = start; s < end; ++s) {
+      if (is_done[sides[s].edge] != 0) continue;
+      CutPath path{{first}, 0, mesh.component_of_vertex(first)};
+      for (Index v = first, i = sides[s].edge;;) {
+        is_done[i] = 1;
+        path.length += edge_length(mesh, mesh.edge_halfedge(edges[i]));
+        const auto [a, b] = mesh.edge_vertices(edges[i]);
+        v = v == a ? b : a;
+        path.vertices.push_back(v);
+        const std::span<const Side> next = around(v);
+        if (next.size() != 2 || mesh.is_boundary_vertex(v)) break;
+        i = next[0].edge == i ? next[1].edge : next[0].edge;
+      }
+      graph.length += path.length;
+      graph.paths.push_back(std::move(path));
+    }
+  }
+  if (std::find(is_done.begin(), is_done.end(), 0) != is_done.end())
+    throw std::logic_error("a cut has a loop that neither branches nor meets the boundary");
+  graph.edges = std::move(edges);
+  return graph;
+}
+
+}  // namespace morsel::mscomplex

@@ -1,0 +1,49 @@
+#pragma once
+/// The edges of a cut as the algorithms see them: walls that part a surface, and paths between branchings.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "morsel/mscomplex/cut.h"
+
+namespace morsel::mscomplex {
+
+double edge_length(const core::TriangleMesh& mesh, core::Index halfedge);
+
+/// The edges that part triangles: those on the boundary and those of a cut.
+class Walls {
+ public:
+  /// Throws InvalidArgument if one of `edges` is none of the mesh's or on the boundary.
+  Walls(const core::TriangleMesh& mesh, std::span<const core::Index> edges);
+
+  bool is_cut(core::Index edge) const { return cut_[edge] != 0; }
+  bool is_wall(core::Index halfedge) const {
+    return mesh_.twin(halfedge) == core::kNone || is_cut(mesh_.edge(halfedge));
+  }
+  /// Of the walls at a vertex; a boundary counts 2.
+  core::Index degree(core::Index vertex) const { return degree_[vertex]; }
+
+  /// Adds an inner edge that is no wall, or takes one away that is.
+  void add(core::Index edge) { change(edge, 1); }
+  void remove(core::Index edge) { change(edge, 0); }
+
+ private:
+  void change(core::Index edge, std::uint8_t cut) {
+    cut_[edge] = cut;
+    for (const core::Index v : mesh_.edge_vertices(edge)) degree_[v] += cut != 0 ? 1 : core::Index(-1);
+  }
+
+  core::TriangleMesh mesh_;
+  std::vector<std::uint8_t> cut_;    // per edge
+  std::vector<core::Index> degree_;  // per vertex
+};
+
+/// The half-edge from `vertices[i]` to `vertices[i + 1]`, for each i; they must be neighbours.
+std::vector<core::Index> halfedges_along(const core::TriangleMesh& mesh,
+                                         std::span<const core::Index> vertices);
+
+/// The graph of these edges (inner ones, ascending, each once), taken apart into paths.
+CutGraph make_cut_graph(const core::TriangleMesh& mesh, std::vector<core::Index> edges);
+
+}  // namespace morsel::mscomplex

@@ -1,0 +1,129 @@
+// morsel cut: opens a surface into discs.
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/cutting/cut_document.h"
+#include "morsel/tools/cutting/cut_files.h"
+#include "morsel/tools/cutting/cutting.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/text_table.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  FieldRequest request{"height:axis=z", "conventional", {}};
+  std::string output;
+  bool no_shorten = false;
+  std::string json;
+  std::string graph;
+};
+
+std::string length_text(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", length);
+  return text;
+}
+
+/// A row a component, or all in one where there are many.
+std::string table(const CutOutcome& outcome) {
+  constexpr std::size_t kMostRows = 20;
+  std::vector<std::vector<std::string>> rows = {
+      {"component", "vertices", "genus", "loops", "paths", "found", "length", "copies"}};
+  ComponentCut all;
+  for (std::size_t c = 0; c < outcome.components.size(); ++c) {
+    const ComponentCut& part = outcome.components[c];
+    all.vertices += part.vertices;
+    all.genus += part.genus;
+    all.loops += part.loops;
+    all.paths += part.paths;
+    all.length_found += part.length_found;
+    all.length += part.length;
+    all.copies += part.copies;
+    if (outcome.components.size() <= kMostRows)
+      rows.push_back({std::to_string(c), grouped(part.vertices), grouped(part.genus), grouped(part.loops),
+                      grouped(part.paths), length_text(part.length_found), length_text(part.length),
+                      grouped(part.copies)});
+  }
+  if (outcome.components.size() > 1)
+    rows.push_back({"all " + grouped(outcome.components.size()), grouped(all.vertices), grouped(all.genus),
+                    grouped(all.loops), grouped(all.paths), length_text(all.length_found),
+                    length_text(all.length), grouped(all.copies)});
+  return text_table(rows);
+}
+
+int cut(const Options& options, const CommonOptions& common, Console& console) {
+  const FieldRecipe recipe = prepare(options.request);
+  check_cut_mesh_path(options.output);
+  if (!options.graph.empty()) check_cut_graph_path(options.graph);
+  // Unwritable targets are told before the work, not after it.
+  const bool json_to_stdout = options.json == "-";
+  std::optional<core::FileWriter> json;
+  if (!options.json.empty() && !json_to_stdout) json.emplace(options.json);
+  { const core::FileWriter probe(options.output); }
+  if (!options.graph.empty()) const core::FileWriter probe(options.graph);
+
+  const Stopwatch load_watch;
+  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  const double load_seconds = load_watch.seconds();
+  const MadeField made = make_field(recipe, input.loaded, console.progress());
+  tell_target(made, console);
+  const CutOutcome outcome = cut_surface(made.field(), !options.no_shorten, console.progress());
+
+  const Stopwatch write_watch;
+  write_cut_mesh(options.output, outcome.opened, input.loaded.source.numbering, console.progress());
+  if (!options.graph.empty()) write_cut_graph(options.graph, outcome.cut, input.loaded);
+  if (!options.json.empty()) {
+    const CutRequest request{options.request, !options.no_shorten, common.repair};
+    const CutTimings timings{load_seconds, write_watch.seconds()};
+    JsonStream stream(json ? json->stream() : std::cout);
+    write_cut_document(stream, options.mesh, input, request, recipe, made, outcome, timings);
+    if (json) json->commit();
+  }
+  if (!json_to_stdout) std::cout << table(outcome);
+  if (!options.no_shorten && !outcome.is_settled)
+    console.message("shortening ended before no path could be made shorter, after " +
+                    std::to_string(outcome.attempts) + " attempts");
+  console.message("cut mesh: " + options.output);
+  if (json) console.message("report: " + options.json);
+  if (!options.graph.empty()) console.message("cut for ParaView: " + options.graph);
+  return kDone;
+}
+
+}  // namespace
+
+void add_cut(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "cut", "Cut a surface of any genus open into one disc a component, along short paths of edges");
+  add_field_options(command, options->mesh, options->request);
+  command
+      .add_option("-o,--output", options->output,
+                  "The mesh cut open, .off or .ply: vertices keep their numbers, copies come after them")
+      ->type_name("OUT")
+      ->required();
+  command.add_flag("--no-shorten", options->no_shorten,
+                   "Cut along the complex's arcs as they are, which are longer");
+  command
+      .add_option("--json", options->json,
+                  "Write here what was cut and which vertices the copies copy; - is standard output")
+      ->type_name("FILE");
+  command.add_option("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
+      ->type_name("FILE.vtp");
+  add_common_options(command, invocation.common);
+  command.footer(specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return cut(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

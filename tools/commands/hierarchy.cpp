@@ -1,0 +1,124 @@
+// morsel hierarchy: critical points and complexes from fine to coarse.
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/export/hierarchy_export.h"
+#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/hierarchy_table.h"
+#include "morsel/tools/report/hierarchy_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  HierarchyRequest request;
+  std::string output;
+  std::string export_folder;
+};
+
+/// Says why a wanted number of critical points was not reached.
+class TargetTeller : public HierarchySink {
+ public:
+  explicit TargetTeller(Console& console) : console_(console) {}
+  void begin(const HierarchyBasis& basis) override { tell_target(basis.made, console_); }
+  void level(const Level&) override {}
+
+ private:
+  Console& console_;
+};
+
+int make_hierarchy(const Options& options, const CommonOptions& common, Console& console) {
+  // Wrong names and unwritable targets are told before the work, not after it.
+  const PreparedHierarchy prepared = prepare(options.request);
+  const HierarchyRequest request = with_defaults(options.request);
+  const bool to_stdout = options.output == "-";
+  std::optional<core::FileWriter> file;
+  if (!options.output.empty() && !to_stdout) file.emplace(options.output);
+
+  const Stopwatch load_watch;
+  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  const core::LoadedMesh& loaded = input.loaded;
+  const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
+
+  TargetTeller teller(console);
+  HierarchyTable table(prepared);
+  std::vector<HierarchySink*> sinks = {&teller, &table};
+  std::optional<JsonStream> json;
+  std::optional<HierarchyWriter> writer;
+  if (file || to_stdout) {
+    json.emplace(to_stdout ? std::cout : file->stream());
+    writer.emplace(*json, loaded, about, request, prepared);
+    sinks.push_back(&*writer);
+  }
+  std::optional<HierarchyExport> exports;
+  if (!options.export_folder.empty()) {
+    exports.emplace(options.export_folder, loaded);
+    sinks.push_back(&*exports);
+  }
+  run_hierarchy(loaded, prepared, sinks, console.progress());
+  if (writer) writer->finish();
+  if (file) file->commit();
+
+  if (!to_stdout) std::cout << table.text();
+  if (file) console.message("hierarchy: " + options.output);
+  if (exports) console.message("files for ParaView: " + options.export_folder);
+  return kDone;
+}
+
+}  // namespace
+
+void add_hierarchy(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  HierarchyRequest& request = options->request;
+  CLI::App& command = *app.add_subcommand(
+      "hierarchy",
+      "Critical points and Morse-Smale complexes of several levels, from fine to coarse, with the links\n"
+      "between them");
+  add_field_options(command, options->mesh, request.field);
+  command.get_option("--method")->default_str("salient by iteration, conventional by persistence");
+  const std::map<std::string, HierarchyKind> kinds = {{"iteration", HierarchyKind::iteration},
+                                                      {"persistence", HierarchyKind::persistence}};
+  command
+      .add_option_function<std::string>(
+          "--by", [&request, kinds](const std::string& kind) { request.kind = kinds.at(kind); },
+          "iteration: what the (last) method's iterations make of the field;\n"
+          "persistence: what cancelling pairs in its complex leaves")
+      ->check(CLI::IsMember({"iteration", "persistence"}))
+      ->default_str("iteration")
+      ->type_name("KIND");
+  command
+      .add_option("--levels", request.levels,
+                  "By iteration their numbers, 0 being the method's input (default: 1,5,10); by persistence\n"
+                  "thresholds, in the field's unit or in % of its extent (default: 0.1%,1%,5%); in any order")
+      ->type_name("L,L,...");
+  command
+      .add_option("--counts", request.counts,
+                  "By persistence, in place of thresholds: critical cells to be left (minima, saddles with\n"
+                  "their multiplicities, maxima), or the nearest smaller number that can be had")
+      ->type_name("N,N,...");
+  command
+      .add_option("-o,--output", options->output,
+                  "Write the levels and their links here, as JSON; - is standard output")
+      ->type_name("HIERARCHY.json");
+  command
+      .add_option("--export", options->export_folder,
+                  "Write each level's surface and complex (.vtp, for ParaView) here: surface.0.vtp is the\n"
+                  "finest level")
+      ->type_name("DIR");
+  add_common_options(command, invocation.common);
+  command.footer(specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return make_hierarchy(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,152 @@
+// morsel segment: the segments of one field.
+
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/export/label_file.h"
+#include "morsel/tools/report/segments_writer.h"
+#include "morsel/tools/report/sha256.h"
+#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/segmentation/made_segments.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  FieldRequest request;
+  std::string by = to_string(mscomplex::SegmentKind::descending);
+  std::optional<std::size_t> segments;
+  std::string persistence;
+  std::string output;
+  std::string json;
+};
+
+SegmentRequest segment_request(const Options& options) {
+  SegmentRequest request;
+  request.kind = parse_segment_kind(options.by);
+  request.segments = options.segments;
+  if (!options.persistence.empty())
+    request.persistence = persistence::parse_threshold(options.persistence, "--persistence");
+  check(request);
+  return request;
+}
+
+/// As many digits as a person wants to read.
+std::string rounded(double value) {
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
+}
+
+std::string described(const MadeSegments& made) {
+  const MadeSegments::Areas areas = made.areas();
+  std::string text = "segments: " + grouped(made.segments.count());
+  if (made.cancelled_pairs > 0)
+    text += " of " + grouped(made.unmerged) + " (" + grouped(made.cancelled_pairs) +
+            (made.cancelled_pairs == 1 ? " pair" : " pairs") + " cancelled, of persistence up to " +
+            rounded(made.largest_persistence) + ")";
+  return text + "; area smallest " + rounded(areas.smallest) + ", median " + rounded(areas.median) +
+         ", largest " + rounded(areas.largest);
+}
+
+int segment(const Options& options, const CommonOptions& common, Console& console) {
+  // Wrong names and unwritable targets are told before the work, not after it.
+  const FieldRecipe recipe = prepare(options.request);
+  const SegmentRequest request = segment_request(options);
+  check_label_path(options.output);
+  const bool json_to_stdout = options.json == "-";
+  std::optional<core::FileWriter> json_file;
+  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+
+  const core::Progress progress = console.progress();
+  Timings timings;
+  const Stopwatch load_watch;
+  core::LoadedSoup file = core::read_polygon_soup(options.mesh, progress);
+  core::BuiltMesh built = core::build_mesh(file.soup, {.repair = common.repair}, progress);
+  const core::LoadedMesh loaded{
+      std::move(built.mesh),
+      {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
+  const std::string hash = options.json.empty() ? std::string() : sha256_of_file(options.mesh);
+  timings.emplace_back("load", load_watch.seconds());
+
+  const MadeField field = make_field(recipe, loaded, progress);
+  timings.emplace_back("field", field.input.seconds);
+  timings.emplace_back("method", field.method_seconds);
+  tell_target(field, console);
+  const Stopwatch segment_watch;
+  const MadeSegments made = make_segments(field.field(), request, progress);
+  timings.emplace_back("segments", segment_watch.seconds());
+
+  const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
+  const std::vector<std::filesystem::path> written = write_labels(
+      options.output, labels, field.field(), field.input.name, loaded.source.numbering, file.soup.positions);
+  if (!options.json.empty()) {
+    JsonStream json(json_to_stdout ? std::cout : json_file->stream());
+    write_segments(json, {options.mesh, hash, common.repair, options.request, request}, loaded, recipe, field,
+                   made, timings);
+    if (json_file) json_file->commit();
+  }
+  console.message(described(made));
+  if (!made.note.empty()) console.message(made.note);
+  for (const std::filesystem::path& path : written) console.message("labels: " + path.string());
+  if (json_file) console.message("table: " + options.json);
+  return kDone;
+}
+
+}  // namespace
+
+void add_segment(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "segment", "Cut the surface into the segments of one field, small ones merged by persistence");
+  add_field_options(command, options->mesh, options->request);
+  command
+      .add_option(
+          "--by", options->by,
+          "descending (a segment for each maximum: the bumps of a curvature), ascending (for each\n"
+          "minimum: with atomic-density, which is lowest where the surface bulges, too) or morse-smale\n"
+          "(for each cell between a minimum and a maximum)")
+      ->type_name("KIND")
+      ->capture_default_str();
+  command
+      .add_option("--segments", options->segments,
+                  "Merge segments, those of least persistence first, until at most N are left")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command
+      .add_option(
+          "--persistence", options->persistence,
+          "Or: merge all of at most this persistence, in the field's unit or, as in 0.1%, in percent of\n"
+          "its extent (default: merge nothing)")
+      ->type_name("T");
+  command
+      .add_option("-o,--output", options->output,
+                  "Labels of vertices and triangles, in the input's vertex numbers: .ply (int properties\n"
+                  "\"segment\"), .vtp (arrays \"segment\", and the field) or .txt (a label a line:\n"
+                  "OUT.vertices.txt, OUT.faces.txt)")
+      ->type_name("OUT")
+      ->required();
+  command
+      .add_option(
+          "--json", options->json,
+          "Write a table of the segments here: area, critical points, neighbours, boundary length; - is\n"
+          "standard output")
+      ->type_name("FILE");
+  add_common_options(command, invocation.common);
+  command.footer(specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return segment(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

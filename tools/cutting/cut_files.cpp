@@ -1,0 +1,68 @@
+#include "morsel/tools/cutting/cut_files.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/core/mesh_writer.h"
+#include "morsel/tools/export/vtp_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+bool is_ply(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension != ".ply" && extension != ".off")
+    throw core::InvalidArgument("a cut mesh is written as .off or .ply, not as " + path.string());
+  return extension == ".ply";
+}
+
+}  // namespace
+
+void check_cut_mesh_path(const std::filesystem::path& path) { is_ply(path); }
+
+void write_cut_mesh(const std::filesystem::path& path, const mscomplex::CutMesh& cut,
+                    const core::VertexNumbering& numbering, const core::Progress& progress) {
+  if (!is_ply(path)) {
+    core::write_off(path, cut.mesh, progress);
+    return;
+  }
+  core::VertexProperty input_vertex{"input_vertex", std::vector<double>(cut.mesh.vertex_count())};
+  for (core::Index v = 0; v < cut.mesh.vertex_count(); ++v)
+    input_vertex.values[v] = numbering.input_vertex(cut.original(v));
+  core::write_ply(path, cut.mesh, {&input_vertex, 1}, progress);
+}
+
+void check_cut_graph_path(const std::filesystem::path& path) {
+  if (path.extension() != ".vtp")
+    throw core::InvalidArgument("a cut is written for ParaView as .vtp, not as " + path.string());
+}
+
+void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGraph& cut,
+                     const core::LoadedMesh& loaded) {
+  std::vector<core::Point> points;
+  std::vector<core::Index> vertices;
+  std::vector<std::int64_t> ends;
+  std::vector<double> lengths;
+  std::vector<core::Index> components;
+  for (const mscomplex::CutPath& line : cut.paths) {
+    for (const core::Index v : line.vertices) {
+      points.push_back(loaded.mesh.position(v));
+      vertices.push_back(loaded.source.numbering.input_vertex(v));
+    }
+    ends.push_back(static_cast<std::int64_t>(points.size()));
+    lengths.push_back(line.length);
+    components.push_back(line.component);
+  }
+  VtpDocument document;
+  document.points = {points};
+  document.lines = {ends.size(), 0, [&](std::size_t i) { return ends[i]; }};
+  document.point_arrays = {{"input_vertex", std::span<const core::Index>(vertices), core::kNone}};
+  document.cell_arrays = {{"length", std::span<const double>(lengths)},
+                          {"component", std::span<const core::Index>(components), core::kNone}};
+  write_vtp(path, document);
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,84 @@
+#include "morsel/tools/export/hierarchy_export.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/parallel.h"
+#include "morsel/tools/export/complex_file.h"
+#include "morsel/tools/export/folder.h"
+#include "morsel/tools/export/surface_file.h"
+
+namespace morsel::tools {
+namespace {
+
+using core::Index;
+
+std::int64_t number(Index i) { return i == core::kNone ? -1 : std::int64_t{i}; }
+
+/// Per triangle, the cell that its own is linked to. Refers to its arguments.
+VtpArray linked_cells(std::string name, const std::vector<Index>& labels,
+                      const std::vector<mscomplex::Overlap>& links) {
+  return {std::move(name), labels.size(), labels.size(),
+          [&labels, &links](std::size_t t) { return number(links[labels[t]].segment); }};
+}
+
+}  // namespace
+
+HierarchyExport::HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded)
+    : folder_(std::move(folder)), loaded_(loaded) {
+  make_folder(folder_);
+}
+
+void HierarchyExport::begin(const HierarchyBasis& basis) { field_name_ = basis.made.input.name; }
+
+void HierarchyExport::level(const Level& level) {
+  const std::string place = std::to_string(level.place);
+  core::parallel_for(0, 2, 1, [&](std::size_t i, std::size_t) {
+    if (i == 0)
+      write_surface(folder_ / ("surface." + place + ".vtp"), level);
+    else
+      write_complex(folder_ / ("complex." + place + ".vtp"), level);
+  });
+}
+
+void HierarchyExport::write_surface(const std::filesystem::path& path, const Level& level) const {
+  std::vector<std::uint8_t> types(loaded_.mesh.vertex_count(), 0);
+  std::vector<double> persistence(loaded_.mesh.vertex_count(), 0);
+  for (std::size_t i = 0; i < level.points.points.size(); ++i) {
+    const morse::CriticalPoint& point = level.points.points[i];
+    types[point.vertex] = static_cast<std::uint8_t>(point.type);
+    persistence[point.vertex] = level.persistence[i];
+  }
+  std::vector<VtpArray> links;
+  links.reserve(2 * kCellKinds.size());
+  for (const CellKind kind : kCellKinds) {
+    const std::string name(to_string(kind));
+    const std::vector<Index>& labels = level.cells(kind).triangle;
+    links.push_back(linked_cells(name + "_parent", labels, level.cell_links(kind).parents));
+    links.push_back(linked_cells(name + "_merges_into", labels, level.cell_links(kind).merges_into));
+  }
+  write_surface_file(path, {loaded_, field_name_, *level.field, types, persistence, level.segmentation},
+                     links);
+}
+
+void HierarchyExport::write_complex(const std::filesystem::path& path, const Level& level) const {
+  const mscomplex::MorseSmaleComplex& complex = level.complex;
+  const std::vector<morse::CriticalPoint>& points = level.points.points;
+  const core::VertexNumbering& numbering = loaded_.source.numbering;
+  const std::size_t nodes = complex.node_count();
+  std::vector<std::int64_t> parents(nodes + complex.arc_count(), -1);
+  for (Index n = 0; n < nodes; ++n) {
+    const mscomplex::Node node = complex.node(n);
+    if (node.kind == mscomplex::NodeKind::cap) continue;
+    const auto point = std::ranges::lower_bound(points, node.vertex, {}, &morse::CriticalPoint::vertex);
+    const Index parent = level.parents[static_cast<std::size_t>(point - points.begin())];
+    if (parent != core::kNone) parents[n] = numbering.input_vertex(parent);
+  }
+  write_complex_file(
+      path, loaded_, complex,
+      {{"parent", parents.size(), numbering.input_count, [&](std::size_t i) { return parents[i]; }}});
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,32 @@
+#pragma once
+/// The files of `morsel hierarchy --export`.
+
+#include <filesystem>
+#include <string>
+
+#include "morsel/tools/hierarchy/hierarchy.h"
+
+namespace morsel::tools {
+
+/// Writes, per level, into one folder (made if it is not there):
+///   surface.K.vtp  the surface as surface_file.h's, and per triangle, for each kind of cell, KIND_parent and
+///                  KIND_merges_into: the label of the cell of the level before and after that its cell is linked to
+///   complex.K.vtp  the complex as complex_file.h's, and per node `parent`, the vertex of its critical point's parent
+/// K is the level's place, 0 the finest, so that ParaView opens each kind as a series; −1 stands where there is no link.
+class HierarchyExport : public HierarchySink {
+ public:
+  /// Throws WriteFailed if the folder cannot be made. Refers to `loaded`.
+  HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded);
+  void begin(const HierarchyBasis& basis) override;
+  void level(const Level& level) override;
+
+ private:
+  void write_surface(const std::filesystem::path& path, const Level& level) const;
+  void write_complex(const std::filesystem::path& path, const Level& level) const;
+
+  std::filesystem::path folder_;
+  const core::LoadedMesh& loaded_;
+  std::string field_name_;
+};
+
+}  // namespace morsel::tools

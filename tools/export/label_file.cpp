@@ -1,0 +1,101 @@
+#include "morsel/tools/export/label_file.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
+#include "morsel/core/file_writer.h"
+#include "morsel/core/mesh_writer.h"
+#include "morsel/core/parallel.h"
+#include "morsel/tools/export/vtp_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_of(const fs::path& path) {
+  const std::string extension = core::file_extension(path);
+  if (extension == ".ply" || extension == ".vtp") return {path};
+  if (extension != ".txt")
+    throw core::InvalidArgument("labels are written as .ply, .vtp or .txt, not as \"" + path.string() + "\"");
+  fs::path base = path;
+  base.replace_extension();
+  return {base.string() + ".vertices" + path.extension().string(),
+          base.string() + ".faces" + path.extension().string()};
+}
+
+std::vector<std::int32_t> by_input_vertex(std::span<const core::Index> label,
+                                          const core::VertexNumbering& numbering) {
+  std::vector<std::int32_t> result(numbering.input_count);
+  core::parallel_for_each(result.size(), [&](std::size_t i) {
+    const core::Index v = numbering.mesh_vertex(static_cast<core::Index>(i));
+    result[i] = v == core::kNone ? -1 : static_cast<std::int32_t>(label[v]);
+  });
+  return result;
+}
+
+std::vector<double> by_input_vertex(const core::ScalarField& field, const core::VertexNumbering& numbering) {
+  std::vector<double> result(numbering.input_count);
+  core::parallel_for_each(result.size(), [&](std::size_t i) {
+    const core::Index v = numbering.mesh_vertex(static_cast<core::Index>(i));
+    result[i] = v == core::kNone ? std::numeric_limits<double>::quiet_NaN() : field.value(v);
+  });
+  return result;
+}
+
+void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels) {
+  for (const std::int32_t label : labels) {
+    if (label < 0)
+      file.write("-1");
+    else
+      file.write_number(static_cast<std::uint64_t>(label));
+    file.write("\n");
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> check_label_path(const fs::path& path) {
+  const std::vector<fs::path> files = files_of(path);
+  for (const fs::path& file : files) const core::FileWriter target(file);
+  return files;
+}
+
+std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, const core::ScalarField& field,
+                                   const std::string& field_name, const core::VertexNumbering& numbering,
+                                   std::span<const core::Point> input_positions) {
+  const std::vector<fs::path> files = files_of(path);
+  const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
+  const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
+  if (files.size() == 2) {
+    core::FileWriter vertices(files[0]);
+    core::FileWriter faces(files[1]);
+    write_lines(vertices, at_vertices);
+    write_lines(faces, at_triangles);
+    vertices.commit();
+    faces.commit();
+    return files;
+  }
+  std::vector<core::Triangle> triangles(field.mesh().triangles().begin(), field.mesh().triangles().end());
+  for (core::Triangle& t : triangles)
+    for (core::Index& v : t) v = numbering.input_vertex(v);
+  if (core::file_extension(path) == ".ply") {
+    const core::PropertyView of_vertices(labels.name, at_vertices);
+    const core::PropertyView of_faces(labels.name, at_triangles);
+    core::write_ply(path, input_positions, triangles, {&of_vertices, 1}, {&of_faces, 1});
+    return files;
+  }
+  const std::vector<double> values = by_input_vertex(field, numbering);
+  VtpDocument document;
+  document.points = {input_positions};
+  document.polygons = {triangles, input_positions.size()};
+  document.point_arrays = {{labels.name, std::span<const std::int32_t>(at_vertices)},
+                           {field_name, std::span<const double>(values)}};
+  document.cell_arrays = {{labels.name, std::span<const std::int32_t>(at_triangles)}};
+  write_vtp(path, document);
+  return files;
+}
+
+}  // namespace morsel::tools

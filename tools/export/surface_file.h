@@ -1,0 +1,33 @@
+#pragma once
+/// A surface with what was measured on it, as one file for ParaView.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/core/scalar_field.h"
+#include "morsel/mscomplex/segmentation.h"
+#include "morsel/tools/export/vtp_writer.h"
+
+namespace morsel::tools {
+
+/// What the file shows; refers to the caller's data.
+struct SurfaceFile {
+  const core::LoadedMesh& loaded;
+  const std::string& field_name;
+  const core::ScalarField& field;
+  std::span<const std::uint8_t> critical_types;  ///< per vertex: 0 regular, 1 minimum, 2 saddle, 3 maximum
+  std::span<const double> persistence;           ///< per vertex
+  const mscomplex::Segmentation& segmentation;
+};
+
+/// Per vertex the field, critical_type, persistence and input_vertex; per vertex and triangle the labels descending,
+/// ascending and morse_smale; `more` are arrays of one value a triangle. Nobody waits until the file is on disk. Throws
+/// WriteFailed.
+void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
+                        const std::vector<VtpArray>& more = {});
+
+}  // namespace morsel::tools

@@ -1,0 +1,28 @@
+#pragma once
+/// The levels of a hierarchy as a short table for people.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/hierarchy/hierarchy.h"
+
+namespace morsel::tools {
+
+/// Collects a row a level.
+class HierarchyTable : public HierarchySink {
+ public:
+  /// Refers to `prepared`.
+  explicit HierarchyTable(const PreparedHierarchy& prepared) : prepared_(prepared) {}
+  void begin(const HierarchyBasis& basis) override;
+  void level(const Level& level) override;
+  /// The table, with a line on the field above it, and below it where levels are not what was asked for.
+  std::string text() const;
+
+ private:
+  const PreparedHierarchy& prepared_;
+  std::string headline_;
+  std::vector<std::vector<std::string>> rows_;
+  std::string notes_;
+};
+
+}  // namespace morsel::tools

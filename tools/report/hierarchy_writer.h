@@ -1,0 +1,36 @@
+#pragma once
+/// The JSON document of a hierarchy ("morsel.hierarchy/1", see hierarchy.schema.json).
+
+#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/report/report_writer.h"
+
+namespace morsel::tools {
+
+/// Writes the document while the levels are made.
+class HierarchyWriter : public HierarchySink {
+ public:
+  /// Refers to all but `input`, which must outlive the writer. `request` with its defaults.
+  HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
+                  const HierarchyRequest& request, const PreparedHierarchy& prepared);
+  void begin(const HierarchyBasis& basis) override;
+  void level(const Level& level) override;
+  /// Closes the document; nothing may follow.
+  void finish();
+
+ private:
+  void write_cancellations(const mscomplex::PersistenceHierarchy& hierarchy);
+  void write_name(const Level& level);
+  void write_points(const Level& level);
+  void write_arcs(const Level& level);
+  void write_cells(const Level& level, CellKind kind);
+  Cell vertex(core::Index v) const;
+
+  JsonSink& json_;
+  const core::LoadedMesh& loaded_;
+  const PreparedHierarchy& prepared_;
+  Json timings_;
+  Stopwatch watch_;
+};
+
+}  // namespace morsel::tools
