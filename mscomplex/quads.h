@@ -11,8 +11,8 @@
 
 namespace morsel::mscomplex {
 
-/// A cancellation that was needed before a layout could be had: an extremum with a single arc, and the saddle at the
-/// arc's start. Both sides of that arc are in one quad of the complex, which would be folded about it.
+/// A cancellation that was needed before a layout could be had: an extremum with a single arc, and the saddle
+/// at the arc's start. Both sides of that arc are in one quad of the complex, which would be folded about it.
 struct DanglingRepair {
   NodeKind kind = NodeKind::minimum;  ///< minimum or maximum
   core::Index vertex = core::kNone;   ///< of the extremum
@@ -26,25 +26,28 @@ struct RepairedComplex {
   std::vector<DanglingRepair> repairs;  ///< in their order
 };
 
-/// Cancels each extremum that has a single arc with the saddle there, by turning the V-path between them round (Forman
-/// 1998), the ones of least persistence first, until none is left: cancelling one may leave another with one arc. Throws
-/// BadInput if no saddle is left in some component, for then there is no layout: it takes a field with more critical
-/// points. O(n) a round.
+/// Cancels each extremum that has a single arc with the saddle there, by turning the V-path between them
+/// round (Forman 1998), the ones of least persistence first, until none is left: cancelling one may leave
+/// another with one arc. Throws BadInput if no saddle is left in some component, for then there is no layout:
+/// it takes a field with more critical points. O(n) a round.
 RepairedComplex repair_dangling(const core::ScalarField& field, MorseSmaleComplex complex,
                                 const core::Progress& progress = {});
 
 struct LayoutOptions {
-  /// How often all nodes are moved to the middle of the patches around them, and their arcs drawn anew. 0 leaves minima
-  /// and maxima at their critical vertices, and saddles at the midpoints of their critical edges.
-  int relaxation = 3;
+  /// How often all nodes are moved to the middle of the patches around them, and their arcs drawn anew. 0
+  /// leaves minima and maxima at their critical vertices, and saddles at the midpoints of their critical
+  /// edges. Each time edges are split where arcs come to run: time and triangles grow by a third or so.
+  int relaxation = 2;
 };
 
-/// A layout of patches on a surface: the complex with its arcs as curves that meet in nodes alone. Patches have four
-/// sides, their arcs; where one arrives at a boundary loop it has five, a piece of the loop between the ends of two arcs.
+/// A layout of patches on a surface: the complex with its arcs as curves that meet in nodes alone. Patches
+/// have four sides, their arcs; where one arrives at a boundary loop it has five, a piece of the loop between
+/// the ends of two arcs.
 struct QuadLayout {
   core::TriangleMesh input;  ///< that of the complex
-  /// The input with edges split where arcs cross them, and each boundary loop closed by a fan of triangles, its
-  /// cap. At boundaries it is not quite in place: vertices are moved inwards a little to make room for a collar.
+  /// The input with edges split where arcs cross them, and each boundary loop closed by a fan of triangles,
+  /// its cap. At boundaries it is not quite in place: vertices are moved inwards a little to make room for a
+  /// collar.
   core::TriangleMesh surface;
   /// Per node of the complex: vertex of `surface`. Caps, the last nodes, are in the middles of their fans.
   std::vector<core::Index> node_vertex;
@@ -58,24 +61,27 @@ struct QuadLayout {
   core::Index cap_count() const { return input.boundary_loop_count(); }
   bool is_cap(core::Index node) const { return node + cap_count() >= node_vertex.size(); }
 
-  /// Checks everything that a layout must be, for tests: arcs along edges from node to node, disjoint but for nodes, in
-  /// the complex's cyclic order; patches that are discs between their four arcs. Throws std::logic_error.
+  /// Checks everything that a layout must be, for tests: arcs along edges from node to node, disjoint but for
+  /// nodes, in the complex's cyclic order; patches that are discs between their four arcs. Throws
+  /// std::logic_error.
   void validate(const MorseSmaleComplex& complex) const;
 };
 
-/// Embeds the complex as a layout (after Dong, Bremer, Garland, Pascucci, Hart 2006, "Spectral surface quadrangulation").
+/// Embeds the complex as a layout (after Dong, Bremer, Garland, Pascucci, Hart 2006, "Spectral surface
+/// quadrangulation").
 ///
-/// Arcs of the discrete complex merge, so they cannot border patches as they are. Here each is drawn anew as a curve of
-/// its own: the region of each maximum, cut along the V-paths that border it, is a disc; laid out in the plane within a
-/// circle (Floater 2003, mean-value weights), its ascending arcs are straight rays from the saddles on the circle to the
-/// maximum. The region of each minimum between these arcs is a disc too, and so come the descending arcs. Saddles are put
-/// at the midpoints of their critical edges; so those of a multiple saddle are apart. Then each relaxation moves every
-/// node, and draws its arcs anew, in the disc of the patches around it.
+/// Arcs of the discrete complex merge, so they cannot border patches as they are. Here each is drawn anew as
+/// a curve of its own: the region of each maximum, cut along the V-paths that border it, is a disc; laid out
+/// in the plane within a circle (Floater 2003, mean-value weights), its ascending arcs are straight rays from
+/// the saddles on the circle to the maximum. The region of each minimum between these arcs is a disc too, and
+/// so come the descending arcs. Saddles are put at the midpoints of their critical edges; so those of a
+/// multiple saddle are apart. Then each relaxation moves every node, and draws its arcs anew, in the disc of
+/// the patches around it.
 ///
-/// Boundary loops are nodes above all others, their caps; what the arcs to them and the patches there are on the
-/// surface ends at the loop. No arc of a minimum or maximum may dangle (repair_dangling()) and no component be without
-/// a saddle; throws BadInput otherwise. A sparse system is solved for each region; parallel in part, the same bits
-/// for every number of threads.
+/// Boundary loops are nodes above all others, their caps; the arcs to them, and the patches there, end at the
+/// loop. No arc of a minimum or maximum may dangle (repair_dangling()) and no
+/// component be without a saddle; throws BadInput otherwise. A sparse system is solved for each region;
+/// parallel in part, the same bits for every number of threads.
 QuadLayout embed_layout(const MorseSmaleComplex& complex, const LayoutOptions& options = {},
                         const core::Progress& progress = {});
 
@@ -87,17 +93,17 @@ struct QuadMesh {
   core::Index resolution = 0;                     ///< quads along a patch's side
 };
 
-/// Parametrises each patch over the unit square, its sides by arc length and its inside with mean-value coordinates
-/// (Floater 2003), evened out to less stretch (Yoshizawa, Belyaev, Seidel 2004), and samples it on a grid of
-/// resolution × resolution quads. A patch with a side on a boundary loop goes over a regular pentagon, which is cut
-/// into five at its middle. Samples on arcs and nodes are shared by the patches there, so that the mesh is as
-/// watertight as the surface.
+/// Parametrises each patch over the unit square, its sides by arc length and its inside with mean-value
+/// coordinates (Floater 2003), evened out to less stretch (Yoshizawa, Belyaev, Seidel 2004), and samples it
+/// on a grid of resolution × resolution quads. A patch with a side on a boundary loop goes over a regular
+/// pentagon, which is cut into five at its middle. Samples on arcs and nodes are shared by the patches there,
+/// so that the mesh is as watertight as the surface.
 ///
-/// Vertices: nodes but caps first (in the complex's order), then arc by arc from its saddle, then those on loops, then
-/// patch by patch; all lie on the input. Quads come patch by patch. Throws InvalidArgument for a resolution below 2
-/// (valence-two nodes would make two quads of the same four corners) or, with boundary loops, one that is odd or below 4, and BadInput
-/// where a patch is too thin to be parametrised in double precision. Parallel, the same bits for every number of
-/// threads.
+/// Vertices: nodes but caps first (in the complex's order), then arc by arc from its saddle, then those on
+/// loops, then patch by patch; all lie on the input. Quads come patch by patch. Throws InvalidArgument for a
+/// resolution below 2 (valence-two nodes would make two quads of the same four corners) or, with boundary
+/// loops, one that is odd or below 4, and BadInput where a patch is too thin to be parametrised in double
+/// precision. Parallel, the same bits for every number of threads.
 QuadMesh sample(const QuadLayout& layout, core::Index resolution, const core::Progress& progress = {});
 
 /// How well the quads of one patch are shaped.
@@ -109,9 +115,9 @@ struct PatchQuality {
 
 /// How good a quad mesh is. Angles in degrees, lengths in the mesh's unit.
 ///
-/// A quad is seen along the normal of its two diagonals: its area is half the length of their cross product, an angle of
-/// more than 180° is one that points inwards there, and its scaled Jacobian is the least sine of its four angles: 1 for
-/// a rectangle, negative if an angle points inwards.
+/// A quad is seen along the normal of its two diagonals: its area is half the length of their cross product,
+/// an angle of more than 180° is one that points inwards there, and its scaled Jacobian is the least sine of
+/// its four angles: 1 for a rectangle, negative if an angle points inwards.
 struct QuadQuality {
   std::vector<std::size_t> valence;  ///< number of vertices with so many edges
   std::size_t extraordinary = 0;     ///< vertices of a valence other than 4, 3 on the boundary
@@ -126,17 +132,18 @@ struct QuadQuality {
   double area_max = 0;
   double distance_max = 0;   ///< largest distance to the input, from vertices, edge midpoints and centres
   double distance_mean = 0;  ///< over quad centres
-  double distance_from_input =
-      0;  ///< largest distance of an input vertex to the quads, cut into two triangles each
+  /// Largest distance of an input vertex to the quads, cut into two triangles each.
+  double distance_from_input = 0;
   std::vector<PatchQuality> patches;
 };
 
-/// Measures `quads` against the surface they were made of. O(n log n), parallel, the same bits for every number of threads.
+/// Measures `quads` against the surface they were made of. O(n log n), parallel, the same bits for every
+/// number of threads.
 QuadQuality measure(const QuadMesh& quads, const core::TriangleMesh& input,
                     const core::Progress& progress = {});
 
-/// Checks that it is a manifold with consistently oriented quads, of that Euler characteristic and with so many boundary
-/// loops (none: watertight); throws std::logic_error otherwise. O(n log n).
+/// Checks that it is a manifold with consistently oriented quads, of that Euler characteristic and with so
+/// many boundary loops (none: watertight); throws std::logic_error otherwise. O(n log n).
 void validate(const QuadMesh& quads, long euler_characteristic, core::Index boundary_loops = 0);
 
 }  // namespace morsel::mscomplex

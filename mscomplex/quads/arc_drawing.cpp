@@ -76,8 +76,8 @@ void ArcDrawing::mark_rims() {
   }
 }
 
-/// Marks the edges of the V-paths from both ends of all critical edges: cut along these and the critical edges, the
-/// surface falls into one disc for each maximum.
+/// Marks the edges of the V-paths from both ends of all critical edges: cut along these and the critical
+/// edges, the surface falls into one disc for each maximum.
 void ArcDrawing::cut_along_descents() {
   const core::TriangleMesh& mesh = complex_.mesh();
   const DiscreteGradient& gradient = complex_.gradient();
@@ -103,9 +103,9 @@ void ArcDrawing::put_saddles_on_edges() {
   }
 }
 
-/// The disc of a minimum or maximum, and where the arcs that end there come from: its border passes its saddles, in the
-/// cyclic order of the arcs. At a saddle, the arc into the disc follows counter-clockwise on the one along which the
-/// border goes on.
+/// The disc of a minimum or maximum, and where the arcs that end there come from: its border passes its
+/// saddles, in the cyclic order of the arcs. At a saddle, the arc into the disc follows counter-clockwise on
+/// the one along which the border goes on.
 ArcDrawing::Star ArcDrawing::find_star(Index extremum, Index some_border) {
   Star star;
   star.node = extremum;
@@ -194,8 +194,9 @@ void ArcDrawing::redraw(Index extremum_begin, Index extremum_end) {
   draw_stars(extrema, true);
 }
 
-/// The four quads round a saddle make a disc with eight corners, of which every other one, from that at the end of its
-/// first arc on, is joined to it. Where they are not four different ones the saddle stays where it is.
+/// The four quads round a saddle make a disc with eight corners, of which every other one, from that at the
+/// end of its first arc on, is joined to it. Where they are not four different ones the saddle stays where it
+/// is.
 void ArcDrawing::redraw_saddle(Index saddle) {
   const Index first = 4 * (saddle - complex_.minimum_count());
   std::array<Index, 4> around{};

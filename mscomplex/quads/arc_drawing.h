@@ -28,8 +28,8 @@ class ArcDrawing {
   const std::vector<core::Index>& node_vertex() const { return node_vertex_; }
   core::Index missed() const { return missed_; }
 
-  /// The half-edge with which an arc leaves its saddle, and the vertices of a drawn arc from there on: to its end, or to
-  /// the rim of the cap that it ends in.
+  /// The half-edge with which an arc leaves its saddle, and the vertices of a drawn arc from there on: to its
+  /// end, or to the rim of the cap that it ends in.
   core::Index start_of(core::Index arc) const;
   void follow(core::Index arc, std::vector<core::Index>& vertices) const;
 

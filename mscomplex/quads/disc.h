@@ -8,9 +8,9 @@
 
 namespace morsel::mscomplex {
 
-/// Triangles that are connected across free edges, as a disc of its own: where the region touches a labelled edge, or a
-/// vertex of one, from two sides, these are two edges and two vertices of the disc. Disc vertices are numbered: the border
-/// first, counter-clockwise, then those inside.
+/// Triangles that are connected across free edges, as a disc of its own: where the region touches a labelled
+/// edge, or a vertex of one, from two sides, these are two edges and two vertices of the disc. Disc vertices
+/// are numbered: the border first, counter-clockwise, then those inside.
 struct Disc {
   std::vector<core::Index> triangles;  ///< of the mesh
   std::vector<core::Index> corner;     ///< disc vertex at corner i of triangles[k]: corner[3k + i]
@@ -27,8 +27,9 @@ class DiscFinder {
   /// Refers to the mesh, which may be split meanwhile.
   explicit DiscFinder(const LayoutMesh& mesh) : mesh_(mesh) {}
 
-  /// The region on the left of `start`, a labelled half-edge, which becomes border[0]. Throws std::logic_error, naming
-  /// `what`, if the region is no disc: several borders, or not of Euler characteristic 1.
+  /// The region on the left of `start`, a labelled half-edge, which becomes border[0]. Throws
+  /// std::logic_error, naming `what`, if the region is no disc: several borders, or not of Euler
+  /// characteristic 1.
   Disc find(core::Index start, const std::string& what);
   /// A labelled half-edge of the region that triangle t is in; kNone if it has none.
   core::Index find_border(core::Index t);

@@ -21,8 +21,8 @@ using Corners = std::array<Point, 3>;
 /// Rounds without less stretch after which no more are tried.
 constexpr int kMostInVain = 3;
 
-/// tan of half the angle at corner i of a triangle: how the mean-value weights of the two edges there begin. Slivers have
-/// angles of nearly π, whose tangents would drown all other weights.
+/// tan of half the angle at corner i of a triangle: how the mean-value weights of the two edges there begin.
+/// Slivers have angles of nearly π, whose tangents would drown all other weights.
 double half_tangent(const Corners& p, int i) {
   const Point u = p[(i + 1) % 3] - p[i];
   const Point v = p[(i + 2) % 3] - p[i];
@@ -79,8 +79,8 @@ class Means {
     return true;
   }
 
-  /// Divides the weights of the edges to each vertex by the stretch there, and returns that of the whole: the integral
-  /// over the surface of the mean of the squares of the singular values of the map from the plane.
+  /// Divides the weights of the edges to each vertex by the stretch there, and returns that of the whole: the
+  /// integral over the surface of the mean of the squares of the singular values of the map from the plane.
   double weaken_stretched(const std::vector<Vector2d>& place) {
     std::vector<double> stretch(disc_.vertex_count(), 0.0);
     std::vector<double> area(disc_.vertex_count(), 0.0);

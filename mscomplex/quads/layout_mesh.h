@@ -7,9 +7,10 @@
 
 namespace morsel::mscomplex {
 
-/// Half-edges as in core::TriangleMesh: h = 3t + i runs from corner i of triangle t to corner i + 1. Splitting keeps the
-/// surface in space as it is. A labelled edge is one that the arcs run along: regions end there. Splitting an edge that has
-/// no label gives no label to the edges it makes; that of a labelled one gives it to both halves.
+/// Half-edges as in core::TriangleMesh: h = 3t + i runs from corner i of triangle t to corner i + 1.
+/// Splitting keeps the surface in space as it is. A labelled edge is one that the arcs run along: regions end
+/// there. Splitting an edge that has no label gives no label to the edges it makes; that of a labelled one
+/// gives it to both halves.
 class LayoutMesh {
  public:
   /// Labels on edges: an arc of the complex, or one of these.
@@ -42,12 +43,13 @@ class LayoutMesh {
   void set_label(core::Index h, core::Index label) { label_[h] = label_[twin_[h]] = label; }
   /// The half-edge from one vertex to another; kNone if there is none.
   core::Index leaving_for(core::Index from, core::Index to) const;
-  /// The half-edge that leaves v with this label, the first counter-clockwise from leaving(v); kNone if there is none.
+  /// The half-edge that leaves v with this label, the first counter-clockwise from leaving(v); kNone if there
+  /// is none.
   core::Index leaving_with_label(core::Index v, core::Index label) const;
 
-  /// Splits the edge of h = a → b, with triangles (a, b, c) and (b, a, d), at a + share · (b − a), and returns the new
-  /// vertex m. Afterwards h = a → m in (a, m, c), next(h) = m → c, and twin(h) = m → a in (m, a, d).
-  /// Half-edges c → a and a → d keep their numbers; b → c and d → b get new ones.
+  /// Splits the edge of h = a → b, with triangles (a, b, c) and (b, a, d), at a + share · (b − a), and
+  /// returns the new vertex m. Afterwards h = a → m in (a, m, c), next(h) = m → c, and twin(h) = m → a in (m,
+  /// a, d). Half-edges c → a and a → d keep their numbers; b → c and d → b get new ones.
   core::Index split_edge(core::Index h, double share);
   // Right after split_edge(h), across h: d → m, and the far sides a → d and d → b of the triangles there.
   core::Index back_to_split(core::Index h) const { return previous(twin_[h]); }

@@ -31,7 +31,8 @@ void sample_polyline(const std::vector<Point>& line, Index n, Point* samples) {
   }
 }
 
-/// The numbers of a quad mesh's vertices: nodes but caps, then arc by arc, loop piece by loop piece, patch by patch.
+/// The numbers of a quad mesh's vertices: nodes but caps, then arc by arc, loop piece by loop piece, patch by
+/// patch.
 class Numbering {
  public:
   Numbering(const QuadLayout& layout, Index n, const PolygonGrid& square, const PolygonGrid& pentagon)

@@ -15,11 +15,12 @@ struct Spoke {
   core::Index arc = core::kNone;  ///< the label that its edges get
 };
 
-/// Draws spokes as straight lines in the plane, splitting the edges that they cross, so that none meets another but in the
-/// hub. On which side of a line a vertex lies is decided once for each, ties by a rule, and for a vertex on an earlier
-/// spoke by that spoke's start: so a line is a way between two sets of vertices, which has an end, whatever rounding does.
-/// Where it misses the hub, because triangles are too small for double precision, the spoke takes the way through the
-/// fewest triangles instead, which always exists.
+/// Draws spokes as straight lines in the plane, splitting the edges that they cross, so that none meets
+/// another but in the hub. On which side of a line a vertex lies is decided once for each, ties by a rule,
+/// and for a vertex on an earlier spoke by that spoke's start: so a line is a way between two sets of
+/// vertices, which has an end, whatever rounding does. Where it misses the hub, because triangles are too
+/// small for double precision, the spoke takes the way through the fewest triangles instead, which always
+/// exists.
 class SpokeDrawer {
  public:
   /// Refers to the mesh.
@@ -29,8 +30,8 @@ class SpokeDrawer {
     core::Index hub = core::kNone;  ///< vertex
     core::Index missed = 0;         ///< spokes whose straight line missed it
   };
-  /// Draws all spokes of a disc (`place` is per disc vertex) to `hub`, a vertex inside; if that is kNone, to a new one, as
-  /// near to the middle of the unit circle as the triangle there allows.
+  /// Draws all spokes of a disc (`place` is per disc vertex) to `hub`, a vertex inside; if that is kNone, to
+  /// a new one, as near to the middle of the unit circle as the triangle there allows.
   Drawn draw(const Disc& disc, const std::vector<Eigen::Vector2d>& place, const std::vector<Spoke>& spokes,
              core::Index hub);
 

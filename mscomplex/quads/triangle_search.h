@@ -8,8 +8,8 @@
 
 namespace morsel::mscomplex {
 
-/// Exact distances from points to a set of triangles, through a tree of boxes. Immutable; queries may come from any number
-/// of threads.
+/// Exact distances from points to a set of triangles, through a tree of boxes. Immutable; queries may come
+/// from any number of threads.
 class TriangleSearch {
  public:
   /// Copies the corners. O(n log n).

@@ -294,3 +294,16 @@ TEST_CASE("properties that a PLY file cannot hold are refused before anything is
   CHECK(std::filesystem::is_empty(scratch.path()));
   CHECK_THROWS_AS(core::write_off(scratch / "no" / "a.off", mesh), core::WriteFailed);
 }
+
+TEST_CASE("quads written as OBJ read back to the same bits") {
+  const Scratch scratch;
+  const std::vector<Point> positions = {{0, 0, 0.1},     {1, 0, 1e-300}, {1, 1, -2.5},
+                                        {0, 1, 1.0 / 3}, {2, 0, 0},      {2, 1, 1e21}};
+  const std::vector<std::array<Index, 4>> quads = {{0, 1, 2, 3}, {1, 4, 5, 2}};
+  core::write_obj(scratch / "a.obj", positions, quads);
+  const LoadedSoup loaded = core::read_polygon_soup(scratch / "a.obj");
+  CHECK(loaded.soup.positions == positions);
+  CHECK(loaded.soup.offsets == std::vector<std::size_t>{0, 4, 8});
+  CHECK(loaded.soup.corners == std::vector<Index>{0, 1, 2, 3, 1, 4, 5, 2});
+  CHECK_THROWS_AS(core::write_obj(scratch / "no" / "a.obj", positions, quads), core::WriteFailed);
+}

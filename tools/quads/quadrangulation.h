@@ -39,8 +39,9 @@ struct Quadrangulation {
   double measuring_seconds = 0;
 };
 
-/// The quads are checked to be a manifold of the surface's Euler characteristic and boundary loops before they are handed
-/// out. Throws BadInput where the field gives no layout, and InvalidArgument for an odd resolution on a bounded surface.
+/// The quads are checked to be a manifold of the surface's Euler characteristic and boundary loops before
+/// they are handed out. Throws BadInput where the field gives no layout, and InvalidArgument for an odd
+/// resolution on a bounded surface.
 Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
                               const core::Progress& progress = {});
 

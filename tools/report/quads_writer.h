@@ -19,7 +19,8 @@ struct QuadsInput {
   QuadRequest quads;
 };
 
-/// Writes the document, "morsel.quads/1" (quads.schema.json describes it). Vertices are those of the input file.
+/// Writes the document, "morsel.quads/1" (quads.schema.json describes it). Vertices are those of the input
+/// file.
 void write_quads(JsonSink& json, const QuadsInput& input, const HashedMesh& mesh, const FieldRecipe& recipe,
                  const MadeField& made, const Quadrangulation& result);
 
