@@ -44,8 +44,8 @@ void write_ply(const std::filesystem::path& path, std::span<const Point> positio
                std::span<const Triangle> triangles, std::span<const PropertyView> vertex_properties = {},
                std::span<const PropertyView> face_properties = {}, const Progress& progress = {});
 
-/// Quads as Wavefront OBJ, text with as many digits as reading back the same doubles takes. The file is written whole or
-/// not at all (file_writer.h). Throws WriteFailed.
+/// Quads as Wavefront OBJ, text with as many digits as reading back the same doubles takes. The file is written
+/// whole or not at all (file_writer.h). Throws WriteFailed.
 void write_obj(const std::filesystem::path& path, std::span<const Point> positions,
                std::span<const std::array<Index, 4>> quads, const Progress& progress = {});
 
