@@ -101,10 +101,10 @@ std::string described(const Quadrangulation& result, double diagonal) {
     text += "        " + plural(result.layout.missed, "arc takes", "arcs take") +
             " the way through the fewest triangles, a straight line being too fine for double precision\n";
   text += "quads: " + grouped(result.mesh.quads.size()) + " on " + grouped(result.mesh.positions.size()) +
-          " vertices, of which " + grouped(q.extraordinary) + " extraordinary (valence";
+          " vertices, of which " + grouped(q.extraordinary) + " extraordinary; by valence";
   for (std::size_t k = 0; k < q.valence.size(); ++k)
     if (q.valence[k] > 0) text += " " + std::to_string(k) + ": " + grouped(q.valence[k]) + ",";
-  text.back() = ')';
+  text.pop_back();
   text += "\nangles: off 90° by " + number(q.angle_mean, 1) + "° in the mean, " + number(q.angle_max, 1) +
           "° at most; scaled Jacobian " + number(q.scaled_jacobian_mean, 3) + " in the mean, " +
           number(q.scaled_jacobian_min, 3) + " at least; " + plural(q.concave, "quad", "quads") +
