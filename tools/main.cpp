@@ -49,6 +49,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_info(app, invocation);
   add_check(app, invocation);
   add_molecule(app, invocation);
+  add_render(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

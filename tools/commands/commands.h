@@ -56,6 +56,7 @@ void add_field(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_check(CLI::App& app, Invocation& invocation);
 void add_molecule(CLI::App& app, Invocation& invocation);
+void add_render(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.
 std::string specification_help();
