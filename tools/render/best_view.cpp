@@ -18,7 +18,8 @@ using core::Index;
 using core::Point;
 
 constexpr std::size_t kLookedAt = 5000;
-constexpr double kSteepest = 60;  // degrees
+constexpr double kLowest = -10;  // degrees: who looks at a thing looks from above
+constexpr double kHighest = 50;
 
 struct Seen {
   Vec3 point;
@@ -36,7 +37,8 @@ double shown(const std::vector<Seen>& seen, const Rays& rays, const Point& towar
   double sum = 0;
   for (const Seen& s : seen) {
     const float cosine = s.normal.dot(direction);
-    if (cosine > 0 && !rays.any(s.point + 1e-4f * s.normal, direction, 1e-4f, kFar)) sum += s.weight * double{cosine};
+    if (cosine > 0 && !rays.any(s.point + 1e-4f * s.normal, direction, 1e-4f, kFar))
+      sum += s.weight * double{cosine};
   }
   return sum;
 }
@@ -46,7 +48,8 @@ double shown(const std::vector<Seen>& seen, const Rays& rays, const Point& towar
 View best_view(const Body& body, const Rays& rays, std::span<const double> weights, UpAxis up,
                const core::Progress& progress) {
   const core::TriangleMesh& mesh = body.mesh;
-  if (weights.size() != mesh.vertex_count()) throw core::InvalidArgument("a view needs a weight for each vertex");
+  if (weights.size() != mesh.vertex_count())
+    throw core::InvalidArgument("a view needs a weight for each vertex");
   std::vector<double> area(mesh.vertex_count(), 0);
   for (const core::Triangle& t : mesh.triangles()) {
     const Point& a = mesh.position(t[0]);
@@ -69,11 +72,13 @@ View best_view(const Body& body, const Rays& rays, std::span<const double> weigh
 
   progress.update("best view", 0);
   std::vector<Angles> candidates;
-  constexpr int kCandidates = 500;
-  const double highest = std::sin(kSteepest * std::numbers::pi / 180);
+  constexpr int kCandidates = 300;
+  const double low = std::sin(kLowest * std::numbers::pi / 180);
+  const double high = std::sin(kHighest * std::numbers::pi / 180);
   for (int i = 0; i < kCandidates; ++i) {  // a Fibonacci spiral
-    const double rise = highest * (1 - (2 * i + 1.) / kCandidates);
-    candidates.push_back({std::remainder(i * 360 * (std::numbers::phi - 1), 360), std::asin(rise) * 180 / std::numbers::pi});
+    const double rise = low + (high - low) * (i + 0.5) / kCandidates;
+    candidates.push_back(
+        {std::remainder(i * 360 * (std::numbers::phi - 1), 360), std::asin(rise) * 180 / std::numbers::pi});
   }
   Angles best = best_of(candidates);
   for (double step = 6; step > 0.4; step /= 2) {
@@ -81,8 +86,9 @@ View best_view(const Body& body, const Rays& rays, std::span<const double> weigh
     candidates.assign(1, best);
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j) {
-        const double elevation = std::clamp(best.elevation + j * step, -kSteepest, kSteepest);
-        candidates.push_back({best.azimuth + i * step / std::cos(elevation * std::numbers::pi / 180), elevation});
+        const double elevation = std::clamp(best.elevation + j * step, kLowest, kHighest);
+        candidates.push_back(
+            {best.azimuth + i * step / std::cos(elevation * std::numbers::pi / 180), elevation});
       }
     best = best_of(candidates);
   }
@@ -90,7 +96,9 @@ View best_view(const Body& body, const Rays& rays, std::span<const double> weigh
 }
 
 std::vector<double> view_weights(const Body& body, const core::Progress& progress) {
-  const core::ScalarField field = morse::saliency(morse::mean_curvature(body.mesh, progress), {}, progress).field;
+  const core::ScalarField field =
+      morse::saliency(morse::mean_curvature(body.mesh, progress), {}, progress).field;
+  if (!(field.max() > 0)) return std::vector<double>(field.values().size(), 1);
   return {field.values().begin(), field.values().end()};
 }
 

@@ -35,8 +35,12 @@ struct Named {
   double azimuth;
   double elevation;
 };
-constexpr std::array<Named, 6> kViews = {
-    {{"front", 0, 0}, {"back", 180, 0}, {"left", -90, 0}, {"right", 90, 0}, {"top", 0, 90}, {"bottom", 0, -90}}};
+constexpr std::array<Named, 6> kViews = {{{"front", 0, 0},
+                                          {"back", 180, 0},
+                                          {"left", -90, 0},
+                                          {"right", 90, 0},
+                                          {"top", 0, 90},
+                                          {"bottom", 0, -90}}};
 
 /// Sine and cosine that are exact at quarter turns.
 std::array<double, 2> turn(double degrees) {
@@ -75,9 +79,10 @@ View named_view(std::string_view text, UpAxis up) {
     if (view.name == text) return view_at(view.azimuth, view.elevation, up);
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos)
-    throw core::InvalidArgument("unknown view '" + std::string(text) +
-                                "'; there are: front back left right top bottom best, and azimuth/elevation in "
-                                "degrees such as 30/15");
+    throw core::InvalidArgument(
+        "unknown view '" + std::string(text) +
+        "'; there are: front back left right top bottom best, and azimuth/elevation in "
+        "degrees such as 30/15");
   return view_at(core::parse_number(text.substr(0, slash), "a view's azimuth"),
                  core::parse_number(text.substr(slash + 1), "a view's elevation"), up);
 }

@@ -37,8 +37,8 @@ struct Camera {
   core::Point eye;
   core::Point right;
   core::Point up;
-  core::Point back;  ///< against the direction of sight
-  double half_width = 1;   ///< of the film, at distance 1
+  core::Point back;       ///< against the direction of sight
+  double half_width = 1;  ///< of the film, at distance 1
   double half_height = 1;
 
   /// Film coordinates; the point must be in front of the camera.
@@ -48,7 +48,9 @@ struct Camera {
     return {p.dot(right) / (depth * half_width), p.dot(up) / (depth * half_height)};
   }
   /// Of the ray through a point of the film, not of unit length: 1 along the direction of sight.
-  core::Point direction(double x, double y) const { return x * half_width * right + y * half_height * up - back; }
+  core::Point direction(double x, double y) const {
+    return x * half_width * right + y * half_height * up - back;
+  }
 };
 
 /// The closest camera that looks along the view and has all points on its film, `margin` (a share of the film) clear on

@@ -21,7 +21,11 @@ namespace {
 bool is_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t length = byte < 0x80 ? 1 : byte >= 0xc2 && byte < 0xe0 ? 2 : byte >= 0xe0 && byte < 0xf0 ? 3 : byte >= 0xf0 && byte < 0xf5 ? 4 : 0;
+    const std::size_t length = byte < 0x80                   ? 1
+                               : byte >= 0xc2 && byte < 0xe0 ? 2
+                               : byte >= 0xe0 && byte < 0xf0 ? 3
+                               : byte >= 0xf0 && byte < 0xf5 ? 4
+                                                             : 0;
     if (byte == 0 || length == 0 || i + length > text.size()) return false;
     std::uint32_t code = length == 1 ? byte : byte & (0x7fu >> length);
     for (std::size_t k = 1; k < length; ++k) {
@@ -54,8 +58,9 @@ cairo_font_face_t* make_font() {
   cairo_font_face_t* font = cairo_ft_font_face_create_for_ft_face(holder->face, 0);
   // cairo keeps a font for a while after its last use; the face goes when cairo lets go of it.
   static const cairo_user_data_key_t key{};
-  if (cairo_font_face_set_user_data(font, &key, holder.get(), [](void* face) { delete static_cast<Face*>(face); }) !=
-      CAIRO_STATUS_SUCCESS) {
+  if (cairo_font_face_set_user_data(font, &key, holder.get(), [](void* face) {
+        delete static_cast<Face*>(face);
+      }) != CAIRO_STATUS_SUCCESS) {
     cairo_font_face_destroy(font);
     throw std::bad_alloc();
   }
@@ -113,7 +118,8 @@ Canvas::Canvas(Size size, bool transparent) : size_(size), transparent_(transpar
 Canvas::~Canvas() = default;
 
 void Canvas::draw(const Image& image, int x, int y) {
-  cairo_surface_t* source = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.size.width, image.size.height);
+  cairo_surface_t* source =
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.size.width, image.size.height);
   unsigned char* data = cairo_image_surface_get_data(source);
   if (data == nullptr) {
     cairo_surface_destroy(source);

@@ -30,7 +30,8 @@ class Canvas {
   /// Puts a picture over what is there, pixel by pixel; what hangs over is cut off.
   void draw(const Image& image, int x, int y);
   /// One line of UTF-8 with its baseline at y; `size` is that of the em. Throws InvalidArgument on other bytes.
-  void text(double x, double y, double size, std::string_view text, Align align = Align::left, Ink ink = kBlack);
+  void text(double x, double y, double size, std::string_view text, Align align = Align::left,
+            Ink ink = kBlack);
   double text_width(double size, std::string_view text);
   void line(double x0, double y0, double x1, double y1, double width, Ink ink = kBlack);
   void frame(double x, double y, double width, double height, double thickness, Ink ink = kBlack);

@@ -115,8 +115,9 @@ class Net {
   Index maximum_of(Index t, const core::Triangle& corners) {
     const auto maxima = complex_.gradient().maxima();
     for (const Index v : corners) {
-      const auto found = std::lower_bound(maxima.begin(), maxima.end(), v,
-                                          [](const mscomplex::CriticalCell& m, Index x) { return m.vertex < x; });
+      const auto found =
+          std::lower_bound(maxima.begin(), maxima.end(), v,
+                           [](const mscomplex::CriticalCell& m, Index x) { return m.vertex < x; });
       if (found != maxima.end() && found->vertex == v && found->cell == t) {
         at_vertex(v);
         fix(v);
@@ -141,7 +142,8 @@ bool to_surface(const Rays& rays, Point& point, const Point& normal, double reac
   float best = kFar;
   for (const float side : {1.f, -1.f})
     // From a little behind, so that a point on the surface meets it.
-    if (rays.first(p - side * 1e-5f * n, side * n, 0, r, hit) && std::abs(hit.distance - 1e-5f) < std::abs(best))
+    if (rays.first(p - side * 1e-5f * n, side * n, 0, r, hit) &&
+        std::abs(hit.distance - 1e-5f) < std::abs(best))
       best = side * (hit.distance - 1e-5f);
   if (best == kFar) return false;
   point += double{best} * normal;
@@ -190,8 +192,8 @@ void add_step(Scene& scene, const Rays& rays, const Knot& a, const Knot& b, doub
     }
   }
   const double lift = 0.35 * radius;
-  scene.capsules.push_back({(a.point + lift * a.normal).cast<float>(), (b.point + lift * b.normal).cast<float>(),
-                            static_cast<float>(radius)});
+  scene.capsules.push_back({(a.point + lift * a.normal).cast<float>(),
+                            (b.point + lift * b.normal).cast<float>(), static_cast<float>(radius)});
   scene.capsule_colors.push_back(color);
 }
 
@@ -214,7 +216,8 @@ Color color_of(morse::CriticalType type) {
   }
 }
 
-void add_points(Scene& scene, const morse::CriticalPoints& points, double radius, std::span<const Index> places) {
+void add_points(Scene& scene, const morse::CriticalPoints& points, double radius,
+                std::span<const Index> places) {
   for (std::size_t i = 0; i < points.points.size(); ++i) {
     const Index v = places.empty() ? points.points[i].vertex : places[i];
     const Point center = scene.body.mesh.position(v) + 0.3 * radius * scene.body.normals[v];
@@ -223,7 +226,8 @@ void add_points(Scene& scene, const morse::CriticalPoints& points, double radius
   }
 }
 
-void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius, int rounds) {
+void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
+              int rounds) {
   Net net(scene.body, complex);
   straighten(net, rays, rounds);
   for (const Net::Step& step : net.steps)

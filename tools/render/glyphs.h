@@ -31,6 +31,7 @@ void add_points(Scene& scene, const morse::CriticalPoints& points, double radius
 /// Adds the complex's arcs as tubes along the surface: every step that arcs share once, zigzags of edges and triangles
 /// drawn straighter by `rounds` of averaging and put back on the surface, critical points left where they are. `rays` are
 /// of the body alone. `complex` is one of the body's mesh, whatever its size. O(length of what is drawn).
-void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius, int rounds = 6);
+void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
+              int rounds = 6);
 
 }  // namespace morsel::tools::render

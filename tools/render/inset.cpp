@@ -37,7 +37,8 @@ void draw_inset(Canvas& canvas, const Image& picture, const Tracer& tracer, cons
                 const TraceOptions& options, const core::Point& center, double radius, double em,
                 const core::Progress& progress) {
   if (!(radius > 1e-4 && radius <= 1))
-    throw core::InvalidArgument("the radius of a magnified region is above 0.01 % of the mesh's diagonal and at most all of it");
+    throw core::InvalidArgument(
+        "the radius of a magnified region is above 0.01 % of the mesh's diagonal and at most all of it");
   const auto [width, height] = picture.size;
   const int side = static_cast<int>(0.36 * std::min(width, height));
   if (side < 24) throw core::InvalidArgument("the picture is too small to magnify a region in it");
@@ -73,8 +74,8 @@ void draw_inset(Canvas& canvas, const Image& picture, const Tracer& tracer, cons
   // Of the four lines from corner to corner the two outer ones, which cross neither frame.
   const bool right = at.x > region_x, below = at.y > region_y;
   const auto lead = [&](bool at_right, bool at_bottom) {
-    canvas.line(region_x + (at_right ? region : 0), region_y + (at_bottom ? region : 0), at.x + (at_right ? side : 0),
-                at.y + (at_bottom ? side : 0), thickness, kGray);
+    canvas.line(region_x + (at_right ? region : 0), region_y + (at_bottom ? region : 0),
+                at.x + (at_right ? side : 0), at.y + (at_bottom ? side : 0), thickness, kGray);
   };
   lead(right == below, false);
   lead(right != below, true);

@@ -23,9 +23,9 @@ constexpr std::array<Unit, 6> kUnits = {{{"curvedness", "1/length"},
 double step_of(const std::vector<double>& at) { return at.size() > 1 ? at[1] - at[0] : 0; }
 
 struct Measures {
-  double bar;      // width
-  double tick;     // length of a tick, and the gap to its text
-  double margin;   // at the right
+  double bar;     // width
+  double tick;    // length of a tick, and the gap to its text
+  double margin;  // at the right
 };
 Measures measures(double em) { return {1.05 * em, 0.35 * em, 0.9 * em}; }
 
@@ -54,7 +54,8 @@ std::vector<double> ticks(double low, double high) {
     }
   std::vector<double> at;
   const double slack = 1e-9 * (high - low);
-  for (double k = std::ceil((low - slack) / step); k * step <= high + slack && at.size() < 9; ++k) at.push_back(k * step);
+  for (double k = std::ceil((low - slack) / step); k * step <= high + slack && at.size() < 9; ++k)
+    at.push_back(k * step);
   return at;
 }
 
@@ -79,11 +80,13 @@ int legend_width(Canvas& canvas, const ValueScale& scale, const Quantity& quanti
   double widest = 0;
   for (const double t : at) widest = std::max(widest, canvas.text_width(0.9 * em, tick_text(t, step_of(at))));
   const double beside = m.bar + 2 * m.tick + widest;
-  const double above = std::max(canvas.text_width(0.9 * em, quantity.words), canvas.text_width(0.9 * em, quantity.unit));
+  const double above =
+      std::max(canvas.text_width(0.9 * em, quantity.words), canvas.text_width(0.9 * em, quantity.unit));
   return static_cast<int>(std::ceil(std::max(beside, above) + m.margin));
 }
 
-void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em, double x, double height) {
+void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em, double x,
+                 double height) {
   const Measures m = measures(em);
   const double letters = 0.9 * em;
   const double length = std::round(0.46 * height);
@@ -94,7 +97,8 @@ void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quanti
 
   double line = top - arrow - 0.6 * em - lines + 1.3 * em;
   canvas.text(x, line, letters, quantity.words);
-  if (!quantity.unit.empty()) canvas.text(x, line + 1.25 * em, letters, "[" + quantity.unit + "]", Align::left, kGray);
+  if (!quantity.unit.empty())
+    canvas.text(x, line + 1.25 * em, letters, "[" + quantity.unit + "]", Align::left, kGray);
 
   canvas.ramp(scale.map, x, top, m.bar, length);
   if (scale.clipped_above)

@@ -25,6 +25,7 @@ std::string tick_text(double value, double step);
 /// How wide the strip is that the bar takes; `em` is the size of its letters.
 int legend_width(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em);
 /// Draws it into a strip from `x` on, in the middle of `height`. Values that are cut off are shown by arrowheads.
-void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em, double x, double height);
+void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em, double x,
+                 double height);
 
 }  // namespace morsel::tools::render

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/tools/render/best_view.h"
 #include "morsel/tools/render/canvas.h"
+#include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/glyphs.h"
 #include "morsel/tools/render/inset.h"
 #include "morsel/tools/render/regions.h"
@@ -16,22 +16,6 @@ namespace morsel::tools::render {
 namespace {
 
 const Color kPlain = from_hex(0xd9d4ca);
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
-std::string with_commas(std::size_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
 
 void color_surface(Scene& scene, const Subject& subject, Show show, const ValueScale& scale) {
   switch (show) {
@@ -46,66 +30,62 @@ void color_surface(Scene& scene, const Subject& subject, Show show, const ValueS
       scene.surface = kPlain;
       return;
     case Show::descending:
-      scene.surface = color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::descending);
+      scene.surface =
+          color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::descending);
       return;
     case Show::ascending:
       scene.surface = color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::ascending);
       return;
     case Show::morse_smale:
-      scene.surface = color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::morse_smale);
+      scene.surface =
+          color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::morse_smale);
       return;
   }
 }
 
 }  // namespace
 
-std::string counts_line(const morse::CriticalPoints& points) {
-  const auto number = [](std::size_t n, const char* one, const char* many) {
-    return with_commas(n) + (n == 1 ? one : many);
-  };
-  return number(points.total(), " critical point: ", " critical points: ") +
-         number(points.minima, " minimum, ", " minima, ") + number(points.saddles, " saddle, ", " saddles, ") +
-         number(points.maxima, " maximum", " maxima");
-}
-
-double letter_size(Size size) { return std::clamp(std::sqrt(double{1} * size.width * size.height) / 58, 9., 60.); }
-
 Studio::Studio(const core::TriangleMesh& mesh)
     : body_(make_body(mesh)), rays_(body_.mesh), unit_(mesh.bounding_box().diagonal()), mesh_(mesh) {}
 
 View Studio::view(const std::string& name, UpAxis up, const core::Progress& progress) const {
   if (name != "best") return named_view(name, up);
+  if (!(unit_ > 0)) return view_at(0, 0, up);  // a point looks the same from everywhere
   return best_view(body_, rays_, view_weights(body_, progress), up, progress);
 }
 
 Image Studio::take(const View& view, const Subject& subject, const PictureRequest& request,
                    const core::Progress& progress) const {
   check_size(request.size);
-  if (!subject.field.mesh().is_same(mesh_)) throw core::InvalidArgument("a picture's field is on another mesh");
-  const bool measured = request.points || request.arcs || (request.show != Show::field && request.show != Show::plain);
+  if (!subject.field.mesh().is_same(mesh_))
+    throw core::InvalidArgument("a picture's field is on another mesh");
+  const bool measured =
+      request.points || request.arcs || (request.show != Show::field && request.show != Show::plain);
   if (measured && subject.measurement == nullptr)
     throw core::InvalidArgument("critical points, arcs and segments are shown of a measured field only");
 
   // The layout: caption below, colour bar on the right, the surface in what is left.
   const Size size = request.size;
   const double em = letter_size(size);
-  const std::vector<std::string> lines = lines_of(subject.caption);
-  const int caption_height = lines.empty() ? 0 : static_cast<int>(std::ceil((1.4 * static_cast<double>(lines.size()) + 0.9) * em));
+  const int caption = caption_height(subject.caption, em);
   const ValueScale scale = choose_scale(subject.field.values(), request.scale);
-  const bool legend = request.legend && request.show == Show::field && size.width >= 240 && size.height >= 160;
+  const bool legend =
+      request.legend && request.show == Show::field && size.width >= 240 && size.height >= 160;
   Canvas canvas(size, request.transparent);
   const int strip = legend ? legend_width(canvas, scale, subject.quantity, em) : 0;
-  const Size frame{size.width - strip, size.height - caption_height};
+  const Size frame{size.width - strip, size.height - caption};
   if (frame.width < 1 || frame.height < 1)
-    throw core::InvalidArgument("a picture of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                                " pixels has no room for its caption");
+    throw core::InvalidArgument("a picture of " + std::to_string(size.width) + "x" +
+                                std::to_string(size.height) + " pixels has no room for its caption");
 
   Scene scene{body_};
   color_surface(scene, subject, request.show, scale);
   if (measured) {
     const GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
     if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
-    if (request.arcs) add_arcs(scene, rays_, subject.measurement->complex, sizes.tube);
+    // Segments' borders run along mesh edges and triangles, and tubes are to cover them; elsewhere they may be smoother.
+    const int rounds = request.show == Show::field || request.show == Show::plain ? 30 : 2;
+    if (request.arcs) add_arcs(scene, rays_, subject.measurement->complex, sizes.tube, rounds);
   }
   const Tracer tracer(scene);
   const double aspect = static_cast<double>(frame.width) / frame.height;
@@ -115,14 +95,11 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   canvas.draw(surface, 0, 0);
   if (request.inset) {
     const double radius = unit_ > 0 ? request.inset->radius.on(mesh_) / unit_ : 0;
-    draw_inset(canvas, surface, tracer, camera, options, body_.mesh.position(request.inset->vertex), radius, em, progress);
+    draw_inset(canvas, surface, tracer, camera, options, body_.mesh.position(request.inset->vertex), radius,
+               em, progress);
   }
   if (legend) draw_legend(canvas, scale, subject.quantity, em, frame.width, frame.height);
-  double y = frame.height + 1.2 * em;
-  for (const std::string& line : lines) {
-    canvas.text(size.width / 2., y, em, line, Align::center, &line == lines.data() ? kBlack : kGray);
-    y += 1.4 * em;
-  }
+  draw_caption(canvas, subject.caption, em, 0, frame.height, size.width);
   return canvas.image();
 }
 

@@ -2,6 +2,7 @@
 /// A picture of a surface, its field and its critical points: what `morsel render` and `morsel compare --figures` make.
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "morsel/core/length.h"
@@ -22,7 +23,7 @@ enum class Show { field, descending, ascending, morse_smale, plain };
 /// A region that is shown magnified in a corner.
 struct Inset {
   core::Index vertex = core::kNone;  ///< the mesh's number
-  core::Length radius = core::Length::epsilons(25);
+  core::Length radius = core::Length::epsilons(15);
 };
 
 struct PictureRequest {
@@ -33,7 +34,8 @@ struct PictureRequest {
   bool points = true;
   bool arcs = false;
   ScaleRequest scale;
-  bool legend = true;  ///< a colour bar where the surface shows the field; left out of pictures under 240 x 160
+  bool legend =
+      true;  ///< a colour bar where the surface shows the field; left out of pictures under 240 x 160
   std::optional<Inset> inset;
 };
 
@@ -43,7 +45,8 @@ struct Subject {
   const Measurement* measurement = nullptr;  ///< must be there for points, arcs and segments
   Quantity quantity;
   std::string caption;  ///< lines; none if empty
-  std::span<const core::Index> places = {};  ///< for each critical point, the vertex to show it at; empty: its own
+  std::span<const core::Index> places =
+      {};  ///< for each critical point, the vertex to show it at; empty: its own
 };
 
 /// One surface from one side, for any number of pictures. Holds the mesh by value.
@@ -65,11 +68,5 @@ class Studio {
   double unit_;  // the mesh's diagonal: a length of 1 of the body
   core::TriangleMesh mesh_;
 };
-
-/// "1,895 critical points: 462 minima, 934 saddles, 499 maxima"
-std::string counts_line(const morse::CriticalPoints& points);
-
-/// The size of letters that suits a picture.
-double letter_size(Size size);
 
 }  // namespace morsel::tools::render

@@ -63,7 +63,8 @@ Rays::Rays(const core::TriangleMesh& mesh, std::span<const Ball> balls, std::spa
     auto* points = buffer<Float3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertex_count());
     for (const core::Point& p : mesh.positions())
       *points++ = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
-    auto* corners = buffer<core::Triangle>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangle_count());
+    auto* corners =
+        buffer<core::Triangle>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangle_count());
     for (const core::Triangle& t : mesh.triangles()) *corners++ = t;
     scene_->attach(geometry, Hit::Kind::triangle);
   }

@@ -20,6 +20,8 @@ constexpr std::array<std::uint32_t, 9> kLight = {0x77aadd, 0xee8866, 0xeedd88, 0
 /// The k-th colour of an endless palette: tints and shades of the nine, ever farther apart in lightness.
 Color palette_color(std::size_t k) {
   Eigen::Vector3f lab = to_oklab(from_hex(kLight[k % kLight.size()]));
+  lab = Eigen::Vector3f(0.60f * lab[0] + 0.40f * 0.87f, 0.85f * lab[1],
+                        0.85f * lab[2]);  // lighter: shading darkens
   const std::size_t round = k / kLight.size();
   constexpr std::array<float, 6> kShift = {0, -0.11f, 0.06f, -0.2f, -0.055f, -0.155f};
   lab[0] = std::clamp(lab[0] + kShift[round % kShift.size()], 0.3f, 0.96f);
@@ -30,7 +32,8 @@ Color palette_color(std::size_t k) {
 
 }  // namespace
 
-std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge> edges, std::vector<Color>& palette) {
+std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge> edges,
+                                       std::vector<Color>& palette) {
   std::vector<Edge> both;
   both.reserve(2 * edges.size());
   for (const auto& [a, b] : edges) {
@@ -62,7 +65,8 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
 
   constexpr std::uint32_t kUncolored = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> color(nodes, kUncolored);
-  std::vector<std::uint32_t> saturation(nodes, 0);  // coloured neighbours: a node's different colours are no more
+  std::vector<std::uint32_t> saturation(nodes,
+                                        0);  // coloured neighbours: a node's different colours are no more
   // The most constrained node first: most coloured neighbours, then most neighbours, then the smallest number.
   struct Key {
     std::uint32_t saturation;
@@ -117,7 +121,8 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
   return color;
 }
 
-RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Segmentation& segmentation, Segments kind) {
+RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Segmentation& segmentation,
+                            Segments kind) {
   const std::size_t corners = mesh.halfedge_count();
   // A region is a pair of labels, of which a kind may use only one.
   using Pair = std::pair<Index, Index>;
@@ -133,7 +138,8 @@ RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Seg
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
   std::vector<std::uint32_t> region(corners);
   core::parallel_for_each(corners, [&](std::size_t h) {
-    region[h] = static_cast<std::uint32_t>(std::lower_bound(regions.begin(), regions.end(), label[h]) - regions.begin());
+    region[h] = static_cast<std::uint32_t>(std::lower_bound(regions.begin(), regions.end(), label[h]) -
+                                           regions.begin());
   });
   std::vector<Edge> edges;
   const auto meet = [&](std::uint32_t a, std::uint32_t b) {
@@ -142,7 +148,8 @@ RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Seg
   for (Index h = 0; h < corners; ++h) {
     const Index twin = mesh.twin(h);
     meet(region[h], region[core::TriangleMesh::next(h)]);
-    if (twin != core::kNone) meet(region[h], region[core::TriangleMesh::next(twin)]);  // the same vertex, across
+    if (twin != core::kNone)
+      meet(region[h], region[core::TriangleMesh::next(twin)]);  // the same vertex, across
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -31,10 +31,10 @@ using SurfaceColors = std::variant<Color, ValueColors, RegionColors>;
 struct Scene {
   Body body;
   SurfaceColors surface = Color(0.7f, 0.7f, 0.7f);
-  std::vector<Ball> balls;
-  std::vector<Color> ball_colors;  ///< one each
-  std::vector<Capsule> capsules;
-  std::vector<Color> capsule_colors;
+  std::vector<Ball> balls = {};
+  std::vector<Color> ball_colors = {};  ///< one each
+  std::vector<Capsule> capsules = {};
+  std::vector<Color> capsule_colors = {};
 };
 
 }  // namespace morsel::tools::render

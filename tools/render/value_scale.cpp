@@ -31,10 +31,12 @@ std::optional<double> choose_center(std::vector<double>& values, const ScaleRequ
   }
   if (request.limits) return std::nullopt;
   const auto n = static_cast<double>(values.size());
-  const auto below = static_cast<double>(std::count_if(values.begin(), values.end(), [](double x) { return x < 0; }));
-  const auto above = static_cast<double>(std::count_if(values.begin(), values.end(), [](double x) { return x > 0; }));
-  if (std::min(below, above) > 0.1 * n) return 0;
-  return std::nullopt;
+  const auto below =
+      static_cast<double>(std::count_if(values.begin(), values.end(), [](double x) { return x < 0; }));
+  const auto above =
+      static_cast<double>(std::count_if(values.begin(), values.end(), [](double x) { return x > 0; }));
+  if (below == 0 || above == 0) return std::nullopt;
+  return std::min(below, above) > 0.1 * n ? 0 : quantile(values, 0.5);
 }
 
 }  // namespace
@@ -43,7 +45,8 @@ void parse_range(std::string_view text, ScaleRequest& request) {
   if (text.ends_with('%')) {
     request.clip = core::parse_number(text.substr(0, text.size() - 1), "the percentage of a range");
     if (!(request.clip >= 0 && request.clip < 50))
-      throw core::InvalidArgument("a range cuts off 0 % to less than 50 % at either end, not " + std::string(text));
+      throw core::InvalidArgument("a range cuts off 0 % to less than 50 % at either end, not " +
+                                  std::string(text));
     return;
   }
   const std::size_t slash = text.find('/');
@@ -52,7 +55,8 @@ void parse_range(std::string_view text, ScaleRequest& request) {
                                 std::string(text) + "'");
   const double low = core::parse_number(text.substr(0, slash), "the lower end of a range");
   const double high = core::parse_number(text.substr(slash + 1), "the upper end of a range");
-  if (!(low < high)) throw core::InvalidArgument("a range's lower end must be below its upper one, not " + std::string(text));
+  if (!(low < high))
+    throw core::InvalidArgument("a range's lower end must be below its upper one, not " + std::string(text));
   request.limits = {low, high};
 }
 
@@ -80,9 +84,10 @@ ValueScale choose_scale(std::span<const double> given, const ScaleRequest& reque
   }
   if (!std::isfinite(high - low))
     throw core::InvalidArgument("the field's values span more than a double can hold; give a range");
-  const bool diverging = center.has_value() || (request.limits && request.limits->first == -request.limits->second);
-  Colormap map(!request.colormap.empty() ? request.colormap : diverging ? "blue-orange" : "viridis");
-  return {std::move(map), low, high, center, *least < low, *largest > high};
+  const bool diverging =
+      center.has_value() || (request.limits && request.limits->first == -request.limits->second);
+  Colormap map(!request.colormap.empty() ? request.colormap : diverging ? "blue-orange" : "sand");
+  return {std::move(map), low, high, center, *least<low, *largest> high};
 }
 
 }  // namespace morsel::tools::render

@@ -12,10 +12,11 @@ namespace morsel::tools::render {
 
 /// What is asked for, before the values are known.
 struct ScaleRequest {
-  /// A name, or nothing: "blue-orange" for fields of both signs and where there is a centre, else "viridis".
+  /// A name, or nothing: "blue-orange" where there is a centre, else "sand".
   std::string colormap;
   enum class Center {
-    automatic,  ///< zero if the values have both signs (each more than a tenth of them) and no limits are given
+    automatic,  ///< of values of both signs zero, or the median where one sign is that of less than a tenth of them; none
+                ///< where limits are given
     zero,
     median,
     none
