@@ -116,10 +116,10 @@ TEST_CASE("tubes lie on the surface: none of those that face the viewer is hidde
   const core::ScalarField field = bumpy_field(4);
   const mscomplex::MorseSmaleComplex complex(field);
   REQUIRE(complex.saddle_count() > 3);
-  for (const int rounds : {0, 2, 30})
+  for (const double freedom : {0., 0.001, 1.})
     for (const double radius : {0.0012, 0.0026}) {
       Scene scene{make_body(field.mesh())};
-      add_arcs(scene, Rays(scene.body.mesh), complex, radius, rounds);
+      add_arcs(scene, Rays(scene.body.mesh), complex, radius, freedom);
       REQUIRE(scene.capsules.size() >= complex.saddle_count());
       const Rays rays(scene.body.mesh, {}, scene.capsules);
       const Rays bare(scene.body.mesh);
@@ -138,7 +138,7 @@ TEST_CASE("tubes lie on the surface: none of those that face the viewer is hidde
           CHECK(std::abs(below.distance - 0.2f) < 2 * static_cast<float>(radius) + 0.004f);
         }
       }
-      CAPTURE(rounds, radius, scene.capsules.size());
+      CAPTURE(freedom, radius, scene.capsules.size());
       CHECK(hidden == 0);
     }
 }
@@ -251,10 +251,12 @@ TEST_CASE("an inset magnifies its vertex in the middle") {
   const core::ScalarField field = bumpy_field(4);
   const Measurement measurement = measured(field);
   const Studio studio(field.mesh());
-  for (const morse::CriticalPoint& point : measurement.critical_points.points) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const morse::CriticalPoint& point = measurement.critical_points.points[i];
     const View view = view_from(field.mesh().position(point.vertex));
     PictureRequest request;
     request.size = {400, 300};
+    request.samples = 4;
     request.legend = false;
     request.inset = Inset{point.vertex, core::Length::epsilons(12)};
     const Image image = studio.take(view, {field, &measurement, {}, ""}, request);

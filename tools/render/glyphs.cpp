@@ -150,11 +150,14 @@ bool to_surface(const Rays& rays, Point& point, const Point& normal, double reac
   return true;
 }
 
-void straighten(Net& net, const Rays& rays, int rounds) {
+void straighten(Net& net, const Rays& rays, double freedom) {
+  constexpr int kRounds = 30;
   const std::size_t count = net.knots.size();
   std::vector<Point> sum(count);
+  std::vector<Point> start(count);
+  for (std::size_t i = 0; i < count; ++i) start[i] = net.knots[i].point;
   std::vector<int> degree(count);
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     std::fill(sum.begin(), sum.end(), Point::Zero());
     std::fill(degree.begin(), degree.end(), 0);
     for (const Net::Step& step : net.steps) {
@@ -167,6 +170,8 @@ void straighten(Net& net, const Rays& rays, int rounds) {
       Knot& knot = net.knots[i];
       if (knot.fixed || degree[i] < 2) return;
       Point moved = (knot.point + sum[i] / degree[i]) / 2;
+      const double way = (moved - start[i]).norm();
+      if (way > freedom) moved = start[i] + (freedom / way) * (moved - start[i]);
       const double reach = 2 * (moved - knot.point).norm() + 1e-4;
       if (to_surface(rays, moved, knot.normal, reach)) knot.point = moved;
     });
@@ -227,9 +232,9 @@ void add_points(Scene& scene, const morse::CriticalPoints& points, double radius
 }
 
 void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
-              int rounds) {
+              double freedom) {
   Net net(scene.body, complex);
-  straighten(net, rays, rounds);
+  if (freedom > 0) straighten(net, rays, freedom);
   for (const Net::Step& step : net.steps)
     add_step(scene, rays, net.knots[step.a], net.knots[step.b], radius,
              step.descending ? kDescendingColor : kAscendingColor, 5);

@@ -2,6 +2,7 @@
 /// Critical points as spheres and arcs as tubes.
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,10 +29,11 @@ Color color_of(morse::CriticalType type);
 void add_points(Scene& scene, const morse::CriticalPoints& points, double radius,
                 std::span<const core::Index> places = {});
 
-/// Adds the complex's arcs as tubes along the surface: every step that arcs share once, zigzags of edges and triangles
-/// drawn straighter by `rounds` of averaging and put back on the surface, critical points left where they are. `rays` are
-/// of the body alone. `complex` is one of the body's mesh, whatever its size. O(length of what is drawn).
+/// Adds the complex's arcs as tubes along the surface: every step that arcs share once. Zigzags of edges and triangles are
+/// drawn straighter, by averaging and putting back on the surface, but nothing is moved by more than `freedom` (in the
+/// body's unit; 0: not at all), critical points never: less than the radius keeps tubes on the borders of segments. `rays`
+/// are of the body alone. `complex` is one of the body's mesh, whatever its size. O(length of what is drawn).
 void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
-              int rounds = 6);
+              double freedom = std::numeric_limits<double>::infinity());
 
 }  // namespace morsel::tools::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "morsel/core/error.h"
 #include "morsel/tools/render/best_view.h"
@@ -83,9 +84,11 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   if (measured) {
     const GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
     if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
-    // Segments' borders run along mesh edges and triangles, and tubes are to cover them; elsewhere they may be smoother.
-    const int rounds = request.show == Show::field || request.show == Show::plain ? 30 : 2;
-    if (request.arcs) add_arcs(scene, rays_, subject.measurement->complex, sizes.tube, rounds);
+    if (request.arcs) {
+      const bool borders = request.show != Show::field && request.show != Show::plain;
+      const double freedom = borders ? 0.7 * sizes.tube : std::numeric_limits<double>::infinity();
+      add_arcs(scene, rays_, subject.measurement->complex, sizes.tube, freedom);
+    }
   }
   const Tracer tracer(scene);
   const double aspect = static_cast<double>(frame.width) / frame.height;
