@@ -53,6 +53,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_segment(app, invocation);
   add_cut(app, invocation);
   add_quads(app, invocation);
+  add_render(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -11,6 +11,7 @@
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/console.h"
 #include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/render/request_text.h"
 
 namespace morsel::tools {
 
@@ -48,6 +49,8 @@ void add_target_option(CLI::App& command, std::optional<std::size_t>& target);
 
 /// MESH, --field, --method and --target of the commands that work on one field.
 void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request);
+/// --view, --up and --inset of the commands that take pictures.
+void add_camera_options(CLI::App& command, render::CameraText& camera);
 /// Says why a wanted number of critical points was not reached.
 void tell_target(const MadeField& made, Console& console);
 
@@ -60,6 +63,7 @@ void add_molecule(CLI::App& app, Invocation& invocation);
 void add_segment(CLI::App& app, Invocation& invocation);
 void add_cut(CLI::App& app, Invocation& invocation);
 void add_quads(CLI::App& app, Invocation& invocation);
+void add_render(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.
 std::string specification_help();

@@ -1,3 +1,6 @@
+#include <map>
+#include <string>
+
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/registry/registry.h"
 
@@ -34,6 +37,28 @@ void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& reque
       ->type_name("M")
       ->capture_default_str();
   add_target_option(command, request.target);
+}
+
+void add_camera_options(CLI::App& command, render::CameraText& camera) {
+  command
+      .add_option(
+          "--view", camera.view,
+          "Where pictures are taken from: best (shows most of the mesh saliency), front, back, left,\n"
+          "right, top, bottom, or azimuth/elevation in degrees: 0/0 is the front, 90/0 the right")
+      ->type_name("VIEW")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--up", camera.up,
+          "The axis that points up in pictures; the front is seen from +z (y up), -y (z up) or +y (x up)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, render::UpAxis>{
+          {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}}))
+      ->type_name("AXIS")
+      ->default_str("y");
+  command
+      .add_option("--inset", camera.inset,
+                  "Magnify, in a corner of pictures, what lies within a radius (default 15eps) of a vertex")
+      ->type_name("VERTEX[:RADIUS]");
 }
 
 void tell_target(const MadeField& made, Console& console) {

@@ -4,12 +4,14 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/render/figure_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
@@ -23,6 +25,8 @@ struct Options {
   std::string report;
   bool no_items = false;
   std::string export_folder;
+  std::string figure_folder;
+  render::CameraText camera;
 };
 
 /// Shows on the console which method is running.
@@ -55,6 +59,7 @@ class SideBySide : public ComparisonSink {
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedComparison comparison = prepare(options.request);
+  options.camera.check();
   const bool report_to_stdout = options.report == "-";
   std::optional<core::FileWriter> file;
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
@@ -79,13 +84,21 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
     exports.emplace(options.export_folder, loaded);
     files.add(*exports);
   }
-  run_comparison(loaded, comparison, {&announcer, &table, &files}, console.progress());
+  std::vector<ComparisonSink*> sinks = {&announcer, &table, &files};
+  std::optional<render::FigureSink> figures;
+  if (!options.figure_folder.empty()) {
+    figures.emplace(options.figure_folder, loaded, options.camera, console.progress());
+    sinks.push_back(&*figures);
+  }
+  run_comparison(loaded, comparison, sinks, console.progress());
+  if (figures) figures->finish();
   if (report) report->finish();
   if (file) file->commit();
 
   if (!report_to_stdout) std::cout << table.text();
   if (file) console.message("report: " + options.report);
   if (exports) console.message("files for ParaView: " + options.export_folder);
+  if (figures) console.message("pictures: " + options.figure_folder);
   return kDone;
 }
 
@@ -120,6 +133,11 @@ void add_compare(CLI::App& app, Invocation& invocation) {
       .add_option("--export", options->export_folder,
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
       ->type_name("DIR");
+  command
+      .add_option("--figures", options->figure_folder,
+                  "Write pictures (.png) here: one of each method, and a sheet with them side by side")
+      ->type_name("DIR");
+  add_camera_options(command, options->camera);
   add_common_options(command, invocation.common);
   command.footer(specification_help());
   command.callback([options, &invocation] {

@@ -1,0 +1,45 @@
+#pragma once
+/// The pictures of `morsel compare --figures`.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/render/request_text.h"
+#include "morsel/tools/render/sheet.h"
+
+namespace morsel::tools::render {
+
+/// Writes, into one folder (made if it is not there):
+///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's arcs where there
+///              are no more than 500 points; all from the same side, each with its own colours' range
+///   sheet.png  these side by side, with captions (method, counts)
+/// NAME is the method's; a second method of the same name gets "-2", and so on. Called by the thread that made it.
+class FigureSink : public ComparisonSink {
+ public:
+  /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset. Refers to `loaded`.
+  FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera,
+             core::Progress progress = {}, Size size = {1200, 840});
+  void field(const FieldOutcome& outcome) override;
+  void method(const MethodOutcome& outcome) override;
+  /// Writes the sheet; to be called after the comparison.
+  void finish();
+
+ private:
+  std::filesystem::path folder_;
+  const core::LoadedMesh& loaded_;
+  CameraText camera_;
+  core::Progress progress_;
+  PictureRequest request_;
+  std::optional<Studio> studio_;
+  View view_;
+  std::string field_name_;
+  std::map<std::string, int> uses_;
+  std::vector<Panel> panels_;
+};
+
+}  // namespace morsel::tools::render

@@ -1,0 +1,39 @@
+#pragma once
+/// Critical points as spheres and arcs as tubes.
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "morsel/morse/critical_points.h"
+#include "morsel/mscomplex/complex.h"
+#include "morsel/tools/render/scene.h"
+
+namespace morsel::tools::render {
+
+/// Radii in the body's unit.
+struct GlyphSizes {
+  double ball;
+  double tube;
+};
+
+/// So large that they are seen and so small that so many of them, spread over the surface, do not hide it.
+GlyphSizes glyph_sizes(const Body& body, std::size_t points);
+
+/// The paper's colours: minima blue, saddles green, maxima red.
+Color color_of(morse::CriticalType type);
+
+/// Adds a sphere at each point, more than half of it above the surface. `places`, if not empty, are the vertices to put
+/// them at instead.
+void add_points(Scene& scene, const morse::CriticalPoints& points, double radius,
+                std::span<const core::Index> places = {});
+
+/// Adds the complex's arcs as tubes along the surface: every step that arcs share once. Zigzags of edges and triangles are
+/// drawn straighter, by averaging and putting back on the surface, but nothing is moved by more than `freedom` (in the
+/// body's unit; 0: not at all), critical points never: less than the radius keeps tubes on the borders of segments. `rays`
+/// are of the body alone. `complex` is one of the body's mesh, whatever its size. O(length of what is drawn).
+void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
+              double freedom = std::numeric_limits<double>::infinity());
+
+}  // namespace morsel::tools::render

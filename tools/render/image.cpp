@@ -1,0 +1,62 @@
+#include "morsel/tools/render/image.h"
+
+#include <png.h>
+
+#include <csetjmp>
+#include <new>
+#include <stdexcept>
+
+#include "morsel/core/error.h"
+
+namespace morsel::tools::render {
+namespace {
+
+// libpng reports by longjmp, over which nothing with a destructor may be alive: so all that lives here is plain.
+bool encode(const Image& image, bool opaque, std::string& bytes, png_structp png, png_infop info) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_write_fn(
+      png, &bytes,
+      [](png_structp writer, png_bytep data, std::size_t size) {
+        static_cast<std::string*>(png_get_io_ptr(writer))->append(reinterpret_cast<const char*>(data), size);
+      },
+      nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.size.width),
+               static_cast<png_uint_32>(image.size.height), 8,
+               opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(png, info);
+  if (opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);
+  for (int y = 0; y < image.size.height; ++y) png_write_row(png, image.pixel(0, y));
+  png_write_end(png, nullptr);
+  return true;
+}
+
+}  // namespace
+
+void check_size(Size size) {
+  const auto in_range = [](int side) { return side >= 1 && side <= kLargestSide; };
+  if (!in_range(size.width) || !in_range(size.height) || std::int64_t{size.width} * size.height > 100'000'000)
+    throw core::InvalidArgument("a picture of " + std::to_string(size.width) + "x" +
+                                std::to_string(size.height) + " pixels cannot be made: each side is 1 to " +
+                                std::to_string(kLargestSide) + ", and no more than 100 million in all");
+}
+
+Image::Image(Size s, bool transparent) : size(s) {
+  check_size(s);
+  bytes.assign(4 * static_cast<std::size_t>(s.width) * s.height, transparent ? 0 : 255);
+}
+
+std::string encode_png(const Image& image) {
+  bool opaque = true;
+  for (std::size_t i = 3; i < image.bytes.size(); i += 4) opaque = opaque && image.bytes[i] == 255;
+  std::string bytes;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  const bool done = info != nullptr && encode(image, opaque, bytes, png, info);
+  png_destroy_write_struct(&png, &info);
+  if (!done) throw std::bad_alloc();  // what else can go wrong in memory
+  return bytes;
+}
+
+}  // namespace morsel::tools::render

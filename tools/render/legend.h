@@ -1,0 +1,31 @@
+#pragma once
+/// The colour bar beside a picture.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/render/canvas.h"
+#include "morsel/tools/render/value_scale.h"
+
+namespace morsel::tools::render {
+
+/// What a field measures, in words ("mean curvature"), and its unit in terms of the mesh's ("1/length"; empty if it has
+/// none or nothing is known of it). `method` is the last step that made it: saliency has no unit.
+struct Quantity {
+  std::string words;
+  std::string unit;
+};
+Quantity quantity_of(const std::string& function, const std::string& method = {});
+
+/// Round numbers from low to high, five or so (never more than nine).
+std::vector<double> ticks(double low, double high);
+/// As short as tells the ticks apart, with a true minus sign.
+std::string tick_text(double value, double step);
+
+/// How wide the strip is that the bar takes; `em` is the size of its letters.
+int legend_width(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em);
+/// Draws it into a strip from `x` on, in the middle of `height`. Values that are cut off are shown by arrowheads.
+void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em, double x,
+                 double height);
+
+}  // namespace morsel::tools::render

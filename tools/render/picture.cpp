@@ -1,0 +1,109 @@
+#include "morsel/tools/render/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "morsel/core/error.h"
+#include "morsel/tools/render/best_view.h"
+#include "morsel/tools/render/canvas.h"
+#include "morsel/tools/render/caption.h"
+#include "morsel/tools/render/glyphs.h"
+#include "morsel/tools/render/inset.h"
+#include "morsel/tools/render/regions.h"
+#include "morsel/tools/render/tracer.h"
+
+namespace morsel::tools::render {
+namespace {
+
+const Color kPlain = from_hex(0xd9d4ca);
+
+void color_surface(Scene& scene, const Subject& subject, Show show, const ValueScale& scale) {
+  switch (show) {
+    case Show::field: {
+      ValueColors colors{{}, scale.map};
+      for (const double value : subject.field.values())
+        colors.values.push_back(static_cast<float>(std::clamp(scale.position(value), -4., 5.)));
+      scene.surface = std::move(colors);
+      return;
+    }
+    case Show::plain:
+      scene.surface = kPlain;
+      return;
+    case Show::descending:
+      scene.surface =
+          color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::descending);
+      return;
+    case Show::ascending:
+      scene.surface = color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::ascending);
+      return;
+    case Show::morse_smale:
+      scene.surface =
+          color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::morse_smale);
+      return;
+  }
+}
+
+}  // namespace
+
+Studio::Studio(const core::TriangleMesh& mesh)
+    : body_(make_body(mesh)), rays_(body_.mesh), unit_(mesh.bounding_box().diagonal()), mesh_(mesh) {}
+
+View Studio::view(const std::string& name, UpAxis up, const core::Progress& progress) const {
+  if (name != "best") return named_view(name, up);
+  if (!(unit_ > 0)) return view_at(0, 0, up);  // a point looks the same from everywhere
+  return best_view(body_, rays_, view_weights(body_, progress), up, progress);
+}
+
+Image Studio::take(const View& view, const Subject& subject, const PictureRequest& request,
+                   const core::Progress& progress) const {
+  check_size(request.size);
+  if (!subject.field.mesh().is_same(mesh_))
+    throw core::InvalidArgument("a picture's field is on another mesh");
+  const bool measured =
+      request.points || request.arcs || (request.show != Show::field && request.show != Show::plain);
+  if (measured && subject.measurement == nullptr)
+    throw core::InvalidArgument("critical points, arcs and segments are shown of a measured field only");
+
+  // The layout: caption below, colour bar on the right, the surface in what is left.
+  const Size size = request.size;
+  const double em = letter_size(size);
+  const int caption = caption_height(subject.caption, em);
+  const ValueScale scale = choose_scale(subject.field.values(), request.scale);
+  const bool legend =
+      request.legend && request.show == Show::field && size.width >= 240 && size.height >= 160;
+  Canvas canvas(size, request.transparent);
+  const int strip = legend ? legend_width(canvas, scale, subject.quantity, em) : 0;
+  const Size frame{size.width - strip, size.height - caption};
+  if (frame.width < 1 || frame.height < 1)
+    throw core::InvalidArgument("a picture of " + std::to_string(size.width) + "x" +
+                                std::to_string(size.height) + " pixels has no room for its caption");
+
+  Scene scene{body_};
+  color_surface(scene, subject, request.show, scale);
+  if (measured) {
+    const GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
+    if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
+    if (request.arcs) {
+      const bool borders = request.show != Show::field && request.show != Show::plain;
+      const double freedom = borders ? 0.7 * sizes.tube : std::numeric_limits<double>::infinity();
+      add_arcs(scene, rays_, subject.measurement->complex, sizes.tube, freedom);
+    }
+  }
+  const Tracer tracer(scene);
+  const double aspect = static_cast<double>(frame.width) / frame.height;
+  const Camera camera = fit_camera(body_.mesh.positions(), view, aspect);
+  const TraceOptions options{frame, request.samples, request.transparent, true, {}};
+  const Image surface = tracer.trace(camera, options, progress);
+  canvas.draw(surface, 0, 0);
+  if (request.inset) {
+    const double radius = unit_ > 0 ? request.inset->radius.on(mesh_) / unit_ : 0;
+    draw_inset(canvas, surface, tracer, camera, options, body_.mesh.position(request.inset->vertex), radius,
+               em, progress);
+  }
+  if (legend) draw_legend(canvas, scale, subject.quantity, em, frame.width, frame.height);
+  draw_caption(canvas, subject.caption, em, 0, frame.height, size.width);
+  return canvas.image();
+}
+
+}  // namespace morsel::tools::render

@@ -1,0 +1,34 @@
+#pragma once
+/// Requests for pictures as the command line words them.
+
+#include <cstdint>
+#include <string>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/render/picture.h"
+
+namespace morsel::tools::render {
+
+/// "1200x900"; throws InvalidArgument on anything else and on sizes that check_size() refuses.
+Size parse_size(const std::string& text);
+
+/// "VERTEX" or "VERTEX:RADIUS", the vertex by its number in the input file, not yet looked up.
+struct InsetText {
+  std::int64_t vertex = 0;
+  core::Length radius = Inset{}.radius;
+};
+InsetText parse_inset(const std::string& text);
+/// Throws InvalidArgument if the input has no such vertex, or repair dropped it.
+Inset find_inset(const InsetText& text, const core::LoadedMesh& loaded);
+
+/// How the camera stands, and a region to magnify.
+struct CameraText {
+  std::string view = "best";
+  UpAxis up = UpAxis::y;
+  std::string inset;  ///< none if empty
+
+  /// Throws InvalidArgument on an unknown view and a malformed inset.
+  void check() const;
+};
+
+}  // namespace morsel::tools::render

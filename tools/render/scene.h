@@ -1,0 +1,40 @@
+#pragma once
+/// What a picture shows: a coloured surface, spheres and tubes.
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "morsel/tools/render/body.h"
+#include "morsel/tools/render/color.h"
+#include "morsel/tools/render/colormap.h"
+#include "morsel/tools/render/rays.h"
+
+namespace morsel::tools::render {
+
+/// A value at each vertex, linear in between, looked up at every point: 0 is the map's lower end, 1 its upper.
+struct ValueColors {
+  std::vector<float> values;
+  Colormap map;
+};
+
+/// A colour for each third of each triangle, that of the corner with the largest barycentric weight: entry 3t + i for
+/// corner i. So a region may be made of triangles, of vertices' dual cells, or of both.
+struct RegionColors {
+  std::vector<std::uint32_t> corner;  ///< into `palette`
+  std::vector<Color> palette;
+};
+
+using SurfaceColors = std::variant<Color, ValueColors, RegionColors>;
+
+/// Everything in the body's unit.
+struct Scene {
+  Body body;
+  SurfaceColors surface = Color(0.7f, 0.7f, 0.7f);
+  std::vector<Ball> balls = {};
+  std::vector<Color> ball_colors = {};  ///< one each
+  std::vector<Capsule> capsules = {};
+  std::vector<Color> capsule_colors = {};
+};
+
+}  // namespace morsel::tools::render
