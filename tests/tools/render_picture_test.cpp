@@ -1,8 +1,8 @@
 // Pictures: what is in which pixel.
 #include <Eigen/Geometry>
-#include <catch2/catch.hpp>
 #include <algorithm>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "morsel/core/error.h"
