@@ -1,4 +1,5 @@
 // Where pictures are taken from.
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 

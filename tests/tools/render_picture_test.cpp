@@ -1,4 +1,7 @@
 // Pictures: what is in which pixel.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -270,7 +273,7 @@ TEST_CASE("an inset magnifies its vertex in the middle") {
         Eigen::Index strongest = 0;
         color.maxCoeff(&strongest);
         bool is = true;
-        for (int i = 0; i < 3; ++i) is = is && (i == strongest || p[strongest] > p[i] + 50);
+        for (int k = 0; k < 3; ++k) is = is && (k == strongest || p[strongest] > p[k] + 50);
         found = found || is;
       }
     CHECK(found);

@@ -68,7 +68,7 @@ constexpr std::array<Entry, 5> kMaps = {{
      }},
     {"purple-green", true,
      [] {
-       return through(std::array{lch(0.52, 0.150, 308), kWhite, lch(0.52, 0.115, 150)});
+       return through(std::array{lch(0.52, 0.170, 302), kWhite, lch(0.52, 0.130, 142)});
      }},
     {"viridis", false, [] { return through_hex(kViridis); }},
     {"cividis", false, [] { return through_hex(kCividis); }},

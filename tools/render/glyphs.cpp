@@ -232,8 +232,12 @@ void add_points(Scene& scene, const morse::CriticalPoints& points, double radius
 }
 
 void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
-              double freedom) {
+              double freedom, std::optional<mscomplex::ArcKind> only) {
   Net net(scene.body, complex);
+  if (only)
+    std::erase_if(net.steps, [&](const Net::Step& step) {
+      return step.descending != (*only == mscomplex::ArcKind::descending);
+    });
   if (freedom > 0) straighten(net, rays, freedom);
   for (const Net::Step& step : net.steps)
     add_step(scene, rays, net.knots[step.a], net.knots[step.b], radius,

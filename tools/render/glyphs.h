@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +30,12 @@ Color color_of(morse::CriticalType type);
 void add_points(Scene& scene, const morse::CriticalPoints& points, double radius,
                 std::span<const core::Index> places = {});
 
-/// Adds the complex's arcs as tubes along the surface: every step that arcs share once. Zigzags of edges and triangles are
+/// Adds the complex's arcs, or those of one kind, as tubes along the surface: every step that arcs share once. Zigzags of edges and triangles are
 /// drawn straighter, by averaging and putting back on the surface, but nothing is moved by more than `freedom` (in the
 /// body's unit; 0: not at all), critical points never: less than the radius keeps tubes on the borders of segments. `rays`
 /// are of the body alone. `complex` is one of the body's mesh, whatever its size. O(length of what is drawn).
 void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
-              double freedom = std::numeric_limits<double>::infinity());
+              double freedom = std::numeric_limits<double>::infinity(),
+              std::optional<mscomplex::ArcKind> only = {});
 
 }  // namespace morsel::tools::render

@@ -87,7 +87,10 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
     if (request.arcs) {
       const bool borders = request.show != Show::field && request.show != Show::plain;
       const double freedom = borders ? 0.7 * sizes.tube : std::numeric_limits<double>::infinity();
-      add_arcs(scene, rays_, subject.measurement->complex, sizes.tube, freedom);
+      std::optional<mscomplex::ArcKind> only;  // those that bound the segments shown
+      if (request.show == Show::descending) only = mscomplex::ArcKind::descending;
+      if (request.show == Show::ascending) only = mscomplex::ArcKind::ascending;
+      add_arcs(scene, rays_, subject.measurement->complex, sizes.tube, freedom, only);
     }
   }
   const Tracer tracer(scene);

@@ -206,7 +206,11 @@ class Sampler {
   Pixel sample(int x, int y) const {
     const std::uint32_t place =
         mixed(static_cast<std::uint32_t>(y) * 0x10001u + static_cast<std::uint32_t>(x));
-    const Sequence film(place ^ 0x68bc21ebu), sky(place ^ 0x02e5be93u), lamp(place ^ 0x967a889bu);
+    const Sequence film(place);
+    // The pixels of each block of 4 x 4 share out consecutive stretches of one sequence, so that what smoothed() averages
+    // is spread as evenly as if it were one pixel's.
+    const Sequence sky(0x02e5be93u), lamp(0x967a889bu);
+    const std::uint32_t block = static_cast<std::uint32_t>(x & 3) + 4 * static_cast<std::uint32_t>(y & 3);
     const int few = std::min(options_.samples, std::max(4, options_.samples / 4));
     std::array<Spot, 256> spots;
     Pixel pixel;
@@ -224,8 +228,9 @@ class Sampler {
     pixel.normal = spots[0].normal;
     pixel.point = spots[0].point;
     const auto collect = [&](const Spot& spot, std::uint32_t number) {
-      const Light light = options_.shaded ? shader_.light(spot, lights_, sky, lamp, number, kSkyRays,
-                                                          pixel.even ? 1 : kLampRays)
+      const Light light = options_.shaded ? shader_.light(spot, lights_, sky, lamp,
+                                                          block * static_cast<std::uint32_t>(few) + number,
+                                                          kSkyRays, pixel.even ? 1 : kLampRays)
                                           : Light{1, 0};
       if (pixel.even) {
         pixel.color += spot.color;
@@ -286,7 +291,8 @@ class Sampler {
 /// it, so that no grain is left of the few rays that each had.
 float smoothed(const std::vector<Pixel>& pixels, Size size, int x, int y) {
   constexpr int kReach = 3;
-  constexpr std::array<float, kReach + 1> kWeight = {1, 0.88f, 0.61f, 0.32f};
+  constexpr std::array<float, kReach + 1> kWeight = {1, 0.75f, 0.5f,
+                                                     0.25f};  // each of a block's pixels counts alike
   const Pixel& here = pixels[static_cast<std::size_t>(y) * size.width + x];
   float sum = 0, weights = 0;
   for (int j = std::max(0, y - kReach); j <= std::min(size.height - 1, y + kReach); ++j)
