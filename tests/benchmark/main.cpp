@@ -14,7 +14,8 @@ using namespace morsel::benchmark;
 int main(int argc, char** argv) {
   if (argc > 2 && argv[1] == std::string_view(kWatch)) return watch_process(argv + 2);
   CLI::App app("Times every step beside its baselines");
-  std::vector<std::string> suites = {"steps", "memory", "structures", "salient", "methods", "files", "scaling"};
+  std::vector<std::string> suites = {"steps",   "memory", "structures", "salient",
+                                     "methods", "files",  "scaling"};
   const std::vector<std::string> known = suites;
   std::string output;
   Plan plan;

@@ -29,7 +29,8 @@ struct CellToJson {
   }
   Json operator()(const NestedRows& rows) const {
     Json list = Json::array();
-    for (std::size_t i = 0; i < rows.count; ++i) (*rows.make)(i, [&](Row row) { list.push_back(to_json(row)); });
+    for (std::size_t i = 0; i < rows.count; ++i)
+      (*rows.make)(i, [&](Row row) { list.push_back(to_json(row)); });
     return list;
   }
 };
