@@ -42,18 +42,34 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
   return parse_polygon_soup(bytes.view(), mesh_format(path), name, progress);
 }
 
-LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options,
-                     const Progress& progress) {
-  LoadedSoup loaded = read_polygon_soup(path, progress);
+namespace {
+
+/// Whatever is wrong names the file.
+LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const BuildOptions& options,
+                 const Progress& progress) {
   try {
-    BuiltMesh built = build_mesh(std::move(loaded.soup), options, progress);
+    BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
     return {std::move(built.mesh),
-            {std::move(built.numbering), std::move(loaded.properties), std::move(built.repairs)}};
+            {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
   } catch (const MeshError& error) {
     throw error.about("\"" + path.string() + "\"");
   } catch (const BadInput& error) {
     throw BadInput("cannot use \"" + path.string() + "\": " + error.what());
   }
+}
+
+}  // namespace
+
+LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options,
+                     const Progress& progress) {
+  return build(path, read_polygon_soup(path, progress), options, progress);
+}
+
+WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options,
+                          const Progress& progress) {
+  LoadedSoup file = read_polygon_soup(path, progress);
+  std::vector<Point> positions = file.soup.positions;
+  return {build(path, std::move(file), options, progress), std::move(positions)};
 }
 
 }  // namespace morsel::core

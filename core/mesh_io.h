@@ -57,4 +57,14 @@ LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const s
 LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
                      const Progress& progress = {});
 
+/// A mesh and the positions of all vertices of its file, those that repair dropped included.
+struct WholeMesh {
+  LoadedMesh loaded;
+  std::vector<Point> input_positions;
+};
+
+/// read_mesh() for those who write in the input's vertex numbers.
+WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
+                          const Progress& progress = {});
+
 }  // namespace morsel::core

@@ -7,7 +7,18 @@ import subprocess
 import time
 import unittest
 
-from support import OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest
+from support import DAMAGED, OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest
+
+
+class RefusedMesh(ProgramTest):
+    def test_every_command_names_the_file_of_a_mesh_that_it_refuses(self):
+        damaged = self.file("damaged.off", DAMAGED)
+        for command in (["compare"], ["field", "-o", "f.txt"], ["hierarchy"], ["segment", "-o", "s.ply"],
+                        ["cut", "-o", "c.off"], ["quads", "-o", "q.obj"], ["render", "-o", "r.png"]):
+            with self.subTest(command=command[0]):
+                result = self.morsel(command[0], damaged, *command[1:], code=3)
+                self.assertIn("damaged.off", result.stderr)
+                self.assertIn("--repair", result.stderr)
 
 
 class Usage(ProgramTest):

@@ -21,14 +21,11 @@ int write(const Options& options, const CommonOptions& common, Console& console)
   const FieldRecipe recipe = prepare(options.request);
   check_field_path(options.output);
   const core::Progress progress = console.progress();
-  core::LoadedSoup file = core::read_polygon_soup(options.mesh, progress);
-  core::BuiltMesh built = core::build_mesh(file.soup, {.repair = common.repair});
-  const core::LoadedMesh loaded{
-      std::move(built.mesh),
-      {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
+  const core::WholeMesh input = core::read_whole_mesh(options.mesh, {.repair = common.repair}, progress);
+  const core::LoadedMesh& loaded = input.loaded;
   const MadeField made = make_field(recipe, loaded, progress);
   tell_target(made, console);
-  write_field(options.output, made.field(), loaded.source.numbering, file.soup.positions, made.input.name);
+  write_field(options.output, made.field(), loaded.source.numbering, input.input_positions, made.input.name);
   console.message("field: " + options.output);
   return kDone;
 }

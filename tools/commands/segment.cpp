@@ -69,11 +69,8 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   const core::Progress progress = console.progress();
   Timings timings;
   const Stopwatch load_watch;
-  core::LoadedSoup file = core::read_polygon_soup(options.mesh, progress);
-  core::BuiltMesh built = core::build_mesh(file.soup, {.repair = common.repair}, progress);
-  const core::LoadedMesh loaded{
-      std::move(built.mesh),
-      {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
+  const core::WholeMesh input = core::read_whole_mesh(options.mesh, {.repair = common.repair}, progress);
+  const core::LoadedMesh& loaded = input.loaded;
   const std::string hash = options.json.empty() ? std::string() : sha256_of_file(options.mesh);
   timings.emplace_back("load", load_watch.seconds());
 
@@ -86,8 +83,9 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   timings.emplace_back("segments", segment_watch.seconds());
 
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
-  const std::vector<std::filesystem::path> written = write_labels(
-      options.output, labels, field.field(), field.input.name, loaded.source.numbering, file.soup.positions);
+  const std::vector<std::filesystem::path> written =
+      write_labels(options.output, labels, field.field(), field.input.name, loaded.source.numbering,
+                   input.input_positions);
   if (!options.json.empty()) {
     JsonStream json(json_to_stdout ? std::cout : json_file->stream());
     write_segments(json, {options.mesh, hash, common.repair, options.request, request}, loaded, recipe, field,
