@@ -189,6 +189,7 @@ TEST_CASE("every mesh and field makes a picture, the same bytes with any number 
   const Measurement measurement = measured(field);
   PictureRequest request;
   request.size = {260, 200};
+  request.samples = 8;
   request.arcs = true;
   request.inset = Inset{measurement.critical_points.points[0].vertex};
   std::string first;
@@ -254,7 +255,7 @@ TEST_CASE("an inset magnifies its vertex in the middle") {
   const core::ScalarField field = bumpy_field(4);
   const Measurement measurement = measured(field);
   const Studio studio(field.mesh());
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 2; ++i) {
     const morse::CriticalPoint& point = measurement.critical_points.points[i];
     const View view = view_from(field.mesh().position(point.vertex));
     PictureRequest request;
