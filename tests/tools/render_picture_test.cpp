@@ -128,7 +128,8 @@ TEST_CASE("tubes lie on the surface: none of those that face the viewer is hidde
       const Rays bare(scene.body.mesh);
       std::size_t hidden = 0;
       for (const Capsule& capsule : scene.capsules) {
-        // Straight above each piece: the first thing on the way down must be a tube, and the surface right below it.
+        // Straight above each piece: the first thing on the way down must be a tube, and the surface right
+        // below it.
         for (const float s : {0.f, 0.5f, 1.f}) {
           const Vec3 axis = (1 - s) * capsule.a + s * capsule.b;
           Hit on;
@@ -264,7 +265,8 @@ TEST_CASE("an inset magnifies its vertex in the middle") {
     request.legend = false;
     request.inset = Inset{point.vertex, core::Length::epsilons(12)};
     const Image image = studio.take(view, {field, &measurement, {}, ""}, request);
-    // The largest patch of one of the three colours' hue is the magnified sphere: in a corner, 0.36 of the height wide.
+    // The largest patch of one of the three colours' hue is the magnified sphere: in a corner, 0.36 of the
+    // height wide.
     const int side = 108, gap = static_cast<int>(0.8 * letter_size(request.size));
     bool found = false;
     const Color color = color_of(point.type);
