@@ -100,7 +100,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
   const CLI::Option* arcs =
       command.add_flag("--arcs,!--no-arcs", options->arcs,
                        "The arcs of the Morse-Smale complex as tubes: descending blue, ascending red\n"
-                       "(default: where segments are shown)");
+                       "(default: where segments are shown, and then only those that bound them)");
   command.add_option("--size", options->size, "Width and height in pixels")
       ->type_name("WxH")
       ->capture_default_str();

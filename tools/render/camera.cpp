@@ -97,8 +97,8 @@ Camera fit_camera(std::span<const Point> points, const View& view, double aspect
   camera.half_width = aspect >= 1 ? half * aspect : half;
   camera.half_height = aspect >= 1 ? half : half / aspect;
 
-  // Each side of the film is a plane through the eye that all points must be inside of. In coordinates (x, y, z) along
-  // right, up and back: x + w z ≤ X + w Z, and so on, for the eye (X, Y, Z).
+  // Each side of the film is a plane through the eye that all points must be inside of. In coordinates (x, y,
+  // z) along right, up and back: x + w z ≤ X + w Z, and so on, for the eye (X, Y, Z).
   const double w = camera.half_width * (1 - 2 * margin);
   const double h = camera.half_height * (1 - 2 * margin);
   constexpr double kLow = -std::numeric_limits<double>::infinity();

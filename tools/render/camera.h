@@ -19,17 +19,18 @@ struct View {
   core::Point up = core::Point::UnitY();
 };
 
-/// From azimuth and elevation in degrees, elevation in [−90, 90]. Azimuth 0 looks at the front and grows to the
-/// mesh's left, the picture's right:
+/// From azimuth and elevation in degrees, elevation in [−90, 90]. Azimuth 0 looks at the front and grows to
+/// the mesh's left, the picture's right:
 ///
-///   up y (the default): front from +z, right side of the picture +x; back from −z, left −x, right +x, top +y, bottom −y
+///   up y (the default): front from +z, right side of the picture +x; back from −z, left −x, right +x,
+///                       top +y, bottom −y
 ///   up z: front from −y, right side of the picture +x; up x: front from +y, right side of the picture +z
 View view_at(double azimuth, double elevation, UpAxis up = UpAxis::y);
 /// The view along a direction, of any length but zero, with `up` up as far as possible.
 View view_from(const core::Point& toward, UpAxis up = UpAxis::y);
 
-/// "front", "back", "left", "right", "top", "bottom" or "azimuth/elevation" in degrees. Throws InvalidArgument, saying
-/// what there is, on anything else ("best", which depends on the mesh, included).
+/// "front", "back", "left", "right", "top", "bottom" or "azimuth/elevation" in degrees. Throws
+/// InvalidArgument, saying what there is, on anything else ("best", which depends on the mesh, included).
 View named_view(std::string_view text, UpAxis up = UpAxis::y);
 
 /// A pinhole camera. The film is the square [−1, 1]² or what shows of it, x to the right, y up.
@@ -53,8 +54,9 @@ struct Camera {
   }
 };
 
-/// The closest camera that looks along the view and has all points on its film, `margin` (a share of the film) clear on
-/// every side; the smaller side sees 24°. `aspect` is width over height. Exact; O(n). Points: one or more.
+/// The closest camera that looks along the view and has all points on its film, `margin` (a share of the
+/// film) clear on every side; the smaller side sees 24°. `aspect` is width over height. Exact; O(n). Points:
+/// one or more.
 Camera fit_camera(std::span<const core::Point> points, const View& view, double aspect, double margin = 0.04);
 
 }  // namespace morsel::tools::render

@@ -17,8 +17,9 @@ using Ink = std::uint32_t;
 inline constexpr Ink kBlack = 0x1a1a1a;
 inline constexpr Ink kGray = 0x6f6f6f;
 
-/// Coordinates in pixels from the upper left corner; y grows downwards. Text is set in DejaVu Sans, which is built in, so that
-/// it looks the same wherever the program runs. The same bytes whenever cairo and FreeType are the same.
+/// Coordinates in pixels from the upper left corner; y grows downwards. Text is set in DejaVu Sans, which is
+/// built in, so that it looks the same wherever the program runs. The same bytes whenever cairo and FreeType
+/// are the same.
 class Canvas {
  public:
   Canvas(Size size, bool transparent);
@@ -29,7 +30,8 @@ class Canvas {
   Size size() const { return size_; }
   /// Puts a picture over what is there, pixel by pixel; what hangs over is cut off.
   void draw(const Image& image, int x, int y);
-  /// One line of UTF-8 with its baseline at y; `size` is that of the em. Throws InvalidArgument on other bytes.
+  /// One line of UTF-8 with its baseline at y; `size` is that of the em. Throws InvalidArgument on other
+  /// bytes.
   void text(double x, double y, double size, std::string_view text, Align align = Align::left,
             Ink ink = kBlack);
   double text_width(double size, std::string_view text);

@@ -27,9 +27,10 @@ class Colormap {
   std::vector<Color> table_;  // evenly spaced
 };
 
-/// Diverging ones first. "viridis" is of van der Walt and Smith (2015, CC0), "cividis" of Nuñez, Anderton, Renslow (2018,
-/// CC0), both by 33 points of their tables. "blue-orange", "purple-green" and "sand" are drawn here, in OKLab: their
-/// lightness falls evenly from the middle to the ends, or from the lower end to the upper.
+/// Diverging ones first. "viridis" is of van der Walt and Smith (2015, CC0), "cividis" of Nuñez, Anderton,
+/// Renslow (2018, CC0), both by 33 points of their tables. "blue-orange", "purple-green" and "sand" are drawn
+/// here, in OKLab: their lightness falls evenly from the middle to the ends, or from the lower end to the
+/// upper.
 std::vector<std::string_view> colormap_names();
 
 }  // namespace morsel::tools::render

@@ -18,10 +18,12 @@ namespace morsel::tools::render {
 ///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's arcs where there
 ///              are no more than 500 points; all from the same side, each with its own colours' range
 ///   sheet.png  these side by side, with captions (method, counts)
-/// NAME is the method's; a second method of the same name gets "-2", and so on. Called by the thread that made it.
+/// NAME is the method's; a second method of the same name gets "-2", and so on. Called by the thread that
+/// made it.
 class FigureSink : public ComparisonSink {
  public:
-  /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset. Refers to `loaded`.
+  /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset. Refers to
+  /// `loaded`.
   FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera,
              core::Progress progress = {}, Size size = {1200, 840});
   void field(const FieldOutcome& outcome) override;

@@ -101,7 +101,8 @@ class Net {
         const Index crossed = gradient.paired_halfedge(t);
         if (crossed == kNone) {
           const auto& corners = mesh().triangle(t);
-          // The maximum is the corner whose critical triangle this is; the lists are by vertex, so it is looked up once a triangle.
+          // The maximum is the corner whose critical triangle this is; the lists are by vertex, so it is
+          // looked up once a triangle.
           steps.push_back({triangle_[t], at_vertex(maximum_of(t, corners)), false});
           break;
         }

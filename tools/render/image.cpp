@@ -11,7 +11,8 @@
 namespace morsel::tools::render {
 namespace {
 
-// libpng reports by longjmp, over which nothing with a destructor may be alive: so all that lives here is plain.
+// libpng reports by longjmp, over which nothing with a destructor may be alive: so all that lives here is
+// plain.
 bool encode(const Image& image, bool opaque, std::string& bytes, png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(

@@ -17,7 +17,8 @@ struct Size {
 
 inline constexpr int kLargestSide = 16384;  ///< of a picture
 
-/// Throws InvalidArgument unless both sides are in 1 … kLargestSide and the picture has at most 100 million pixels.
+/// Throws InvalidArgument unless both sides are in 1 … kLargestSide and the picture has at most 100 million
+/// pixels.
 void check_size(Size size);
 
 /// Four bytes a pixel: red, green, blue in sRGB, not multiplied by the fourth, opacity. Rows from the top.
@@ -34,8 +35,8 @@ struct Image {
   std::uint8_t* pixel(int x, int y) { return &bytes[4 * (static_cast<std::size_t>(y) * size.width + x)]; }
 };
 
-/// The bytes of a PNG file of 8 bits a channel, without the fourth where all pixels are opaque. The same bytes
-/// whenever libpng and zlib are the same.
+/// The bytes of a PNG file of 8 bits a channel, without the fourth where all pixels are opaque. The same
+/// bytes whenever libpng and zlib are the same.
 std::string encode_png(const Image& image);
 
 }  // namespace morsel::tools::render

@@ -7,9 +7,9 @@
 
 namespace morsel::tools::render {
 
-/// Traces what lies within `radius` (in the body's unit, above 0) of `center`, seen by the same camera, and puts it, framed,
-/// into the corner of the picture where it hides least of `picture`, which is on the canvas at (0, 0). Two lines lead to a
-/// frame around the region. Throws InvalidArgument on a radius out of range.
+/// Traces what lies within `radius` (in the body's unit, above 0) of `center`, seen by the same camera, and
+/// puts it, framed, into the corner of the picture where it hides least of `picture`, which is on the canvas
+/// at (0, 0). Two lines lead to a frame around the region. Throws InvalidArgument on a radius out of range.
 void draw_inset(Canvas& canvas, const Image& picture, const Tracer& tracer, const Camera& camera,
                 const TraceOptions& options, const core::Point& center, double radius, double em,
                 const core::Progress& progress = {});

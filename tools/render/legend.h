@@ -9,8 +9,8 @@
 
 namespace morsel::tools::render {
 
-/// What a field measures, in words ("mean curvature"), and its unit in terms of the mesh's ("1/length"; empty if it has
-/// none or nothing is known of it). `method` is the last step that made it: saliency has no unit.
+/// What a field measures, in words ("mean curvature"), and its unit in terms of the mesh's ("1/length"; empty
+/// if it has none or nothing is known of it). `method` is the last step that made it: saliency has no unit.
 struct Quantity {
   std::string words;
   std::string unit;
@@ -24,7 +24,8 @@ std::string tick_text(double value, double step);
 
 /// How wide the strip is that the bar takes; `em` is the size of its letters.
 int legend_width(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em);
-/// Draws it into a strip from `x` on, in the middle of `height`. Values that are cut off are shown by arrowheads.
+/// Draws it into a strip from `x` on, in the middle of `height`. Values that are cut off are shown by
+/// arrowheads.
 void draw_legend(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em, double x,
                  double height);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// A picture of a surface, its field and its critical points: what `morsel render` and `morsel compare --figures` make.
+/// A picture of a surface, its field and its critical points: what `morsel render` and `morsel compare
+/// --figures` make.
 
 #include <optional>
 #include <span>
@@ -57,8 +58,8 @@ class Studio {
   /// "best", or what named_view() takes.
   View view(const std::string& name, UpAxis up = UpAxis::y, const core::Progress& progress = {}) const;
 
-  /// Throws InvalidArgument on options out of range, a subject of another mesh, or one without a measurement where it is
-  /// needed. The same bytes for every number of threads.
+  /// Throws InvalidArgument on options out of range, a subject of another mesh, or one without a measurement
+  /// where it is needed. The same bytes for every number of threads.
   Image take(const View& view, const Subject& subject, const PictureRequest& request,
              const core::Progress& progress = {}) const;
 

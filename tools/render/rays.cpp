@@ -87,7 +87,8 @@ Rays::Rays(const core::TriangleMesh& mesh, std::span<const Ball> balls, std::spa
     scene_->attach(geometry, Hit::Kind::capsule);
   }
   {
-    // Of things equally near, the order of the tree decides which is met, and threads would decide that order.
+    // Of things equally near, the order of the tree decides which is met, and threads would decide that
+    // order.
     const core::ThreadLimit one(1);
     rtcCommitScene(scene_->scene);
   }

@@ -35,8 +35,9 @@ struct Capsule {
   float radius;
 };
 
-/// A set of things that rays are sent against, of about unit size. Immutable; safe from any number of threads. Answers do
-/// not depend on the number of threads that it was made or is asked with. Throws std::bad_alloc if there is not enough memory.
+/// A set of things that rays are sent against, of about unit size. Immutable; safe from any number of
+/// threads. Answers do not depend on the number of threads that it was made or is asked with. Throws
+/// std::bad_alloc if there is not enough memory.
 class Rays {
  public:
   explicit Rays(const core::TriangleMesh& mesh, std::span<const Ball> balls = {},
@@ -45,8 +46,8 @@ class Rays {
   Rays(Rays&&) noexcept;
   Rays& operator=(Rays&&) noexcept;
 
-  /// The first thing between `near` and `far` along the ray; false if there is none. Nothing is met inside balls and
-  /// capsules that the ray starts in.
+  /// The first thing between `near` and `far` along the ray; false if there is none. Nothing is met inside
+  /// balls and capsules that the ray starts in.
   bool first(const Vec3& origin, const Vec3& direction, float near, float far, Hit& hit) const;
   /// Whether anything is there.
   bool any(const Vec3& origin, const Vec3& direction, float near, float far) const;

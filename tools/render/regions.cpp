@@ -67,7 +67,8 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
   std::vector<std::uint32_t> color(nodes, kUncolored);
   std::vector<std::uint32_t> saturation(nodes,
                                         0);  // coloured neighbours: a node's different colours are no more
-  // The most constrained node first: most coloured neighbours, then most neighbours, then the smallest number.
+  // The most constrained node first: most coloured neighbours, then most neighbours, then the smallest
+  // number.
   struct Key {
     std::uint32_t saturation;
     std::size_t degree;
@@ -93,7 +94,8 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
           nearest[k] = k == other ? 0 : std::min(nearest[k], (lab[k] - lab[other]).norm());
       }
       std::size_t best = palette.size();
-      // Far enough is far enough: among such colours the least used, so that the picture is not all of two of them.
+      // Far enough is far enough: among such colours the least used, so that the picture is not all of two of
+      // them.
       constexpr float kEnough = 0.16f;
       for (std::size_t k = 0; k < palette.size(); ++k) {
         if (nearest[k] <= 0) continue;

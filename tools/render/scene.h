@@ -12,14 +12,15 @@
 
 namespace morsel::tools::render {
 
-/// A value at each vertex, linear in between, looked up at every point: 0 is the map's lower end, 1 its upper.
+/// A value at each vertex, linear in between, looked up at every point: 0 is the map's lower end, 1 its
+/// upper.
 struct ValueColors {
   std::vector<float> values;
   Colormap map;
 };
 
-/// A colour for each third of each triangle, that of the corner with the largest barycentric weight: entry 3t + i for
-/// corner i. So a region may be made of triangles, of vertices' dual cells, or of both.
+/// A colour for each third of each triangle, that of the corner with the largest barycentric weight: entry 3t
+/// + i for corner i. So a region may be made of triangles, of vertices' dual cells, or of both.
 struct RegionColors {
   std::vector<std::uint32_t> corner;  ///< into `palette`
   std::vector<Color> palette;

@@ -13,9 +13,9 @@ struct Panel {
   std::string caption;  ///< lines; the first is preceded by "(a) ", "(b) ", …
 };
 
-/// In rows of up to three (four panels: two rows of two), all cells as large as the largest picture, captions below, an
-/// empty strip between; a title line above if there is a title. Throws InvalidArgument if there is no panel, or so many that
-/// the sheet would be too large.
+/// In rows of up to three (four panels: two rows of two), all cells as large as the largest picture, captions
+/// below, an empty strip between; a title line above if there is a title. Throws InvalidArgument if there is
+/// no panel, or so many that the sheet would be too large.
 Image make_sheet(const std::vector<Panel>& panels, const std::string& title = {}, bool transparent = false);
 
 /// A picture with a caption below, so much higher.

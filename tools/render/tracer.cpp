@@ -30,8 +30,8 @@ std::uint32_t mixed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-/// Points of the unit square or line that fill it evenly, from a start of their own. In whole numbers, so that they are
-/// the same everywhere.
+/// Points of the unit square or line that fill it evenly, from a start of their own. In whole numbers, so
+/// that they are the same everywhere.
 class Sequence {
  public:
   explicit Sequence(std::uint32_t seed) : x_(mixed(seed)), y_(mixed(seed ^ 0x9e3779b9u)) {}
@@ -157,8 +157,8 @@ class Shader {
     const float side = sum.dot(s.facet) < 0 ? -1.f : 1.f;
     const float length = sum.norm();
     s.normal = length > 1e-6f ? Vec3(sum * (side / length)) : s.facet;
-    // Rays leave from the smooth surface that the normals speak of, which runs above the facets where it bulges
-    // (Hanika 2021): else the facets' edges would show in the shadows.
+    // Rays leave from the smooth surface that the normals speak of, which runs above the facets where it
+    // bulges (Hanika 2021): else the facets' edges would show in the shadows.
     Vec3 lift = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
       const float below = std::min(0.f, side * (s.point - corner[i]).dot(normal[i]));
@@ -181,7 +181,8 @@ class Shader {
   const Rays& rays_;
 };
 
-/// A pixel as it was sampled. `even` ones show one piece of surface of about one colour: their light may be smoothed.
+/// A pixel as it was sampled. `even` ones show one piece of surface of about one colour: their light may be
+/// smoothed.
 struct Pixel {
   Color color = Color::Zero();  // sum; of even pixels without light
   Vec3 normal = Vec3::Zero();   // of even pixels: at their first sample
@@ -207,8 +208,8 @@ class Sampler {
     const std::uint32_t place =
         mixed(static_cast<std::uint32_t>(y) * 0x10001u + static_cast<std::uint32_t>(x));
     const Sequence film(place);
-    // The pixels of each block of 4 x 4 share out consecutive stretches of one sequence, so that what smoothed() averages
-    // is spread as evenly as if it were one pixel's.
+    // The pixels of each block of 4 x 4 share out consecutive stretches of one sequence, so that what
+    // smoothed() averages is spread as evenly as if it were one pixel's.
     const Sequence sky(0x02e5be93u), lamp(0x967a889bu);
     const std::uint32_t block = static_cast<std::uint32_t>(x & 3) + 4 * static_cast<std::uint32_t>(y & 3);
     const int few = std::min(options_.samples, std::max(4, options_.samples / 4));
@@ -287,8 +288,8 @@ class Sampler {
   const Vec3 eye_;
 };
 
-/// The light of an even pixel averaged with that of its even neighbours that face the same way and lie in one plane with
-/// it, so that no grain is left of the few rays that each had.
+/// The light of an even pixel averaged with that of its even neighbours that face the same way and lie in one
+/// plane with it, so that no grain is left of the few rays that each had.
 float smoothed(const std::vector<Pixel>& pixels, Size size, int x, int y) {
   constexpr int kReach = 3;
   constexpr std::array<float, kReach + 1> kWeight = {1, 0.75f, 0.5f,

@@ -15,8 +15,8 @@ struct ScaleRequest {
   /// A name, or nothing: "blue-orange" where there is a centre, else "sand".
   std::string colormap;
   enum class Center {
-    automatic,  ///< of values of both signs zero, or the median where one sign is that of less than a tenth of them; none
-                ///< where limits are given
+    automatic,  ///< of values of both signs zero, or the median where one sign is that of less than a tenth;
+                ///< none where limits are given
     zero,
     median,
     none
@@ -43,8 +43,9 @@ struct ValueScale {
   double position(double value) const { return (value - low) / (high - low); }
 };
 
-/// With a centre both ends are equally far from it: as far as the farther of the two percentiles. Where that leaves no
-/// range (constant values), it is widened to one around the value. Values: one or more, finite. O(n).
+/// With a centre both ends are equally far from it: as far as the farther of the two percentiles. Where that
+/// leaves no range (constant values), it is widened to one around the value. Values: one or more, finite.
+/// O(n).
 ValueScale choose_scale(std::span<const double> values, const ScaleRequest& request = {});
 
 }  // namespace morsel::tools::render
