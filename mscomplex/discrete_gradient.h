@@ -48,7 +48,8 @@ class DiscreteGradient {
   /// Critical triangles by ascending vertex. The caps, critical too, are not among them.
   std::span<const CriticalCell> maxima() const { return maxima_; }
 
-  /// The other end of the edge that v is paired with (from lower stars v's lowest neighbour); kNone at a minimum.
+  /// The other end of the edge that v is paired with (from lower stars v's lowest neighbour); kNone at a
+  /// minimum.
   core::Index descend(core::Index v) const { return lower_[v]; }
   std::span<const core::Index> descents() const { return lower_; }
   /// The half-edge, in triangle t, of the edge that t is paired with; kNone at a critical triangle.
@@ -84,19 +85,21 @@ class DiscreteGradient {
   }
 
   /// The gradient with the V-paths of these arcs turned round one after the other, so that the saddle and the
-  /// extremum at each arc's ends are critical no longer (Forman 1998, "Morse theory for cell complexes"). Arcs are
-  /// numbered as the Morse-Smale complex of this gradient has them: 4i + k for side k of saddles()[i]; where an arc
-  /// ends is changed by those before it. Throws InvalidArgument for a saddle that is not there (any more), an arc
-  /// that ends in a cap, and one whose saddle reaches the same extremum on both sides, which would close a V-path. The
-  /// result's pairs no longer share their highest vertices. O(n) and the lengths of both ways from each saddle.
+  /// extremum at each arc's ends are critical no longer (Forman 1998, "Morse theory for cell complexes").
+  /// Arcs are numbered as the Morse-Smale complex of this gradient has them: 4i + k for side k of
+  /// saddles()[i]; where an arc ends is changed by those before it. Throws InvalidArgument for a saddle that
+  /// is not there (any more), an arc that ends in a cap, and one whose saddle reaches the same extremum on
+  /// both sides, which would close a V-path. The result's pairs no longer share their highest vertices. O(n)
+  /// and the lengths of both ways from each saddle.
   DiscreteGradient with_reversed(std::span<const core::Index> arcs) const;
 
-  /// Checks what every discrete gradient must be, for tests: each cell in at most one pair, no closed V-path, lists
-  /// that name exactly the cells in no pair in their order, Euler's identity component by component. Throws
-  /// std::logic_error naming the first contradiction. O(n).
+  /// Checks what every discrete gradient must be, for tests: each cell in at most one pair, no closed V-path,
+  /// lists that name exactly the cells in no pair in their order, Euler's identity component by component.
+  /// Throws std::logic_error naming the first contradiction. O(n).
   void validate() const;
-  /// Checks also that it is that of `field`'s lower stars: pairs of facet and cofacet with one highest vertex, each vertex
-  /// paired with the edge to its lowest neighbour, critical cells at their highest vertex. O(n).
+  /// Checks also that it is that of `field`'s lower stars: pairs of facet and cofacet with one highest
+  /// vertex, each vertex paired with the edge to its lowest neighbour, critical cells at their highest
+  /// vertex. O(n).
   void validate(const core::ScalarField& field) const;
 
  private:

@@ -11,8 +11,8 @@
 
 namespace morsel::mscomplex {
 
-/// One cancellation: a saddle and an extremum beside it go, with the saddle's four arcs; the arcs that ended in the
-/// extremum go on, along the saddle's other arc of that kind, to the extremum there.
+/// One cancellation: a saddle and an extremum beside it go, with the saddle's four arcs; the arcs that ended
+/// in the extremum go on, along the saddle's other arc of that kind, to the extremum there.
 struct Cancellation {
   core::Index arc = core::kNone;  ///< of the saddle, the one that ended in the extremum: 4 × saddle + side
   core::Index extremum = core::kNone;  ///< node: a minimum or a maximum, never a cap
@@ -20,25 +20,27 @@ struct Cancellation {
   double persistence = 0;              ///< |f(saddle) − f(extremum)|
 };
 
-/// All complexes between that of a field and the one with nothing left to cancel (Edelsbrunner, Harer, Zomorodian
-/// 2003, "Hierarchical Morse-Smale complexes for piecewise linear 2-manifolds"; Bremer, Edelsbrunner, Hamann, Pascucci
-/// 2004). A level is the number of cancellations that are done: level 0 is the complex itself, level levels() has only
-/// what is essential and what goes with caps.
+/// All complexes between that of a field and the one with nothing left to cancel (Edelsbrunner, Harer,
+/// Zomorodian 2003, "Hierarchical Morse-Smale complexes for piecewise linear 2-manifolds"; Bremer,
+/// Edelsbrunner, Hamann, Pascucci 2004). A level is the number of cancellations that are done: level 0 is the
+/// complex itself, level levels() has only what is essential and what goes with caps.
 ///
-/// Cancellations come by ascending persistence; among equals those of minima before those of maxima, then what the
-/// sweep (up for minima, down for maxima) meets first, then, at one saddle vertex, the younger extremum: the order of
-/// persistence::Diagram, whose finite pairs they are. Each is legal when its turn comes: exactly one of its saddle's two
-/// arcs of that kind ends in the extremum.
+/// Cancellations come by ascending persistence; among equals those of minima before those of maxima, then
+/// what the sweep (up for minima, down for maxima) meets first, then, at one saddle vertex, the younger
+/// extremum: the order of persistence::Diagram, whose finite pairs they are. Each is legal when its turn
+/// comes: exactly one of its saddle's two arcs of that kind ends in the extremum.
 ///
-/// Nodes keep the numbers and values that they have in the complex, and arcs theirs: arc 4i + k is side k of saddle i at
-/// every level. Cancelling in the field (persistence::cancel()) instead moves saddles that lie in a flooded basin
-/// up to where it overflows; here they keep their value, so that a way on may lead uphill first.
+/// Nodes keep the numbers and values that they have in the complex, and arcs theirs: arc 4i + k is side k of
+/// saddle i at every level. Cancelling in the field (persistence::cancel()) instead moves saddles that lie in
+/// a flooded basin up to where it overflows; here they keep their value, so that a way on may lead uphill
+/// first.
 ///
-/// Immutable; safe to read from any number of threads. O(n) and O(s log s) in the number of saddles. Memory: some 60
-/// bytes a saddle besides the complex.
+/// Immutable; safe to read from any number of threads. O(n) and O(s log s) in the number of saddles. Memory:
+/// some 60 bytes a saddle besides the complex.
 class PersistenceHierarchy {
  public:
-  /// `complex` must be the field's own, from its lower stars (throws InvalidArgument if it is on another mesh).
+  /// `complex` must be the field's own, from its lower stars (throws InvalidArgument if it is on another
+  /// mesh).
   PersistenceHierarchy(const core::ScalarField& field, MorseSmaleComplex complex,
                        const core::Progress& progress = {});
   explicit PersistenceHierarchy(const core::ScalarField& field, const core::Progress& progress = {})
@@ -54,8 +56,8 @@ class PersistenceHierarchy {
 
   /// The level at which all pairs of at most this persistence are cancelled, and no others. O(log s).
   core::Index level_above(double threshold) const;
-  /// The first level with at most `count` critical cells (minima, saddles with their multiplicities, maxima), or the last
-  /// one if none has so few: each cancellation takes two of them away. O(1).
+  /// The first level with at most `count` critical cells (minima, saddles with their multiplicities, maxima),
+  /// or the last one if none has so few: each cancellation takes two of them away. O(1).
   core::Index level_with(std::size_t count) const;
   /// The first level with at most `count` minima (maxima without caps), or the last one. O(log s).
   core::Index level_with_minima(core::Index count) const;
@@ -81,13 +83,14 @@ class PersistenceHierarchy {
     return survivor(complex_.arc_end(arc), level);
   }
 
-  /// The discrete gradient with the V-paths between cancelled cells turned round (Forman 1998), whose critical cells are
-  /// those alive. So MorseSmaleComplex(field, gradient(level)) is the complex of that level with the geometry of its arcs
-  /// (its nodes and arcs are numbered anew, in the same order), and segment(field, gradient(level)) its segmentation. O(n) and
-  /// the lengths of the V-paths.
+  /// The discrete gradient with the V-paths between cancelled cells turned round (Forman 1998), whose
+  /// critical cells are those alive. So MorseSmaleComplex(field, gradient(level)) is the complex of that
+  /// level with the geometry of its arcs (its nodes and arcs are numbered anew, in the same order), and
+  /// segment(field, gradient(level)) its segmentation. O(n) and the lengths of the V-paths.
   DiscreteGradient gradient(core::Index level) const;
 
-  /// Checks every cancellation against plain relabelling of all arcs, for tests: O(s²). Throws std::logic_error.
+  /// Checks every cancellation against plain relabelling of all arcs, for tests: O(s²). Throws
+  /// std::logic_error.
   void validate() const;
 
  private:

@@ -7,12 +7,13 @@
 
 namespace morsel::mscomplex {
 
-/// The combinatorial complex of one level: arcs, their cyclic order around each node, quads; kept up to date while it goes
-/// from level to level. Each cancellation that is done or undone costs O(log s); nothing else is touched. Nodes and
-/// arcs keep the numbers that they have in the hierarchy's complex. What is asked of a node or arc must be alive at the
-/// level.
+/// The combinatorial complex of one level: arcs, their cyclic order around each node, quads; kept up to date
+/// while it goes from level to level. Each cancellation that is done or undone costs O(log s); nothing else
+/// is touched. Nodes and arcs keep the numbers that they have in the hierarchy's complex. What is asked of a
+/// node or arc must be alive at the level.
 ///
-/// A value type; copies are independent. Refers to the hierarchy, which must outlive it. Memory: 12 bytes an arc.
+/// A value type; copies are independent. Refers to the hierarchy, which must outlive it. Memory: 12 bytes an
+/// arc.
 class HierarchyCursor {
  public:
   /// At level 0. O(s).
@@ -51,8 +52,8 @@ class HierarchyCursor {
   /// The quad on the left of a descending arc, seen from its saddle.
   Quad quad_left_of(core::Index descending_arc) const;
 
-  /// Checks the orders against each other and the complex's Euler identity component by component, for tests. Throws
-  /// std::logic_error. O(s log s).
+  /// Checks the orders against each other and the complex's Euler identity component by component, for tests.
+  /// Throws std::logic_error. O(s log s).
   void validate() const;
 
  private:

@@ -8,16 +8,17 @@
 
 namespace morsel::mscomplex {
 
-/// Elements 0 … n − 1, of which one after the other is taken over by another; who speaks for an element after the first
-/// `level` take-overs is told for any level, in O(log n), without going there. Union by size, so that ways up are short;
-/// links and changes of speaker carry the level at which they came ("partially persistent union-find"). Memory: 16 bytes
-/// an element and 8 a take-over. Filled once; then safe to read from any number of threads.
+/// Elements 0 … n − 1, of which one after the other is taken over by another; who speaks for an element after
+/// the first `level` take-overs is told for any level, in O(log n), without going there. Union by size, so
+/// that ways up are short; links and changes of speaker carry the level at which they came ("partially
+/// persistent union-find"). Memory: 16 bytes an element and 8 a take-over. Filled once; then safe to read
+/// from any number of threads.
 class MergeHistory {
  public:
   explicit MergeHistory(core::Index elements);
 
-  /// The next take-over: what `gone` speaks for is from now on spoken for by `survivor`. Both must speak for themselves now,
-  /// and differ.
+  /// The next take-over: what `gone` speaks for is from now on spoken for by `survivor`. Both must speak for
+  /// themselves now, and differ.
   void take_over(core::Index gone, core::Index survivor);
   /// After the last take_over(), before speaker() of the past is asked.
   void finish();

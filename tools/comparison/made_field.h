@@ -1,5 +1,6 @@
 #pragma once
-/// One field of one mesh, made as the command line names it: what everything that is built on a single field begins with.
+/// One field of one mesh, made as the command line names it: what everything that is built on a single field
+/// begins with.
 
 #include <cstddef>
 #include <optional>

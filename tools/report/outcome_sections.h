@@ -23,7 +23,8 @@ Json tool_section();
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);
-/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending", "morse_smale"}}
+/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending",
+/// "morse_smale"}}
 Json complex_section(const mscomplex::MorseSmaleComplex& complex,
                      const mscomplex::Segmentation& segmentation);
 /// Steps with their seconds.
@@ -32,7 +33,8 @@ Json timings_section(const Timings& timings);
 Json steps_section(const std::vector<StepOutcome>& steps);
 /// How a wanted number came about, without the list of the cancelled pairs; vertices in the input's numbers.
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering);
-/// The method that made a field: {"name", "parameters", "details", "iterations", "target" (if there was one), "min", "max"}
+/// The method that made a field: {"name", "parameters", "details", "iterations", "target" (if there was one),
+/// "min", "max"}
 Json method_section(const FieldRecipe& recipe, const MadeField& made, const core::VertexNumbering& numbering);
 
 }  // namespace morsel::tools

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -45,13 +45,8 @@ void write_quads(JsonSink& json, const QuadsInput& input, const HashedMesh& mesh
   const auto vertex_of = [&](core::Index node) {
     return std::uint64_t{numbering.input_vertex(complex.node(node).vertex)};
   };
-  json.begin_object();
-  json.member("schema", "morsel.quads/1");
-  json.member("tool", tool_section());
-  json.member("request", request_section(input));
-  json.member("mesh", mesh_section(input.path, mesh.sha256, loaded.mesh, loaded.source.repairs));
-  json.member("field", field_section(made.input));
-  json.member("method", method_section(recipe, made, numbering));
+  begin_field_document(json, "morsel.quads/1", request_section(input),
+                       {input.path, mesh.sha256, loaded, recipe, made});
   json.member("simplification", {{"threshold", result.threshold}, {"cancelled_pairs", result.cancelled}});
   json.begin_array("repairs");
   for (const mscomplex::DanglingRepair& r : result.repaired.repairs)

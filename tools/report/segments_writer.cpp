@@ -4,7 +4,7 @@
 
 #include "morsel/persistence/diagram.h"
 #include "morsel/persistence/pairing.h"
-#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -110,13 +110,8 @@ void write_segments(JsonSink& json, const SegmentsInput& input, const core::Load
                     const Timings& timings) {
   const core::VertexNumbering& numbering = loaded.source.numbering;
   const MadeSegments::Areas areas = made.areas();
-  json.begin_object();
-  json.member("schema", "morsel.segments/1");
-  json.member("tool", tool_section());
-  json.member("request", request_section(input));
-  json.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
-  json.member("field", field_section(field.input));
-  json.member("method", method_section(recipe, field, numbering));
+  begin_field_document(json, "morsel.segments/1", request_section(input),
+                       {input.mesh_path, input.mesh_sha256, loaded, recipe, field});
   json.member("merging", merging_section(made));
   json.member("count", made.segments.count());
   json.member("area", {{"smallest", areas.smallest}, {"median", areas.median}, {"largest", areas.largest}});

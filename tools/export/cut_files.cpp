@@ -1,4 +1,4 @@
-#include "morsel/tools/cutting/cut_files.h"
+#include "morsel/tools/export/cut_files.h"
 
 #include <cstdint>
 #include <span>

@@ -1,6 +1,6 @@
-#include "morsel/tools/cutting/cut_document.h"
+#include "morsel/tools/report/cut_writer.h"
 
-#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -64,13 +64,8 @@ void write_cut_document(JsonSink& json, const std::string& mesh_path, const Hash
                         const CutOutcome& outcome, const CutTimings& timings) {
   const core::LoadedMesh& loaded = input.loaded;
   const core::VertexNumbering& numbering = loaded.source.numbering;
-  json.begin_object();
-  json.member("schema", "morsel.cut/1");
-  json.member("tool", tool_section());
-  json.member("request", request_section(request));
-  json.member("mesh", mesh_section(mesh_path, input.sha256, loaded.mesh, loaded.source.repairs));
-  json.member("field", field_section(made.input));
-  json.member("method", method_section(recipe, made, numbering));
+  begin_field_document(json, "morsel.cut/1", request_section(request),
+                       {mesh_path, input.sha256, loaded, recipe, made});
   json.begin_object("cut");
   json.member("length_found", outcome.length_found);
   json.member("length", outcome.cut.length);

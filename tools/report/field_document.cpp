@@ -1,0 +1,20 @@
+#include "morsel/tools/report/field_document.h"
+
+#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/outcome_sections.h"
+
+namespace morsel::tools {
+
+void begin_field_document(JsonSink& json, std::string_view schema, const Json& request,
+                          const FieldSource& source) {
+  const core::MeshSource& file = source.loaded.source;
+  json.begin_object();
+  json.member("schema", schema);
+  json.member("tool", tool_section());
+  json.member("request", request);
+  json.member("mesh", mesh_section(source.mesh_path, source.mesh_sha256, source.loaded.mesh, file.repairs));
+  json.member("field", field_section(source.made.input));
+  json.member("method", method_section(source.recipe, source.made, file.numbering));
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,27 @@
+#pragma once
+/// The head that every JSON document about what is built on one field has.
+
+#include <string>
+#include <string_view>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/report/json_stream.h"
+
+namespace morsel::tools {
+
+/// What a field was made from; refers to all of it.
+struct FieldSource {
+  const std::string& mesh_path;  ///< as the user gave it
+  const std::string& mesh_sha256;
+  const core::LoadedMesh& loaded;
+  const FieldRecipe& recipe;
+  const MadeField& made;
+};
+
+/// Begins a document: "schema", "tool", "request", "mesh", "field", "method". The caller adds what is its own
+/// and ends it.
+void begin_field_document(JsonSink& json, std::string_view schema, const Json& request,
+                          const FieldSource& source);
+
+}  // namespace morsel::tools
