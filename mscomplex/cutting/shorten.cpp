@@ -146,7 +146,7 @@ class Shortener {
       if (walks[near].is_round()) break;
     }
     for (const Index h : inwards[near]) is_near_[h] = 1;
-    const std::vector<Index> found = search_.find(
+    std::vector<Index> found = search_.find(
         inwards[near], length * kShorter,
         [&](Index h) {
           if (walls_.degree(mesh_.target(h)) == 0) return Step::pass;
