@@ -25,6 +25,6 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/morselConfig.cmake.in ${
                               INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/morselConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/FindCairo.cmake ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
         DESTINATION ${package_folder})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -10,6 +10,7 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
@@ -23,6 +24,7 @@ struct Options {
   std::string report;
   bool no_items = false;
   std::string export_folder;
+  std::string plot_folder;
 };
 
 /// Shows on the console which method is running.
@@ -58,6 +60,8 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
   const bool report_to_stdout = options.report == "-";
   std::optional<core::FileWriter> file;
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
+  std::optional<PlotSink> plots;
+  if (!options.plot_folder.empty()) plots.emplace(options.plot_folder);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
@@ -79,13 +83,16 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
     exports.emplace(options.export_folder, loaded);
     files.add(*exports);
   }
+  if (plots) files.add(*plots);
   run_comparison(loaded, comparison, {&announcer, &table, &files}, console.progress());
+  if (plots) plots->finish();
   if (report) report->finish();
   if (file) file->commit();
 
   if (!report_to_stdout) std::cout << table.text();
   if (file) console.message("report: " + options.report);
   if (exports) console.message("files for ParaView: " + options.export_folder);
+  if (plots) console.message("plots: " + options.plot_folder);
   return kDone;
 }
 
@@ -119,6 +126,12 @@ void add_compare(CLI::App& app, Invocation& invocation) {
   command
       .add_option("--export", options->export_folder,
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
+      ->type_name("DIR");
+  command
+      .add_option(
+          "--plots", options->plot_folder,
+          "Write persistence diagrams and the curves of count against persistence and against iteration\n"
+          "here (.svg and .png)")
       ->type_name("DIR");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

@@ -1,0 +1,176 @@
+#include "morsel/tools/plot/ticks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+namespace morsel::tools::plot {
+namespace {
+
+constexpr double kAir = 0.04;         // of an interval, at each end
+constexpr double kSameValue = 1e-12;  // differences below this share of the values are not resolved
+constexpr double kNothing = 1e-290;   // values below are taken for 0
+constexpr int kMostDigits = 5;        // before the decimal point
+constexpr const char* kMinus = "\u2212";
+
+/// number · 10^exponent, rounded correctly.
+double parse(std::int64_t number, int exponent) {
+  const std::string text = std::to_string(number) + "e" + std::to_string(exponent);
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+int digits_of(std::int64_t number) { return static_cast<int>(std::to_string(std::abs(number)).size()); }
+
+/// number · 10^exponent written out, with −exponent decimals if it is negative.
+std::string decimal(std::int64_t number, int exponent) {
+  std::string digits = std::to_string(std::abs(number));
+  std::string fraction;
+  if (exponent >= 0) {
+    if (number != 0) digits.append(static_cast<std::size_t>(exponent), '0');
+  } else {
+    const auto decimals = static_cast<std::size_t>(-exponent);
+    if (digits.size() <= decimals) digits.insert(0, decimals + 1 - digits.size(), '0');
+    fraction = "." + digits.substr(digits.size() - decimals);
+    digits.resize(digits.size() - decimals);
+  }
+  return (number < 0 ? kMinus : "") + grouped_digits(digits) + fraction;
+}
+
+/// The step between marks, multiple · 10^exponent.
+struct Step {
+  int multiple = 1;
+  int exponent = 0;
+  double size() const { return parse(multiple, exponent); }
+};
+
+Step step_for(double size, int count) {
+  const double least = size / count * (1 - 1e-9);
+  Step step{1, static_cast<int>(std::floor(std::log10(least)))};
+  while (step.size() > least) --step.exponent;
+  for (;; ++step.exponent)
+    for (const int multiple : {1, 2, 5}) {
+      step.multiple = multiple;
+      if (step.size() >= least) return step;
+    }
+}
+
+Ticks linear_ticks(Interval shown, int count) {
+  const Step step = step_for(shown.size(), count);
+  const double size = step.size();
+  const auto first = static_cast<std::int64_t>(std::ceil(shown.lower / size - 1e-6));
+  const auto last = static_cast<std::int64_t>(std::floor(shown.upper / size + 1e-6));
+
+  Ticks ticks;
+  std::int64_t offset = 0;
+  const std::int64_t spread = (last - first) * step.multiple;
+  const std::int64_t largest = std::max(std::abs(first), std::abs(last)) * step.multiple;
+  if (digits_of(largest) - digits_of(spread) >= 4) {
+    std::int64_t unit = 1;
+    for (int i = 0; i < digits_of(spread); ++i) unit *= 10;
+    offset = first * step.multiple / unit * unit;
+    ticks.offset = parse(offset, step.exponent);
+    // Without the zeros that its last places are.
+    std::int64_t number = offset;
+    int exponent = step.exponent;
+    for (; exponent < 0 && number % 10 == 0; ++exponent) number /= 10;
+    ticks.offset_text = decimal(number, exponent);
+  }
+  const std::int64_t longest =
+      std::max(std::abs(first * step.multiple - offset), std::abs(last * step.multiple - offset));
+  const int magnitude = digits_of(longest) - 1 + step.exponent;
+  if (magnitude >= kMostDigits || magnitude < -3) ticks.factor = magnitude;
+  for (std::int64_t k = first; k <= last; ++k)
+    ticks.major.push_back({parse(k * step.multiple, step.exponent),
+                           decimal(k * step.multiple - offset, step.exponent - ticks.factor)});
+  return ticks;
+}
+
+Tick log_tick(int multiple, int power, bool plain) {
+  if (plain) return {parse(multiple, power), decimal(multiple, power)};
+  const std::string times = multiple == 1 ? "" : std::to_string(multiple) + "\u00b7";
+  return {parse(multiple, power), times + power_of_ten(power)};
+}
+
+Ticks log_ticks(Interval shown, int count) {
+  const auto within = [&](double value) {
+    return value >= shown.lower * (1 - 1e-9) && value <= shown.upper * (1 + 1e-9);
+  };
+  const int low = static_cast<int>(std::floor(std::log10(shown.lower))) - 1;
+  const int high = static_cast<int>(std::ceil(std::log10(shown.upper))) + 1;
+  std::vector<int> powers;
+  for (int p = low; p <= high; ++p)
+    if (within(parse(1, p))) powers.push_back(p);
+
+  Ticks ticks;
+  const auto add_minor = [&](int multiple, int power) {
+    if (within(parse(multiple, power))) ticks.minor.push_back(parse(multiple, power));
+  };
+  if (powers.size() > 2) {
+    const int stride = std::max(1, (static_cast<int>(powers.size()) - 1 + count - 1) / count);
+    const auto labelled = [&](int p) { return (p % stride + stride) % stride == 0; };
+    const bool plain = powers.front() >= -2 && powers.back() < kMostDigits;
+    for (int p = low; p <= high; ++p) {
+      if (within(parse(1, p))) {
+        if (labelled(p))
+          ticks.major.push_back(log_tick(1, p, plain));
+        else
+          ticks.minor.push_back(parse(1, p));
+      }
+      for (int m = 2; stride == 1 && m < 10; ++m) add_minor(m, p);
+    }
+    return ticks;
+  }
+  const bool plain = low >= -4 && high <= kMostDigits;
+  for (int p = low; p <= high; ++p)
+    for (int m = 1; m < 10; ++m) {
+      if (m == 1 || m == 2 || m == 5) {
+        if (within(parse(m, p))) ticks.major.push_back(log_tick(m, p, plain));
+      } else {
+        add_minor(m, p);
+      }
+    }
+  if (ticks.major.size() < 3) return linear_ticks(shown, count);
+  return ticks;
+}
+
+}  // namespace
+
+std::string power_of_ten(int exponent) {
+  constexpr const char* kRaised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                     "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string text = exponent < 0 ? "10\u207b" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += kRaised[digit - '0'];
+  return text;
+}
+
+std::string grouped_digits(const std::string& digits) {
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+Interval padded(Interval data, Scale scale) {
+  const double largest = std::max(std::abs(data.lower), std::abs(data.upper));
+  const bool constant = data.size() <= std::max(kSameValue * largest, kNothing);
+  if (scale == Scale::log) {
+    if (constant) return {data.lower / 2, data.upper * 2};
+    const double factor = std::pow(data.upper / data.lower, kAir);
+    return {data.lower / factor, data.upper * factor};
+  }
+  if (constant && largest <= kNothing) return {-1, 1};
+  const double air = constant ? largest / 2 : kAir * data.size();
+  return {data.lower - air, data.upper + air};
+}
+
+Ticks make_ticks(Interval shown, Scale scale, int count) {
+  return scale == Scale::log ? log_ticks(shown, count) : linear_ticks(shown, count);
+}
+
+}  // namespace morsel::tools::plot

@@ -1,0 +1,12 @@
+#pragma once
+/// The bytes of the font that pictures are lettered in.
+
+#include <cstddef>
+
+namespace morsel::tools::render {
+
+/// DejaVu Sans, a TrueType file; made by CMake from the file it finds.
+extern const char* const kFontBytes;
+extern const std::size_t kFontSize;
+
+}  // namespace morsel::tools::render
