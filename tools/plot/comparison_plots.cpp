@@ -1,8 +1,12 @@
 #include "morsel/tools/plot/comparison_plots.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
 #include <utility>
 
+#include "morsel/tools/plot/ticks.h"
 #include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools::plot {
@@ -42,11 +46,48 @@ Panel diagram_panel(const MethodCurves& method, bool counted) {
            series_of("essential", 0x000000, Mark::diamond, method.essential, counted)}};
 }
 
-Plot diagrams(const std::string& field) {
+/// The power of ten up to which the axes are to be linear, logarithmic beyond, because curvature and its like have heavy
+/// tails: half of all values lie on a small part of their range. 0 if the axes are to be linear throughout.
+double linear_part(std::span<const MethodCurves> methods) {
+  constexpr double kSmallPart = 0.1;
+  constexpr double kDecades = 100;  // of them logarithmic
+  std::vector<double> values;
+  for (const MethodCurves& method : methods)
+    for (const DiagramPoints* points : {&method.minimum_saddle, &method.saddle_maximum}) {
+      values.insert(values.end(), points->x.begin(), points->x.end());
+      values.insert(values.end(), points->y.begin(), points->y.end());
+    }
+  if (values.size() < 8) return 0;
+  const auto quantile = [&](std::size_t quarter) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * quarter / 4);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+  };
+  const double lowest = quantile(0), first = quantile(1), third = quantile(3), highest = quantile(4);
+  const double largest = std::max(std::abs(lowest), std::abs(highest));
+  if (!(third - first < kSmallPart * (highest - lowest)) || largest < 1e-200) return 0;
+  // Far from 0 a logarithm spreads nothing.
+  if (std::min(std::abs(lowest), std::abs(highest)) > largest / 10 && lowest * highest > 0) return 0;
+  return std::pow(10, std::floor(std::log10(largest / kDecades)));
+}
+
+Plot diagrams(std::span<const MethodCurves> methods, const std::string& field) {
   Plot plot;
   plot.x.label = field + " at birth";
   plot.y.label = field + " at death";
   plot.diagonal = true;
+  if (const double linear = linear_part(methods); linear > 0) {
+    for (Axis* axis : {&plot.x, &plot.y}) {
+      axis->scale = Scale::symmetric;
+      axis->linear = linear;
+    }
+    const int power = static_cast<int>(std::lround(std::log10(linear)));
+    const std::string number = power == 0    ? "1"
+                               : power == 1  ? "10"
+                               : power == -1 ? "0.1"
+                                             : power_of_ten(power);
+    plot.notes = {"Both axes are linear to about \u00b1" + number + ", logarithmic beyond."};
+  }
   return plot;
 }
 
@@ -80,13 +121,13 @@ MethodCurves curves_of(const MethodOutcome& outcome) {
 }
 
 Plot diagram_plot(const MethodCurves& method, const std::string& field) {
-  Plot plot = diagrams(field);
+  Plot plot = diagrams({&method, 1}, field);
   plot.panels = {diagram_panel(method, true)};
   return plot;
 }
 
 Plot diagram_sheet(const std::vector<MethodCurves>& methods, const std::string& field) {
-  Plot plot = diagrams(field);
+  Plot plot = diagrams(methods, field);
   plot.width = Plot::kPageWidth;
   plot.columns = methods.size() == 4 ? 2 : methods.size() <= 6 ? 3 : 4;
   for (const MethodCurves& method : methods) plot.panels.push_back(diagram_panel(method, false));
@@ -96,11 +137,12 @@ Plot diagram_sheet(const std::vector<MethodCurves>& methods, const std::string& 
 Plot persistence_plot(const std::vector<MethodCurves>& methods, const std::string& field) {
   Plot plot;
   plot.x = {.label = "persistence of " + field, .scale = Scale::log};
-  plot.y = {.label = "pairs at least so persistent", .scale = Scale::log};
+  plot.y = {.label = "pairs above that persistence", .scale = Scale::log};
   double largest = 0;
   for (const MethodCurves& method : methods)
     if (!method.persistences.empty()) largest = std::max(largest, method.persistences.back());
   const double least = kPersistenceRange * largest;
+  if (least > 0) plot.x.lower = least;
   plot.panels.emplace_back();
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const std::vector<double>& persistences = methods[m].persistences;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <numeric>
 #include <set>
 
 #include "morsel/core/error.h"
@@ -12,14 +12,16 @@ namespace morsel::tools::plot {
 namespace {
 
 constexpr Color kText = 0x000000, kQuiet = 0x555555;
-constexpr double kShape = 0.68;       // height of a frame, of its width
-constexpr double kInfinityBand = 14;  // above the finite part, for the line of +∞
-constexpr double kPanelGap = 9;
-constexpr double kTickGap = 2;            // between a tick and its number
-constexpr double kLegendGap = 12;         // between its columns
-constexpr std::size_t kMostMarks = 8000;  // of a series in a panel
-constexpr double kDescent = 0.24;         // of DejaVu Sans, of the em
-constexpr double kHalfHeight = 0.365;     // of its capitals and digits
+constexpr double kShape = 0.68;            // height of a frame, of its width
+constexpr double kInfinityBand = 14;       // above the finite part, for the line of +∞
+constexpr double kPanelGap = 9;            // at least
+constexpr double kNumberGap = 5;           // between numbers side by side
+constexpr double kTickGap = 2;             // between a tick and its number
+constexpr double kLegendGap = 12;          // between its columns
+constexpr std::size_t kMostMarks = 8000;   // of a series in a panel
+constexpr std::size_t kMarkedPoints = 25;  // of a line, to be marked
+constexpr double kDescent = 0.24;          // of DejaVu Sans, of the em
+constexpr double kHalfHeight = 0.365;      // of its capitals and digits
 
 /// Makes the layout from top to bottom.
 class Layouter {
@@ -72,20 +74,19 @@ class Layouter {
 
   /// Whether the numbers have room side by side on an axis of this length.
   bool fit(const Ticks& ticks, double length) {
-    constexpr double kApart = 5;
     for (std::size_t i = 0; i + 1 < ticks.major.size(); ++i) {
       const Tick &a = ticks.major[i], &b = ticks.major[i + 1];
       const double apart = length * (place(b.value, ranges_.x, plot_.x) - place(a.value, ranges_.x, plot_.x));
       const double needed = (lettering_.width(a.label, kTickSize) + lettering_.width(b.label, kTickSize)) / 2;
-      if (apart < needed + kApart) return false;
+      if (apart < needed + kNumberGap) return false;
     }
     return true;
   }
 
   /// From 0 at the lower end of the axis to 1 at the upper.
   static double place(double value, Interval range, const Axis& axis) {
-    if (axis.scale == Scale::log) return std::log(value / range.lower) / std::log(range.upper / range.lower);
-    return (value - range.lower) / range.size();
+    const double lower = along(range.lower, axis);
+    return (along(value, axis) - lower) / (along(range.upper, axis) - lower);
   }
 
   /// The ticks and with them the size of a panel.
@@ -94,22 +95,26 @@ class Layouter {
     right_ = kMargin;
     const auto n = static_cast<double>(columns_);
     for (int round = 0; round < 3; ++round) {
-      frame_width_ = (plot_.width - left_ - right_ - (n - 1) * kPanelGap) / n;
+      frame_width_ = (plot_.width - left_ - right_ - (n - 1) * gap_) / n;
       if (frame_width_ < 20)
         throw core::InvalidArgument("cannot draw a plot: " + std::to_string(columns_) +
                                     " panels side by side have no room in its width");
       finite_height_ = plot_.diagonal ? frame_width_ : std::round(kShape * frame_width_);
-      y_ticks_ = make_ticks(ranges_.y, plot_.y.scale, std::max(2, static_cast<int>(finite_height_ / 22)));
+      y_ticks_ = make_ticks(ranges_.y, plot_.y, std::max(2, static_cast<int>(finite_height_ / 22)));
       int count = plot_.diagonal ? std::max(2, static_cast<int>(finite_height_ / 22)) : 10;
-      do x_ticks_ = make_ticks(ranges_.x, plot_.x.scale, count);
+      do x_ticks_ = make_ticks(ranges_.x, plot_.x, count);
       while (!fit(x_ticks_, frame_width_) && --count > 1);
       if (plot_.diagonal) y_ticks_ = x_ticks_;
       left_ = kMargin + (plot_.y.label.empty() && axis_text(plot_.y, y_ticks_).empty() ? 0 : kLabelSize + 4) +
               widest(y_ticks_) + kTickGap + kTickLength;
-      double over = 0;  // the last number may stand out beyond the frame
-      for (const Tick& tick : x_ticks_.major)
-        over = std::max(over, lettering_.width(tick.label, kTickSize) / 2 -
-                                  frame_width_ * (1 - place(tick.value, ranges_.x, plot_.x)));
+      double before = 0, over = 0;  // how far the first number and the last one stand out beyond the frame
+      for (const Tick& tick : x_ticks_.major) {
+        const double half = lettering_.width(tick.label, kTickSize) / 2;
+        const double x = frame_width_ * place(tick.value, ranges_.x, plot_.x);
+        before = std::max(before, half - x);
+        over = std::max(over, half - (frame_width_ - x));
+      }
+      gap_ = std::max(kPanelGap, before + over + kNumberGap);
       right_ = kMargin + over;
     }
     frame_height_ = finite_height_ + (ranges_.infinity ? kInfinityBand : 0);
@@ -145,7 +150,7 @@ class Layouter {
     for (std::size_t i = 0; i < count; ++i) {
       const Panel& panel = plot_.panels[i];
       const auto row = static_cast<double>(i / columns_), column = static_cast<double>(i % columns_);
-      const Box frame{left_ + column * (frame_width_ + kPanelGap),
+      const Box frame{left_ + column * (frame_width_ + gap_),
                       first_top + row * (frame_height_ + kPanelGap + head), frame_width_, frame_height_};
       double above = frame.y - head;
       if (titles) {
@@ -170,7 +175,7 @@ class Layouter {
     y_ = bottom + kTickLength + kTickGap + kTickSize;
     const std::string text = axis_text(plot_.x, x_ticks_);
     if (!text.empty()) {
-      const double width = static_cast<double>(columns_) * (frame_width_ + kPanelGap) - kPanelGap;
+      const double width = static_cast<double>(columns_) * (frame_width_ + gap_) - gap_;
       y_ += kLabelSize + 2;
       add_line({left_ + width / 2, y_}, lettering_.shortened(text, kLabelSize, width), kLabelSize, kText,
                Align::center);
@@ -226,6 +231,10 @@ class Layouter {
         drawn.marks = std::move(marks.spots);
       } else {
         drawn.lines = visible_line(spots, finite);
+        if (series.draw == Draw::line && spots.size() <= kMarkedPoints) {
+          drawn.marks = visible_marks(spots, finite, kMostMarks).spots;
+          drawn.radius = 1.5;
+        }
       }
       result.series.push_back(std::move(drawn));
     }
@@ -235,34 +244,43 @@ class Layouter {
   /// In as many columns as have room, filled one after the other.
   void legend() {
     std::vector<const Series*> named;
+    std::vector<double> widths;
     std::set<std::string> names;
-    double widest = 0;
+    const double all = plot_.width - 2 * kMargin, sample = kSample + 4;
     for (const Panel& panel : plot_.panels)
       for (const Series& series : panel.series)
         if (!series.name.empty() && names.insert(series.name).second) {
           named.push_back(&series);
-          widest = std::max(widest, lettering_.width(series.name, kLegendSize));
+          widths.push_back(std::min(all, sample + lettering_.width(series.name, kLegendSize)));
         }
     if (named.empty()) return;
-    const double all = plot_.width - 2 * kMargin;
-    const double sample = kSample + 4;
-    const double column_width = std::min(widest + sample, all);
-    const auto most =
-        static_cast<std::size_t>(std::max(1., (all + kLegendGap) / (column_width + kLegendGap)));
-    const std::size_t rows = (named.size() + most - 1) / most;
-    const std::size_t columns = (named.size() + rows - 1) / rows;
-    const double width = static_cast<double>(columns) * (column_width + kLegendGap) - kLegendGap;
+    std::size_t rows = 1;
+    std::vector<double> columns = legend_columns(widths, rows);
+    const auto total = [&] {
+      return std::accumulate(columns.begin(), columns.end(),
+                             kLegendGap * (static_cast<double>(columns.size()) - 1));
+    };
+    while (columns.size() > 1 && total() > all) columns = legend_columns(widths, ++rows);
     // Below the frames, if it is not wider than they.
-    const double x = width <= plot_.width - kMargin - left_ ? left_ : kMargin;
+    double x = total() <= plot_.width - kMargin - left_ ? left_ : kMargin;
+    text_left_ = x;
     y_ += 7;
     for (std::size_t i = 0; i < named.size(); ++i) {
-      const Spot start{x + static_cast<double>(i / rows) * (column_width + kLegendGap),
-                       y_ + static_cast<double>(i % rows) * (kLegendSize + 3) + kLegendSize};
-      layout_.legend.push_back({{start.x, start.y - kHalfHeight * kLegendSize}, named[i]});
-      add_line({start.x + sample, start.y},
-               lettering_.shortened(named[i]->name, kLegendSize, column_width - sample), kLegendSize, kText);
+      if (i > 0 && i % rows == 0) x += columns[i / rows - 1] + kLegendGap;
+      const double y = y_ + static_cast<double>(i % rows) * (kLegendSize + 3) + kLegendSize;
+      layout_.legend.push_back({{x, y - kHalfHeight * kLegendSize}, named[i]});
+      add_line({x + sample, y}, lettering_.shortened(named[i]->name, kLegendSize, columns[i / rows] - sample),
+               kLegendSize, kText);
     }
     y_ += static_cast<double>(rows) * (kLegendSize + 3) - 3 + kDescent * kLegendSize;
+  }
+
+  /// How wide the columns of entries of these widths are, so many in each.
+  static std::vector<double> legend_columns(const std::vector<double>& widths, std::size_t rows) {
+    std::vector<double> columns((widths.size() + rows - 1) / rows, 0);
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      columns[i / rows] = std::max(columns[i / rows], widths[i]);
+    return columns;
   }
 
   void notes() {
@@ -280,8 +298,8 @@ class Layouter {
         y_ += first ? 5 : 2;
         first = false;
         y_ += kNoteSize;
-        add_line({kMargin, y_}, lettering_.shortened(line, kNoteSize, plot_.width - 2 * kMargin), kNoteSize,
-                 kQuiet);
+        add_line({text_left_, y_}, lettering_.shortened(line, kNoteSize, plot_.width - kMargin - text_left_),
+                 kNoteSize, kQuiet);
       }
     if (!first) y_ += kDescent * kNoteSize;
   }
@@ -294,7 +312,7 @@ class Layouter {
       const std::size_t end = std::min(text.find(' ', i), text.size());
       const std::string word = text.substr(i, end - i);
       const std::string longer = line.empty() ? word : line + " " + word;
-      if (!line.empty() && lettering_.width(longer, kNoteSize) > plot_.width - 2 * kMargin) {
+      if (!line.empty() && lettering_.width(longer, kNoteSize) > plot_.width - kMargin - text_left_) {
         lines.push_back(line);
         line = word;
       } else {
@@ -312,8 +330,9 @@ class Layouter {
   Ticks x_ticks_, y_ticks_;
   Layout layout_;
   std::size_t columns_ = 1;
-  double left_ = 0, right_ = 0, frame_width_ = 0, finite_height_ = 0, frame_height_ = 0;
-  double y_ = 0;  // how far down it is full
+  double left_ = 0, right_ = 0, frame_width_ = 0, finite_height_ = 0, frame_height_ = 0, gap_ = kPanelGap;
+  double text_left_ = kMargin;  // where legend and notes begin
+  double y_ = 0;                // how far down it is full
   std::size_t thinned_ = 0, left_of_thinned_ = 0;
   double coarsest_ = 0;
 };

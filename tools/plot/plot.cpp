@@ -47,7 +47,8 @@ void draw_panel(const DrawnPanel& panel, const Layout& layout, Canvas& canvas) {
   for (const DrawnSeries& drawn : panel.series) {
     canvas.open(drawn.series->name);
     for (const std::vector<Spot>& line : drawn.lines) canvas.line(line, pen_of(*drawn.series));
-    canvas.marks(drawn.marks, drawn.series->mark, drawn.radius, drawn.series->color, kOpacity);
+    canvas.marks(drawn.marks, drawn.series->mark, drawn.radius, drawn.series->color,
+                 drawn.lines.empty() ? kOpacity : 1);
     canvas.close();
   }
 }

@@ -16,13 +16,18 @@ using Color = std::uint32_t;
 /// Colours that the colour-blind tell apart, on white, the strongest first (Okabe and Ito 2008, without their yellow).
 inline constexpr Color kPalette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
 
-enum class Scale { linear, log };
+enum class Scale {
+  linear,
+  log,
+  symmetric  ///< asinh: linear about 0, logarithmic far from it on both sides
+};
 
 /// Where the values go: a finite one by the scale; +∞ on a line of its own beyond the y axis's upper end.
 struct Axis {
   std::string label = {};
   std::string unit = {};  ///< shown in brackets after the label
   Scale scale = Scale::linear;
+  double linear = 1;  ///< how far from 0 a symmetric scale is about linear; > 0
   /// What is shown; by default what the values need, and a little air around them.
   std::optional<double> lower = {};
   std::optional<double> upper = {};
@@ -30,7 +35,7 @@ struct Axis {
 
 enum class Draw {
   marks,  ///< a mark at each point, in no order
-  line,   ///< from point to point
+  line,   ///< from point to point, which are marked if they are few
   steps   ///< y of a point holds up to the x of the next, where it jumps
 };
 
@@ -63,7 +68,7 @@ struct Plot {
   std::string title = {};
   Axis x = {};
   Axis y = {};
-  /// Both axes show the same range at the same scale and the diagonal is drawn, as persistence diagrams have it.
+  /// Both axes have the same scale and show the same range and the diagonal is drawn, as persistence diagrams have it.
   bool diagonal = false;
   std::vector<Panel> panels = {};
   std::size_t columns = 1;              ///< of panels

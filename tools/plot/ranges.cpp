@@ -41,13 +41,15 @@ void check_value(double value, const Axis& axis, const Series& series, std::size
 
 Interval shown(const Bounds& data, const Axis& axis) {
   const bool log = axis.scale == Scale::log;
+  if (axis.scale == Scale::symmetric && !(axis.linear > 0 && axis.linear <= kLargest))
+    refuse("the linear part of the axis '" + axis.label + "' is not a positive number");
   for (const std::optional<double>& limit : {axis.lower, axis.upper})
     if (limit && (!(std::abs(*limit) <= kLargest) || (log && *limit <= 0)))
       refuse("a limit of the axis '" + axis.label +
              "' is not finite, beyond 1e300, or 0 or less with a logarithmic scale");
   const bool empty = data.lower > data.upper;
   Interval interval =
-      empty ? (log ? Interval{1, 10} : Interval{0, 1}) : padded({data.lower, data.upper}, axis.scale);
+      empty ? (log ? Interval{1, 10} : Interval{0, 1}) : padded({data.lower, data.upper}, axis);
   const auto beyond = [&](double limit, double sign) {  // where the other limit leaves nothing of the data
     return log ? limit * std::pow(10, sign) : limit + sign * std::max(1., std::abs(limit));
   };
@@ -69,8 +71,8 @@ Ranges ranges_of(const Plot& plot) {
   if (plot.panels.empty()) refuse("it has no panel");
   if (plot.columns < 1) refuse("its panels have 0 columns");
   if (!(plot.width >= 100 && plot.width <= 2000)) refuse("its width is not from 100 to 2000 points");
-  if (plot.diagonal &&
-      (plot.x.scale != plot.y.scale || plot.x.lower != plot.y.lower || plot.x.upper != plot.y.upper))
+  if (plot.diagonal && (plot.x.scale != plot.y.scale || plot.x.linear != plot.y.linear ||
+                        plot.x.lower != plot.y.lower || plot.x.upper != plot.y.upper))
     refuse("with a diagonal both axes have the same scale and limits");
   Ranges ranges;
   Bounds x, y;

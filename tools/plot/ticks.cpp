@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
 
 namespace morsel::tools::plot {
 namespace {
@@ -89,6 +90,9 @@ Ticks linear_ticks(Interval shown, int count) {
   return ticks;
 }
 
+/// Whether the powers of ten from one to the other are written as numbers.
+bool is_plain(int first_power, int last_power) { return first_power >= -2 && last_power < kMostDigits; }
+
 Tick log_tick(int multiple, int power, bool plain) {
   if (plain) return {parse(multiple, power), decimal(multiple, power)};
   const std::string times = multiple == 1 ? "" : std::to_string(multiple) + "\u00b7";
@@ -112,7 +116,7 @@ Ticks log_ticks(Interval shown, int count) {
   if (powers.size() > 2) {
     const int stride = std::max(1, (static_cast<int>(powers.size()) - 1 + count - 1) / count);
     const auto labelled = [&](int p) { return (p % stride + stride) % stride == 0; };
-    const bool plain = powers.front() >= -2 && powers.back() < kMostDigits;
+    const bool plain = is_plain(powers.front(), powers.back());
     for (int p = low; p <= high; ++p) {
       if (within(parse(1, p))) {
         if (labelled(p))
@@ -137,6 +141,41 @@ Ticks log_ticks(Interval shown, int count) {
   return ticks;
 }
 
+/// Powers of ten of both signs from `linear` on, every so many of them, and 0.
+Ticks symmetric_ticks(Interval shown, double linear, int count) {
+  const int low = static_cast<int>(std::ceil(std::log10(linear) - 1e-9));
+  const int high = static_cast<int>(std::floor(std::log10(std::max(-shown.lower, shown.upper)) + 1e-9));
+  const auto within = [&](double value) { return value >= shown.lower && value <= shown.upper; };
+  Ticks ticks;
+  for (int stride = 1; stride <= std::max(1, high - low + 1); ++stride) {
+    ticks = {};
+    const auto side = [&](int sign) {
+      for (int i = low; i <= high; ++i) {
+        const int power = sign > 0 ? i : high - (i - low);
+        for (int k = 1; k < 10; ++k) {
+          const int multiple = sign > 0 ? k : 10 - k;
+          const double value = sign * parse(multiple, power);
+          if (!within(value)) continue;
+          if (multiple == 1 && (high - power) % stride == 0) {
+            Tick tick = log_tick(1, power, is_plain(low, high) && high < 3);
+            tick.value = value;
+            if (sign < 0) tick.label.insert(0, kMinus);
+            ticks.major.push_back(std::move(tick));
+          } else if (multiple == 1 || stride == 1) {
+            ticks.minor.push_back(value);
+          }
+        }
+      }
+    };
+    side(-1);
+    if (within(0)) ticks.major.push_back({0, "0"});
+    side(1);
+    if (stride == 1 && ticks.major.size() < 3) return linear_ticks(shown, count);
+    if (ticks.major.size() <= static_cast<std::size_t>(count) + 1) break;
+  }
+  return ticks;
+}
+
 }  // namespace
 
 std::string power_of_ten(int exponent) {
@@ -156,21 +195,46 @@ std::string grouped_digits(const std::string& digits) {
   return text;
 }
 
-Interval padded(Interval data, Scale scale) {
+double along(double value, const Axis& axis) {
+  switch (axis.scale) {
+    case Scale::log:
+      return std::log(value);
+    case Scale::symmetric:
+      return std::asinh(value / axis.linear);
+    case Scale::linear:
+      break;
+  }
+  return value;
+}
+
+Interval padded(Interval data, const Axis& axis) {
   const double largest = std::max(std::abs(data.lower), std::abs(data.upper));
   const bool constant = data.size() <= std::max(kSameValue * largest, kNothing);
-  if (scale == Scale::log) {
+  if (axis.scale == Scale::log) {
     if (constant) return {data.lower / 2, data.upper * 2};
     const double factor = std::pow(data.upper / data.lower, kAir);
     return {data.lower / factor, data.upper * factor};
   }
   if (constant && largest <= kNothing) return {-1, 1};
+  if (axis.scale == Scale::symmetric && !constant) {
+    const double lower = along(data.lower, axis), upper = along(data.upper, axis);
+    const double air = kAir * (upper - lower);
+    return {axis.linear * std::sinh(lower - air), axis.linear * std::sinh(upper + air)};
+  }
   const double air = constant ? largest / 2 : kAir * data.size();
   return {data.lower - air, data.upper + air};
 }
 
-Ticks make_ticks(Interval shown, Scale scale, int count) {
-  return scale == Scale::log ? log_ticks(shown, count) : linear_ticks(shown, count);
+Ticks make_ticks(Interval shown, const Axis& axis, int count) {
+  switch (axis.scale) {
+    case Scale::log:
+      return log_ticks(shown, count);
+    case Scale::symmetric:
+      return symmetric_ticks(shown, axis.linear, count);
+    case Scale::linear:
+      break;
+  }
+  return linear_ticks(shown, count);
 }
 
 }  // namespace morsel::tools::plot
