@@ -18,10 +18,12 @@ constexpr double kPanelGap = 9;            // at least
 constexpr double kNumberGap = 5;           // between numbers side by side
 constexpr double kTickGap = 2;             // between a tick and its number
 constexpr double kLegendGap = 12;          // between its columns
-constexpr std::size_t kMostMarks = 8000;   // of a series in a panel
+constexpr double kMarksAnArea = 0.2;       // at most, of a series in a panel, of a square point of it
 constexpr std::size_t kMarkedPoints = 25;  // of a line, to be marked
-constexpr double kDescent = 0.24;          // of DejaVu Sans, of the em
-constexpr double kHalfHeight = 0.365;      // of its capitals and digits
+constexpr double kLineSample = 16, kMarkSample = 5;  // widths in the legend
+constexpr double kSmallestTitle = 6;                 // that a long title is made smaller to
+constexpr double kDescent = 0.24;                    // of DejaVu Sans, of the em
+constexpr double kHalfHeight = 0.365;                // of its capitals and digits
 
 /// Makes the layout from top to bottom.
 class Layouter {
@@ -146,6 +148,11 @@ class Layouter {
                                       [](const Panel& p) { return !p.caption.empty(); });
     const double head = (titles ? kPanelSize + 3 : 0) + (captions ? kCaptionSize + 3 : 0);
     const double first_top = y_ + head;
+    double widest_title = 0;
+    for (const Panel& panel : plot_.panels)
+      widest_title = std::max(widest_title, lettering_.width(panel.title, kPanelSize));
+    const double title_size =
+        std::clamp(kPanelSize * frame_width_ / std::max(widest_title, 1.), kSmallestTitle, kPanelSize);
     double bottom = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Panel& panel = plot_.panels[i];
@@ -155,7 +162,7 @@ class Layouter {
       double above = frame.y - head;
       if (titles) {
         above += kPanelSize;
-        add_line({frame.x, above}, lettering_.shortened(panel.title, kPanelSize, frame_width_), kPanelSize,
+        add_line({frame.x, above}, lettering_.shortened(panel.title, title_size, frame_width_), title_size,
                  kText);
         above += 3;
       }
@@ -210,6 +217,7 @@ class Layouter {
                   std::isinf(y) ? frame.y + layout_.infinity_depth
                                 : finite.bottom() - finite.height * place(y, ranges_.y, plot_.y)};
     };
+    const auto most = static_cast<std::size_t>(kMarksAnArea * frame_width_ * finite_height_);
     for (const Series& series : panel.series) {
       std::vector<Spot> spots;
       spots.reserve(series.x.size() * (series.draw == Draw::steps ? 2 : 1));
@@ -220,7 +228,7 @@ class Layouter {
       }
       DrawnSeries drawn{&series, {}, {}, 0};
       if (series.draw == Draw::marks || series.x.size() == 1) {
-        Marks marks = visible_marks(spots, ranges_.infinity ? frame : finite, kMostMarks);
+        Marks marks = visible_marks(spots, ranges_.infinity ? frame : finite, most);
         if (marks.cell > 0) {
           thinned_ += spots.size();
           left_of_thinned_ += marks.spots.size();
@@ -232,7 +240,7 @@ class Layouter {
       } else {
         drawn.lines = visible_line(spots, finite);
         if (series.draw == Draw::line && spots.size() <= kMarkedPoints) {
-          drawn.marks = visible_marks(spots, finite, kMostMarks).spots;
+          drawn.marks = visible_marks(spots, finite, most).spots;
           drawn.radius = 1.5;
         }
       }
@@ -246,7 +254,11 @@ class Layouter {
     std::vector<const Series*> named;
     std::vector<double> widths;
     std::set<std::string> names;
-    const double all = plot_.width - 2 * kMargin, sample = kSample + 4;
+    bool lines = false;
+    for (const Panel& panel : plot_.panels)
+      for (const Series& series : panel.series) lines |= !series.name.empty() && series.draw != Draw::marks;
+    layout_.sample = lines ? kLineSample : kMarkSample;
+    const double all = plot_.width - 2 * kMargin, sample = layout_.sample + 4;
     for (const Panel& panel : plot_.panels)
       for (const Series& series : panel.series)
         if (!series.name.empty() && names.insert(series.name).second) {

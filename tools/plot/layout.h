@@ -16,7 +16,6 @@ inline constexpr double kTitleSize = 9, kPanelSize = 8, kCaptionSize = 7, kLabel
                         kLegendSize = 7.5, kNoteSize = 6.5;
 inline constexpr double kMargin = 6;  ///< round everything
 inline constexpr double kTickLength = 3;
-inline constexpr double kSample = 16;  ///< of a line in the legend
 
 /// One line of text at its place.
 struct Line {
@@ -53,6 +52,7 @@ struct Layout {
   bool infinity = false;
   double infinity_depth = 0;  ///< place of the line of +∞ below the frame's top
   std::vector<LegendEntry> legend;
+  double sample = 0;  ///< width of what is shown in the legend
   std::vector<Line> lines;
 };
 

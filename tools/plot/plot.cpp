@@ -56,11 +56,11 @@ void draw_panel(const DrawnPanel& panel, const Layout& layout, Canvas& canvas) {
 void draw(const Layout& layout, Canvas& canvas) {
   for (const DrawnPanel& panel : layout.panels) draw_panel(panel, layout, canvas);
   for (const LegendEntry& entry : layout.legend) {
-    const Spot middle{entry.spot.x + kSample / 2, entry.spot.y};
+    const Spot middle{entry.spot.x + layout.sample / 2, entry.spot.y};
     if (entry.series->draw == Draw::marks)
       canvas.marks({middle}, entry.series->mark, kLegendRadius, entry.series->color, kOpacity);
     else
-      canvas.line({entry.spot, {entry.spot.x + kSample, entry.spot.y}}, pen_of(*entry.series));
+      canvas.line({entry.spot, {entry.spot.x + layout.sample, entry.spot.y}}, pen_of(*entry.series));
   }
   for (const Line& line : layout.lines) canvas.text(line.spot, line.text, line.letters);
 }

@@ -82,8 +82,9 @@ struct Plot {
 /// Writes the plot, whole or not at all. The same bytes for the same plot whatever the number of threads, the time and
 /// the machine's fonts. Text is text in DejaVu Sans; where that is missing, another font is fitted into the same place.
 ///
-/// Of marks that lie so close to one another that they are seen as one, one is drawn: at most 8,000 a panel and series are left,
-/// and a note below the plot tells how many. Lines lose the points that do not move them by a fifth of a printer's
+/// Of crowded marks, of which many lie over one another, only some are drawn: where a series has more than one for 5 square
+/// points of its panel (8,000 in a column's), one in each cell of a grid, and a note below the plot tells how many these are.
+/// Lines lose the points that do not move them by a fifth of a printer's
 /// point. So files stay below some hundred kilobytes however many points there are. O(number of points).
 ///
 /// Throws InvalidArgument for a plot that cannot be drawn: no panel, x and y of different sizes, NaN, infinities other than

@@ -60,10 +60,15 @@ Step step_for(double size, int count) {
 }
 
 Ticks linear_ticks(Interval shown, int count) {
-  const Step step = step_for(shown.size(), count);
-  const double size = step.size();
-  const auto first = static_cast<std::int64_t>(std::ceil(shown.lower / size - 1e-6));
-  const auto last = static_cast<std::int64_t>(std::floor(shown.upper / size + 1e-6));
+  Step step;
+  std::int64_t first = 0, last = 0;
+  do {  // a step may be longer than the interval, and none of its multiples within
+    step = step_for(shown.size(), count++);
+    const double lower = shown.lower / step.size(), upper = shown.upper / step.size();
+    const double rounding = std::max(1e-6, 1e-15 * std::max(std::abs(lower), std::abs(upper)));
+    first = static_cast<std::int64_t>(std::ceil(lower - rounding));
+    last = static_cast<std::int64_t>(std::floor(upper + rounding));
+  } while (last <= first);
 
   Ticks ticks;
   std::int64_t offset = 0;
@@ -138,6 +143,14 @@ Ticks log_ticks(Interval shown, int count) {
       }
     }
   if (ticks.major.size() < 3) return linear_ticks(shown, count);
+  if (ticks.major.size() > static_cast<std::size_t>(count) + 1 &&
+      powers.size() == 2)  // then the powers suffice
+    std::erase_if(ticks.major, [&](const Tick& tick) {
+      const bool power = tick.value == parse(1, powers[0]) || tick.value == parse(1, powers[1]);
+      if (!power) ticks.minor.push_back(tick.value);
+      return !power;
+    });
+  std::sort(ticks.minor.begin(), ticks.minor.end());
   return ticks;
 }
 
@@ -147,7 +160,9 @@ Ticks symmetric_ticks(Interval shown, double linear, int count) {
   const int high = static_cast<int>(std::floor(std::log10(std::max(-shown.lower, shown.upper)) + 1e-9));
   const auto within = [&](double value) { return value >= shown.lower && value <= shown.upper; };
   Ticks ticks;
-  for (int stride = 1; stride <= std::max(1, high - low + 1); ++stride) {
+  // Fewer and fewer: those at the ends of the linear part go before the step is made larger.
+  for (int attempt = 2; attempt / 2 <= std::max(1, high - low + 1); ++attempt) {
+    const int stride = attempt / 2, first = low + attempt % 2;
     ticks = {};
     const auto side = [&](int sign) {
       for (int i = low; i <= high; ++i) {
@@ -156,7 +171,7 @@ Ticks symmetric_ticks(Interval shown, double linear, int count) {
           const int multiple = sign > 0 ? k : 10 - k;
           const double value = sign * parse(multiple, power);
           if (!within(value)) continue;
-          if (multiple == 1 && (high - power) % stride == 0) {
+          if (multiple == 1 && power >= first && (high - power) % stride == 0) {
             Tick tick = log_tick(1, power, is_plain(low, high) && high < 3);
             tick.value = value;
             if (sign < 0) tick.label.insert(0, kMinus);
@@ -170,7 +185,7 @@ Ticks symmetric_ticks(Interval shown, double linear, int count) {
     side(-1);
     if (within(0)) ticks.major.push_back({0, "0"});
     side(1);
-    if (stride == 1 && ticks.major.size() < 3) return linear_ticks(shown, count);
+    if (attempt == 2 && ticks.major.size() < 3) return linear_ticks(shown, count);
     if (ticks.major.size() <= static_cast<std::size_t>(count) + 1) break;
   }
   return ticks;
