@@ -11,6 +11,7 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
@@ -26,6 +27,7 @@ struct Options {
   bool no_items = false;
   std::string export_folder;
   std::string figure_folder;
+  std::string figure_size = "1200x840";
   render::CameraText camera;
 };
 
@@ -63,6 +65,9 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
   const bool report_to_stdout = options.report == "-";
   std::optional<core::FileWriter> file;
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
+  const render::Size figure_size = render::parse_size(options.figure_size);
+  std::optional<PlotSink> plots;
+  if (!options.figure_folder.empty()) plots.emplace(options.figure_folder);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
@@ -84,21 +89,23 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
     exports.emplace(options.export_folder, loaded);
     files.add(*exports);
   }
+  if (plots) files.add(*plots);
   std::vector<ComparisonSink*> sinks = {&announcer, &table, &files};
   std::optional<render::FigureSink> figures;
   if (!options.figure_folder.empty()) {
-    figures.emplace(options.figure_folder, loaded, options.camera, console.progress());
+    figures.emplace(options.figure_folder, loaded, options.camera, figure_size, console.progress());
     sinks.push_back(&*figures);
   }
   run_comparison(loaded, comparison, sinks, console.progress());
   if (figures) figures->finish();
+  if (plots) plots->finish();
   if (report) report->finish();
   if (file) file->commit();
 
   if (!report_to_stdout) std::cout << table.text();
   if (file) console.message("report: " + options.report);
   if (exports) console.message("files for ParaView: " + options.export_folder);
-  if (figures) console.message("pictures: " + options.figure_folder);
+  if (figures) console.message("pictures and plots: " + options.figure_folder);
   return kDone;
 }
 
@@ -134,9 +141,14 @@ void add_compare(CLI::App& app, Invocation& invocation) {
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
       ->type_name("DIR");
   command
-      .add_option("--figures", options->figure_folder,
-                  "Write pictures (.png) here: one of each method, and a sheet with them side by side")
+      .add_option(
+          "--figures", options->figure_folder,
+          "Write pictures here: one of each method, a sheet with them side by side (.png), persistence\n"
+          "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
       ->type_name("DIR");
+  command.add_option("--size", options->figure_size, "Width and height of each method's picture in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
   add_camera_options(command, options->camera);
   add_common_options(command, invocation.common);
   command.footer(specification_help());
