@@ -10,6 +10,8 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
@@ -23,6 +25,7 @@ struct Options {
   std::string report;
   bool no_items = false;
   std::string export_folder;
+  std::string page;
 };
 
 /// Shows on the console which method is running.
@@ -52,12 +55,26 @@ class SideBySide : public ComparisonSink {
   std::vector<ComparisonSink*> sinks_;
 };
 
+/// What makes the page again. What changes nothing in it is left out.
+std::string page_command(const Options& options, const CommonOptions& common) {
+  const ComparisonRequest& request = options.request;
+  std::vector<std::string> words = {"morsel", "compare", options.mesh, "--field", request.field};
+  for (const std::string& method : request.methods) words.insert(words.end(), {"--method", method});
+  if (request.target) words.insert(words.end(), {"--target", std::to_string(*request.target)});
+  if (request.snap) words.emplace_back("--snap");
+  if (common.repair) words.emplace_back("--repair");
+  words.insert(words.end(), {"--html", options.page});
+  return command_line(words);
+}
+
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedComparison comparison = prepare(options.request);
   const bool report_to_stdout = options.report == "-";
   std::optional<core::FileWriter> file;
   if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
+  std::optional<core::FileWriter> page_file;
+  if (!options.page.empty()) page_file.emplace(options.page);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
@@ -79,12 +96,20 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
     exports.emplace(options.export_folder, loaded);
     files.add(*exports);
   }
+  std::optional<HtmlSink> page;
+  if (page_file) {
+    page.emplace(*page_file, loaded, about, options.request, page_command(options, common));
+    files.add(*page);
+  }
   run_comparison(loaded, comparison, {&announcer, &table, &files}, console.progress());
   if (report) report->finish();
+  if (page) page->finish();
   if (file) file->commit();
+  if (page_file) page_file->commit();
 
   if (!report_to_stdout) std::cout << table.text();
   if (file) console.message("report: " + options.report);
+  if (page_file) console.message("page: " + options.page);
   if (exports) console.message("files for ParaView: " + options.export_folder);
   return kDone;
 }
@@ -120,6 +145,12 @@ void add_compare(CLI::App& app, Invocation& invocation) {
       .add_option("--export", options->export_folder,
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
       ->type_name("DIR");
+  command
+      .add_option(
+          "--html", options->page,
+          "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers;\n"
+          "one file, for which no network is needed")
+      ->type_name("REPORT.html");
   add_common_options(command, invocation.common);
   command.footer(specification_help());
   command.callback([options, &invocation] {
