@@ -6,17 +6,22 @@ const directions = {
 };
 
 class Orbit {
-  constructor() { this.reset('+z'); }
+  constructor() { this.reset('+z', [0.5, 0.5, 0.5], 1); }
 
-  reset(direction) {
+  /** Looks from a direction, so that a box of these half sizes round the origin fills a view of that aspect. */
+  reset(direction, half, aspect) {
     this.target = new THREE.Vector3();
     this.rotation = new THREE.Quaternion().setFromEuler(new THREE.Euler(...directions[direction], 'YXZ'));
-    this.distance = 1.9;  // the model has size 1
+    const depth = {x: 0, y: 1, z: 2}[direction[1]], across = depth === 0 ? 2 : 0, up = depth === 1 ? 2 : 1;
+    const reach = 1.22 * Math.max(half[up], half[across] / aspect, 0.02);
+    this.distance = reach / Math.tan(fieldOfView / 2) + half[depth];
+    this.fitted = aspect;
   }
   copy(other) {
     this.target = other.target.clone();
     this.rotation = other.rotation.clone();
     this.distance = other.distance;
+    this.fitted = other.fitted;
   }
   /** Angles about the screen's upright and level axes. */
   turn(right, down) {
@@ -36,8 +41,8 @@ class Orbit {
     camera.near = Math.max(this.distance - reach, 0.02 * this.distance, 0.004);
     camera.far = this.distance + reach;
     camera.aspect = aspect;
-    // a narrow view sees as much from side to side as a square one does
-    camera.fov = 180 / Math.PI * (aspect >= 1 ? fieldOfView : 2 * Math.atan(Math.tan(fieldOfView / 2) / aspect));
+    // a view that has become narrower sees as much from side to side as before
+    camera.fov = 180 / Math.PI * 2 * Math.atan(Math.tan(fieldOfView / 2) * Math.max(1, this.fitted / aspect));
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
   }

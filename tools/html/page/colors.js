@@ -34,10 +34,12 @@ function ramp(stops) {
 const divergingRamp = ramp([lch(0.46, 0.115, 250), lch(0.70, 0.085, 245), lch(0.95, 0.004, 90), lch(0.74, 0.105, 62), lch(0.50, 0.115, 48)]);
 const sequentialRamp = ramp([lch(0.30, 0.09, 268), lch(0.52, 0.06, 250), lch(0.72, 0.07, 120), lch(0.93, 0.13, 100)]);
 
-/** The scale of values from `low` to `high`: diverging from 0 where both signs matter, else from end to end. */
-function scaleFor(low, high) {
+/** Whether both signs matter in values from `low` to `high`. */
+function bothSigns([low, high]) { return low < 0 && high > 0 && Math.min(-low, high) > 0.02 * Math.max(-low, high); }
+
+/** The scale of values from `low` to `high`: diverging from 0, or from end to end. */
+function scaleFor([low, high], isSigned) {
   const most = Math.max(Math.abs(low), Math.abs(high));
-  const isSigned = low < 0 && high > 0 && Math.min(-low, high) > 0.02 * most;
   return isSigned ? {low: -most, high: most, bytes: divergingRamp, isSigned} : {low, high, bytes: sequentialRamp, isSigned};
 }
 
@@ -48,9 +50,10 @@ function cssRamp(bytes) {
 }
 
 /** Colours of segments: light, so that points and arcs stand out, and apart from one another in hue and lightness. */
-const segmentColors = [];
-for (let i = 0; i < 14; ++i)
-  segmentColors.push(srgbOfOklab(...lch([0.86, 0.74, 0.93][i % 3], [0.09, 0.1, 0.06][i % 3], 20 + i * 360 / 14 * 5)).map((x) => Math.round(255 * x)));
+const segmentLabs = [];
+for (let i = 0; i < 14; ++i) segmentLabs.push(lch([0.86, 0.74, 0.93][i % 3], [0.09, 0.1, 0.06][i % 3], 20 + i * 360 / 14 * 5));
+const segmentColors = segmentLabs.map((lab) => srgbOfOklab(...lab).map((x) => Math.round(255 * x)));
+const segmentDistances = segmentLabs.map((a) => segmentLabs.map((b) => Math.hypot(...a.map((x, c) => x - b[c]))));
 
 // Okabe and Ito's colours, for either ground.
 const methodColors = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#b8860b', '#56b4e9', '#7a5cc8', '#7f7f7f'];
@@ -58,7 +61,7 @@ const dashes = ['', '7 3', '2 3', '9 3 2 3'];
 function methodColor(i) { return methodColors[i % methodColors.length]; }
 function methodDash(i) { return dashes[Math.floor(i / methodColors.length) % dashes.length]; }
 
-/** A colour number for each label, neighbours apart: greedy. `labels` is by triangle, labels number 0 … count - 1. */
+/** A colour number for each label: one after the other takes the colour that is furthest from its neighbours'. `labels` is by triangle, labels number 0 … count - 1. */
 function colorSegments(corners, vertices, labels, count) {
   const neighbors = Array.from({length: count}, () => new Set());
   const last = new Int32Array(vertices).fill(-1);  // the label last seen at a vertex
@@ -74,9 +77,14 @@ function colorSegments(corners, vertices, labels, count) {
   const total = segmentColors.length;
   for (let label = 0; label < count; ++label) {
     const taken = new Set();
-    for (const other of neighbors[label]) taken.add(colors[other]);
-    let best = (label * 5) % total;
-    for (let k = 0; k < total && taken.has(best); ++k) best = (best + 1) % total;
+    for (const other of neighbors[label]) if (colors[other] >= 0) taken.add(colors[other]);
+    let best = -1, furthest = -1;
+    for (let k = 0; k < total; ++k) {
+      const candidate = (label * 5 + k) % total;  // not always the same one among equals
+      let distance = 0.25;  // further apart is no better
+      for (const color of taken) distance = Math.min(distance, segmentDistances[candidate][color]);
+      if (distance > furthest) { furthest = distance; best = candidate; }
+    }
     colors[label] = best;
   }
   return colors;

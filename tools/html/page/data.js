@@ -60,6 +60,7 @@ function readMesh(buffers, meta) {
   const lowest = [0, 1, 2].map((c) => minimumOf(whole, c * n, n));
   const highest = [0, 1, 2].map((c) => maximumOf(whole, c * n, n));
   const size = Math.max(1e-300, Math.hypot(...[0, 1, 2].map((c) => highest[c] - lowest[c])));
+  mesh.half = [0, 1, 2].map((c) => (highest[c] - lowest[c]) / size / 2);
   mesh.positions = new Float32Array(3 * n);
   for (let c = 0; c < 3; ++c) {
     const middle = (lowest[c] + highest[c]) / 2;
@@ -81,10 +82,23 @@ function maximumOf(values, first, count) {
   return most;
 }
 
+/** The values between which all but a share at either end lie. */
+function middleRange({low, high, data}, share) {
+  const histogram = new Uint32Array(65536);
+  for (const step of data) ++histogram[step];
+  const below = (wanted) => {
+    let count = 0, step = 0;
+    while (step < 65535 && (count += histogram[step]) <= wanted) ++step;
+    return low + (high - low) * step / 65535;
+  };
+  return [below(share * data.length), below((1 - share) * data.length)];
+}
+
 /** A method's arrays, and what follows from them: persistence of points and pairs, points by vertex and by counterpart. */
 function readMethod(buffers, meta, report) {
   const method = resolve(buffers, meta);
   method.report = report;
+  method.values.range = middleRange(method.values, 0.03);
   const {points, pairs} = method;
   points.count = points.vertex.length;
   points.persistence = new Float64Array(points.count).fill(-1);
@@ -122,7 +136,8 @@ function readMethod(buffers, meta, report) {
     if (points.match[i] > 0) points.byMatch.set(points.match[i] - 1, i);
   }
   points.ranking = Array.from({length: points.count}, (_, i) => i)
-    .sort((a, b) => points.persistence[b] - points.persistence[a] || a - b);
+    .sort((a, b) => points.shown[b] - points.shown[a] || a - b);
+  points.rankedShown = Float32Array.from(points.ranking, (i) => points.shown[i]);
   return method;
 }
 

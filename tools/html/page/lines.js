@@ -1,6 +1,6 @@
 // Arcs: ribbons of constant width on the screen, one instance a piece.
 
-/** The pieces of polylines as [start, end] positions, and for each the persistence up to which it is shown. */
+/** The pieces of polylines, six coordinates each, and the persistence up to which each is shown. */
 function arcPieces(mesh, method, kind) {
   const paths = method.arcs[kind], {points} = method;
   const {positions, corners} = mesh;
@@ -47,19 +47,20 @@ function arcPieces(mesh, method, kind) {
     if (end >= 4) go(side(lastCell, end - 4));
     else if (end >= 1) go(at(corners[3 * lastCell + end - 1]));
   }
-  return {ends: Float32Array.from(ends), shown: Float32Array.from(shown)};
+  // by falling persistence, so that a threshold ends them; polylines come so but for rounding
+  const order = Array.from({length: shown.length}, (_, k) => k).sort((a, b) => shown[b] - shown[a] || a - b);
+  const sorted = new Float32Array(ends.length);
+  order.forEach((k, n) => { for (let c = 0; c < 6; ++c) sorted[6 * n + c] = ends[6 * k + c]; });
+  return {ends: sorted, shown: Float32Array.from(order, (k) => shown[k])};
 }
 
 const lineVertexShader = `
 attribute vec3 start;
 attribute vec3 finish;
-attribute float shown;
-uniform float threshold;
 uniform vec2 viewport;
 uniform float width;
 varying float vSide;
 void main() {
-  if (shown <= threshold && threshold > 0.0) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); return; }
   vec4 a = projectionMatrix * (modelViewMatrix * vec4(start, 1.0));
   vec4 b = projectionMatrix * (modelViewMatrix * vec4(finish, 1.0));
   vec2 along = (b.xy / b.w - a.xy / a.w) * viewport;
@@ -86,14 +87,20 @@ class Arcs {
     const both = new THREE.InstancedInterleavedBuffer(pieces.ends, 6, 1);
     geometry.setAttribute('start', new THREE.InterleavedBufferAttribute(both, 3, 0));
     geometry.setAttribute('finish', new THREE.InterleavedBufferAttribute(both, 3, 3));
-    geometry.setAttribute('shown', new THREE.InstancedBufferAttribute(pieces.shown, 1));
-    geometry.maxInstancedCount = pieces.shown.length;
+    this.geometry = geometry;
+    this.shown = pieces.shown;
     this.material = new THREE.ShaderMaterial({
-      uniforms: {threshold: {value: 0}, viewport: {value: new THREE.Vector2(1, 1)}, width: {value: 2}, color: {value: new THREE.Vector3(...color)}},
+      uniforms: {viewport: {value: new THREE.Vector2(1, 1)}, width: {value: 2}, color: {value: new THREE.Vector3(...color)}},
       vertexShader: lineVertexShader, fragmentShader: lineFragmentShader, transparent: true, side: THREE.DoubleSide,
     });
     this.object = new THREE.Mesh(geometry, this.material);
     this.object.frustumCulled = false;
     this.object.renderOrder = 1;
+    this.setThreshold(0);
+  }
+
+  setThreshold(threshold) {
+    this.geometry.maxInstancedCount = shownCount(this.shown, threshold);
+    this.isEmpty = this.geometry.maxInstancedCount === 0;
   }
 }

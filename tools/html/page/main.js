@@ -98,6 +98,7 @@ function start(page) {
         event.preventDefault();
       });
     viewer.update();
+    viewer.reset(element('direction').value);
   } catch (error) {
     element('stage').hidden = true;
     problem(error);

@@ -105,7 +105,7 @@ class Figure {
 
   /** Axes for the given ranges, with grid and names. */
   axes(x, y, xName, yName) {
-    const left = 52, right = this.width - 12, top = 10, bottom = this.height - 40;
+    const left = 52, right = this.width - 12, top = 24, bottom = this.height - 40;
     this.x = new Axis(x.low, x.high, x.isLog, left, right);
     this.y = new Axis(y.low, y.high, y.isLog, bottom, top);
     let grid = '';
@@ -122,7 +122,7 @@ class Figure {
     this.svg.prepend(makeSvg('path', {class: 'grid', d: grid}));
     this.svg.append(makeSvg('path', {class: 'axis', d: `M${left} ${top}V${bottom}H${right}`}),
       makeSvg('text', {x: (left + right) / 2, y: this.height - 5, 'text-anchor': 'middle'}, xName),
-      makeSvg('text', {x: left + 6, y: top + 10}, yName));
+      makeSvg('text', {x: 4, y: 12}, yName));
   }
 
   line(path, color, dash) {

@@ -25,7 +25,7 @@ function curveFigure(caption, describe, series, options) {
   figure.draw = () => {
     const isLog = options.log();
     const x = options.range(isLog);
-    figure.axes(x, {low: isLog ? 0.8 : 0, high: Math.max(1, ...series.map((one) => one.top)) * 1.1, isLog}, options.xName, options.yName);
+    figure.axes(x, {low: isLog ? 0.8 * options.least : 0, high: Math.max(1, ...series.map((one) => one.top)) * 1.15, isLog}, options.xName, options.yName);
     for (const one of series) figure.line(one.path(figure), one.color, one.dash);
     if (options.threshold) {
       figure.mark = makeSvg('path', {class: 'threshold'});
@@ -77,7 +77,7 @@ function persistenceCurves(page, state) {
   });
   if (!(most > 0)) [least, most] = [0.1, 1];
   return curveFigure(['Pairs above a persistence'], 'Curves: number of pairs whose persistence is above a value, by method. Arrow keys read them.',
-    series, {xName: 'persistence', yName: 'pairs', log: () => state.log, threshold: () => state.threshold,
+    series, {xName: 'persistence', yName: 'pairs', least: 1, log: () => state.log, threshold: () => state.threshold,
       range: (isLog) => (isLog ? {low: least, high: most * 1.05, isLog} : {low: 0, high: most * 1.05, isLog})});
 }
 
@@ -94,7 +94,7 @@ function iterationCurves(page, state) {
     for (const {step, records} of iterationsOf(method.report)) {
       const totals = new Map(records.map((r) => [r.iteration, r.total]));
       series.push({
-        name: method.name + step, color: methodColor(i), dash: methodDash(i), top: Math.max(...totals.values()),
+        name: method.name + step, color: methodColor(i), dash: methodDash(i), top: Math.max(...totals.values()), bottom: Math.min(...totals.values()),
         last: records[records.length - 1].iteration, at: (x) => totals.get(x) ?? null,
         path: (figure) => records.map((r, k) =>
           `${k === 0 ? 'M' : 'L'}${figure.x.pixel(r.iteration).toFixed(1)} ${figure.y.pixel(r.total).toFixed(1)}`).join(''),
@@ -103,8 +103,9 @@ function iterationCurves(page, state) {
   });
   if (series.length === 0) return null;
   const last = Math.max(1, ...series.map((one) => one.last));
+  const least = Math.max(1, Math.min(...series.map((one) => one.bottom)));
   return curveFigure(['Critical points after each iteration'], 'Curves: number of critical points after each iteration, by method. Arrow keys read them.',
-    series, {xName: 'iteration', yName: 'critical points', log: () => state.log, whole: true, range: () => ({low: 0, high: last, isLog: false})});
+    series, {xName: 'iteration', yName: 'critical points', least, log: () => state.log, whole: true, range: () => ({low: 0, high: last, isLog: false})});
 }
 
 /** Birth and death (or persistence) of each pair; the pointer finds the nearest, a click selects it. */

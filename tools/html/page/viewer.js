@@ -46,19 +46,18 @@ class View {
     for (const kind of ['descending', 'ascending'])
       if (state.arcs[kind] || kind in this.arcs) {
         const arcs = this.arcsOf(kind);
-        arcs.object.visible = state.arcs[kind];
-        arcs.material.uniforms.threshold.value = state.threshold;
+        arcs.setThreshold(state.threshold);
+        arcs.object.visible = state.arcs[kind] && !arcs.isEmpty;
       }
     const uniforms = this.spheres.material.uniforms;
-    uniforms.threshold.value = state.threshold;
+    this.spheres.setThreshold(state.threshold);
+    this.spheres.select(state.selected !== null && state.selected.method === this.number ? state.selected.point : -1);
     uniforms.kinds.value.set(...[1, 2, 3].map((type) => (state.types[type] ? 1 : 0)));
     uniforms.radius.value = this.drawnRadius = this.radius * state.size;
-    uniforms.selected.value = state.selected !== null && state.selected.method === this.number ? state.selected.point : -1;
 
-    const counts = [0, 0, 0, 0];
-    const {points} = this.method;
-    for (let i = 0; i < points.count; ++i)
-      if (state.threshold === 0 || points.shown[i] > state.threshold) ++counts[points.type[i]];
+    const counts = [0, 0, 0, 0], {points} = this.method;
+    const count = shownCount(points.rankedShown, state.threshold);
+    for (let rank = 0; rank < count; ++rank) ++counts[points.type[points.ranking[rank]]];
     const texts = [1, 2, 3].map((type) => `${formatCount(counts[type])} ${['', 'minima', 'saddles', 'maxima'][type]}`);
     this.caption.replaceChildren(this.method.name, make('small', {}, texts.join(', ')));
     this.area.setAttribute('aria-label', `${this.method.name}: ${texts.join(', ')}`);
@@ -92,7 +91,6 @@ class Viewer {
     this.waiting = false;
     this.frames = 0;
     new ResizeObserver(() => this.draw()).observe(element('views-box'));
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
     this.canvas.addEventListener('webglcontextrestored', () => this.draw());
   }
 
@@ -102,7 +100,9 @@ class Viewer {
   }
 
   reset(direction) {
-    for (const view of this.views) view.orbit.reset(direction);
+    const shown = this.views.find((view) => !view.area.hidden) ?? this.views[0];
+    const aspect = shown.area.hidden ? 1 : shown.area.clientWidth / shown.area.clientHeight;
+    for (const view of this.views) view.orbit.reset(direction, this.page.mesh.half, aspect);
     this.draw();
   }
 
@@ -129,11 +129,12 @@ class Viewer {
     const columns = this.columns(shown.length);
     element('views').style.setProperty('--columns', columns);
     const first = this.page.methods[0].values;
+    const isSigned = bothSigns(first.range);  // of one field, of all that methods make of it
     for (const view of this.views) {
       view.area.hidden = !state.shown[view.number];
       if (view.area.hidden) continue;
-      const {low, high} = state.sameScale ? first : view.method.values;
-      view.update(state, scaleFor(low, high), this.page.report.field.name);
+      const {range} = state.sameScale ? first : view.method.values;
+      view.update(state, scaleFor(range, isSigned || bothSigns(range)), this.page.report.field.name);
     }
     this.draw();
   }
@@ -166,7 +167,6 @@ class Viewer {
     renderer.setClearColor(0, 0);
     renderer.clear();
     renderer.setScissorTest(true);
-    const dark = matchMedia('(prefers-color-scheme: dark)').matches;
     for (const view of this.views) {
       const part = view.area.getBoundingClientRect();
       if (view.area.hidden || part.width < 1) continue;
@@ -174,8 +174,8 @@ class Viewer {
       renderer.setViewport(left, bottom, part.width, part.height);
       renderer.setScissor(left, bottom, part.width, part.height);
       view.orbit.apply(view.camera, part.width / part.height);
+      view.spheres.material.uniforms.pixels.value = part.height * ratio;
       view.spheres.projection.copy(view.camera.projectionMatrix);
-      view.spheres.material.uniforms.haloColor.value.setScalar(dark ? 1 : 0);
       for (const arcs of Object.values(view.arcs)) {
         arcs.material.uniforms.viewport.value.set(part.width * ratio, part.height * ratio);
         arcs.material.uniforms.width.value = 1.9 * ratio;
