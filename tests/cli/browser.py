@@ -31,11 +31,13 @@ class Browser:
                    "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
                    "--disable-background-networking", "--disable-component-update", "--disable-sync",
                    "--disable-default-apps", "--disable-extensions", "--disable-dev-shm-usage", "--hide-scrollbars",
-                   "--force-color-profile=srgb", "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}", "about:blank"]
+                   "--force-color-profile=srgb", "--remote-debugging-pipe",
+                   f"--user-data-dir={self.profile.name}", "about:blank"]
         # the browser reads from descriptor 3 and writes to 4
         self.process = subprocess.Popen(
             ["/bin/bash", "-c", f'exec "$@" 3<&{to_browser} 4>&{from_browser}', "browser", *command],
-            pass_fds=(to_browser, from_browser), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            pass_fds=(to_browser, from_browser), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
         self.buffer = b""
@@ -106,10 +108,11 @@ class Page:
         self.target = target
         for domain in ("Runtime", "Log", "Network", "Page"):
             self.call(f"{domain}.enable")
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2 if phone else 1, mobile=phone)
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, mobile=phone,
+                  deviceScaleFactor=2 if phone else 1)
         if phone:
             self.call("Emulation.setTouchEmulationEnabled", enabled=True)
-        self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+        self.prefer("dark" if dark else "light")
         browser.events.clear()
         self.url = pathlib.Path(path).resolve().as_uri()
         self.call("Page.navigate", url=self.url)
@@ -129,6 +132,9 @@ class Page:
             details = result["exceptionDetails"]
             raise BrowserError(details.get("exception", {}).get("description", details["text"]))
         return result["result"].get("value")
+
+    def prefer(self, scheme):
+        self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
 
     def said(self):
         """What went to the console, or was thrown and not caught."""

@@ -23,7 +23,8 @@ class Elements(html.parser.HTMLParser):
     def handle_starttag(self, tag, attrs):
         attributes = dict(attrs)
         self.tags.append(tag)
-        self.links += [attributes[name] for name in ("src", "href", "action", "data", "poster", "srcset") if name in attributes]
+        names = ("src", "href", "action", "data", "poster", "srcset")
+        self.links += [attributes[name] for name in names if name in attributes]
         self.open_id = attributes.get("id") if tag == "script" else None
 
     def handle_data(self, data):
@@ -43,7 +44,8 @@ def numbers(buffers, reference):
     data = buffers[reference["offset"]:reference["offset"] + reference["bytes"]]
     assert len(data) == reference["bytes"]
     if reference["type"] != "delta":
-        return list(struct.unpack(f"<{reference['count']}{ {'u8': 'B', 'u16': 'H', 'f64': 'd'}[reference['type']]}", data))
+        letter = {"u8": "B", "u16": "H", "f64": "d"}[reference["type"]]
+        return list(struct.unpack(f"<{reference['count']}{letter}", data))
     values, value, at = [], 0, 0
     for _ in range(reference["count"]):
         code, shift = 0, 0
@@ -84,7 +86,7 @@ class PageData:
         return [self.mesh["origin"][c] + self.mesh["step"] * self.mesh["positions"][c * n + v] for c in range(3)]
 
     def persistence(self, method):
-        """Of each point, by the pairs: an extremum's is its pair's, a saddle's the largest of its pairs', infinite if one is left over."""
+        """Of each point: an extremum's is its pair's, a saddle's the largest of its pairs', infinite if one is left."""
         points = method["points"]
         count = len(points["vertex"])
         result, left = [0.0] * count, list(points["multiplicity"])

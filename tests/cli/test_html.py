@@ -52,8 +52,8 @@ class Html(ProgramTest):
         for method, expected in zip(page.methods, full["methods"]):
             points = method["points"]
             for i, (item, persistence) in enumerate(zip(expected["items"], page.persistence(method), strict=True)):
-                self.assertEqual((points["vertex"][i], TYPES[points["type"][i]], points["multiplicity"][i], points["value"][i]),
-                                 (item["vertex"], item["type"], item["multiplicity"], item["value"]))
+                told = points["vertex"][i], TYPES[points["type"][i]], points["multiplicity"][i], points["value"][i]
+                self.assertEqual(told, (item["vertex"], item["type"], item["multiplicity"], item["value"]))
                 self.assertEqual(points["origin"][i] - 1, -1 if item["origin"] is None else item["origin"])
                 self.assertEqual(persistence, math.inf if item["persistence"] is None else item["persistence"])
                 self.assertEqual(points["place"][i], item["vertex"])
@@ -89,7 +89,8 @@ class Html(ProgramTest):
             self.assertLessEqual(abs(low + (high - low) * step / 65535 - min(max(f, low), high)), (high - low) / 131000)
 
     def test_each_piece_of_the_arcs_is_there_once(self):
-        self.morsel("compare", LION, "--method", "conventional", "--method", "salient", "--html", "page.html", "--export", "out")
+        self.morsel("compare", LION, "--method", "conventional", "--method", "salient", "--html", "page.html",
+                    "--export", "out")
         page = PageData(self.folder / "page.html")
         cell = 8 * page.mesh["step"]  # far more than rounding, far less than pieces are long
 
@@ -118,7 +119,8 @@ class Html(ProgramTest):
                 self.assertEqual(len(got), len(unique))
 
     def test_numbers_are_the_inputs_where_vertices_were_dropped(self):
-        page = self.page(self.file("damaged.off", DAMAGED), "--repair", "--field", "height:axis=x", "--method", "conventional")
+        page = self.page(self.file("damaged.off", DAMAGED), "--repair", "--field", "height:axis=x",
+                         "--method", "conventional")
         self.assertEqual(page.mesh["input_vertices"], [0, 2, 3, 4])
         self.assertIn("--repair", page.meta["command"])
 
@@ -143,9 +145,10 @@ class Html(ProgramTest):
         path = bytes(self.folder) + b"/caf\xe9.off"
         with open(path, "wb") as file:
             file.write(OCTAHEDRON.encode())
-        subprocess.run([PROGRAM, "compare", path, "--field", "height:axis=z", "--html", "page.html"], cwd=self.folder, check=True,
-                       capture_output=True, timeout=240)
-        self.assertTrue(PageData(self.folder / "page.html").meta["report"]["mesh"]["path"].endswith("caf\ufffd.off"))
+        subprocess.run([PROGRAM, "compare", path, "--field", "height:axis=z", "--html", "page.html"],
+                       cwd=self.folder, check=True, capture_output=True, timeout=240)
+        page = PageData(self.folder / "page.html")
+        self.assertTrue(page.meta["report"]["mesh"]["path"].endswith("caf\ufffd.off"))
 
     def test_nothing_is_asked_for_and_three_js_comes_with_its_licence(self):
         page = self.page(self.file("o.off", OCTAHEDRON), "--field", "height:axis=z")
@@ -157,8 +160,8 @@ class Html(ProgramTest):
 
     def test_the_command_line_makes_the_page_again(self):
         mesh = self.file("it's $HOME.off", OCTAHEDRON)
-        page = self.page(mesh, "--field", "height:axis=z", "--method", "conventional", "--method", "tps:count=2", "--target", "2",
-                         "--threads", "1", name="a b.html")
+        page = self.page(mesh, "--field", "height:axis=z", "--method", "conventional", "--method", "tps:count=2",
+                         "--target", "2", "--threads", "1", name="a b.html")
         program, *arguments = shlex.split(page.meta["command"])
         self.assertEqual(program, "morsel")
         (self.folder / "a b.html").unlink()

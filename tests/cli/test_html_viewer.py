@@ -1,4 +1,4 @@
-"""The page of compare --html in a real browser: it loads in silence, draws, turns, selects, and can be used by anyone."""
+"""The page of compare --html in a real browser: it loads in silence, draws, turns, selects, and is for everybody."""
 
 import json
 import unittest
@@ -39,6 +39,11 @@ class Viewer(ProgramTest):
     def lion(self, **settings):
         return self.page(SAMPLES / "lion-head.off", "--method", "conventional", "--method", "salient", **settings)
 
+    def box(self, page, expression):
+        """Left, top, width and height of an element in the window."""
+        return page.run(f"(() => {{ const b = ({expression}).getBoundingClientRect();"
+                        " return [b.left, b.top, b.width, b.height]; })()")
+
     def assert_quiet(self, page):
         self.assertEqual(page.said(), [])
         self.assertEqual(page.requests(), [page.url])
@@ -76,10 +81,12 @@ class Viewer(ProgramTest):
         self.assertEqual(page.run(DRAWN)["hash"], first["hash"])
 
         # every other control, one after the other, each alone
-        for control, value, back in (("surface", "ascending", "field"), ("surface", "descending", "field"), ("surface", "cells", "field"),
-                                     ("surface", "plain", "field"), ("minima", False, True), ("saddles", False, True), ("maxima", False, True),
-                                     ("descending-arcs", True, False), ("ascending-arcs", True, False), ("size", 6, 0),
-                                     ("same-scale", True, False), ("direction", "-x", "+z"), ("show-1", False, True)):
+        for control, value, back in (("surface", "ascending", "field"), ("surface", "descending", "field"),
+                                     ("surface", "cells", "field"), ("surface", "plain", "field"),
+                                     ("minima", False, True), ("saddles", False, True), ("maxima", False, True),
+                                     ("descending-arcs", True, False), ("ascending-arcs", True, False),
+                                     ("size", 6, 0), ("same-scale", True, False), ("direction", "-x", "+z"),
+                                     ("show-1", False, True)):
             self.choose(page, control, value)
             self.assertNotEqual(page.run(DRAWN)["hash"], first["hash"], control)
             self.choose(page, control, back)
@@ -97,7 +104,8 @@ class Viewer(ProgramTest):
         page.run(DRAWN)
         # the most persistent points of the second model that can be seen
         places = page.run("""(() => { const {viewer} = morsel, {points} = viewer.views[1].method;
-            return points.ranking.map((i) => ({i, vertex: points.vertex[i], type: points.type[i], value: points.value[i], ...viewer.placeOnPage(1, i)}))
+            return points.ranking.map((i) =>
+                ({i, vertex: points.vertex[i], type: points.type[i], ...viewer.placeOnPage(1, i)}))
               .filter((p) => !p.hidden).slice(0, 5); })()""")
         self.assertEqual(len(places), 5)
         for place in places[:3]:
@@ -112,7 +120,7 @@ class Viewer(ProgramTest):
         hidden = page.run("""(() => { const {viewer} = morsel, {points} = viewer.views[0].method;
             return points.ranking.map((i) => viewer.placeOnPage(0, i)).filter((p) => p.hidden).length; })()""")
         self.assertGreater(hidden, 100)
-        box = page.run("(() => { const b = morsel.viewer.views[1].area.getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
+        box = self.box(page, "morsel.viewer.views[1].area")
         page.click(box[0] + box[2] - 4, box[1] + box[3] / 2)
         self.assertIsNone(page.run("morsel.state.selected"))
 
@@ -134,23 +142,28 @@ class Viewer(ProgramTest):
     def test_curves_tell_their_values(self):
         page = self.lion()
         page.run("document.getElementById('curves').scrollIntoView()")
-        box = page.run("(() => { const b = document.querySelector('#curves svg').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
+        box = self.box(page, "document.querySelector('#curves svg')")
         page.mouse("mouseMoved", box[0] + box[2] / 2, box[1] + box[3] / 2)
-        self.assertRegex(page.run("document.querySelector('#curves .readout').textContent"), r"persistence [\d.e−-]+: conventional \d+, salient \d+")
+        self.assertRegex(page.run("document.querySelector('#curves .readout').textContent"),
+                         r"persistence [\d.e−-]+: conventional \d+, salient \d+")
         page.run("document.querySelectorAll('#curves svg[tabindex]')[1].focus()")
         for _ in range(10):
             page.press("ArrowRight")
-        self.assertEqual(page.run("document.querySelectorAll('#curves .readout')[1].textContent"), "iteration 10: salient 97")
+        self.assertEqual(page.run("document.querySelectorAll('#curves .readout')[1].textContent"),
+                         "iteration 10: salient 97")
         page.run("document.querySelectorAll('#diagrams svg[tabindex]')[1].focus()")
         page.press("ArrowRight")
         self.assertRegex(page.run("document.querySelectorAll('#diagrams .readout')[1].textContent"),
                          r"^(minimum|saddle) \d+ at .*, (saddle|maximum) \d+ at .*: persistence ")
         page.press("Enter")
         self.assertEqual(page.run("morsel.state.selected.method"), 1)
+        plots = "document.getElementById('diagrams').innerHTML + document.getElementById('curves').innerHTML"
+        drawn = page.run(plots)
         for control, value in (("log", False), ("diagram-kind", "persistence"), ("log", True)):
-            drawn = page.run("document.getElementById('diagrams').innerHTML + document.getElementById('curves').innerHTML")
+            before = drawn
             self.choose(page, control, value)
-            self.assertNotEqual(page.run("document.getElementById('diagrams').innerHTML + document.getElementById('curves').innerHTML"), drawn)
+            drawn = page.run(plots)
+            self.assertNotEqual(drawn, before)
         self.assertNotIn("NaN", drawn)
         self.assertNotIn("Infinity", drawn)
         self.assert_quiet(page)
@@ -158,15 +171,16 @@ class Viewer(ProgramTest):
     def test_the_keyboard_is_enough(self):
         page = self.lion()
         tree = page.call("Accessibility.getFullAXTree")["nodes"]
-        controls = {"checkbox", "slider", "combobox", "MenuListPopup", "button", "application", "image", "link", "ComboBoxSelect"}
-        unnamed = [node for node in tree if not node.get("ignored") and node.get("role", {}).get("value") in controls - {"MenuListPopup"}
-                   and not node.get("name", {}).get("value")]
+        controls = {"checkbox", "slider", "combobox", "ComboBoxSelect", "button", "application", "image", "link"}
+        found = [node for node in tree if not node.get("ignored") and node.get("role", {}).get("value") in controls]
+        self.assertGreater(len(found), 25)
+        unnamed = [node for node in found if not node.get("name", {}).get("value")]
         self.assertEqual(unnamed, [])
         order = []
         for _ in range(40):
-            page.call("Input.dispatchKeyEvent", type="keyDown", key="Tab", code="Tab", windowsVirtualKeyCode=9)
-            page.call("Input.dispatchKeyEvent", type="keyUp", key="Tab", code="Tab", windowsVirtualKeyCode=9)
-            order.append(page.run("(() => { const e = document.activeElement; return e.id || e.className || e.tagName; })()"))
+            for kind in ("keyDown", "keyUp"):
+                page.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab", windowsVirtualKeyCode=9)
+            order.append(page.run("[document.activeElement].map((e) => e.id || e.className || e.tagName)[0]"))
         for wanted in ("show-0", "surface", "minima", "threshold", "direction", "view", "next-point", "log", "copy"):
             self.assertIn(wanted, order)
         self.assertLess(order.index("show-0"), order.index("threshold"))
@@ -202,15 +216,21 @@ class Viewer(ProgramTest):
         # one model at first, and it leaves room to scroll by
         self.assertEqual(page.run("morsel.viewer.views.filter((v) => !v.area.hidden).length"), 1)
         self.assertLess(page.run("document.getElementById('views-box').clientHeight"), 740 * 0.7)
-        light = """(() => { const parts = (c) => c.match(/[\\d.]+/g).slice(0, 3).map((x) => (x / 255 <= 0.04045 ? x / 255 / 12.92 : ((x / 255 + 0.055) / 1.055) ** 2.4));
-            const of = (c) => { const [r, g, b] = parts(c); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
-            const ground = of(getComputedStyle(document.documentElement).backgroundColor);
+        light = """(() => {  // contrasts of texts with the ground, as WCAG defines them
+            const linear = (x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+            const light = (color) => { const [r, g, b] = color.match(/[\\d.]+/g).map((x) => linear(x / 255));
+                return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+            const ground = light(getComputedStyle(document.documentElement).backgroundColor);
             return [...document.querySelectorAll('h1, th, td, label, .hint, #subtitle, legend, dd, figcaption')]
-              .map((e) => (Math.max(of(getComputedStyle(e).color), ground) + 0.05) / (Math.min(of(getComputedStyle(e).color), ground) + 0.05)); })()"""
+              .map((e) => light(getComputedStyle(e).color))
+              .map((text) => (Math.max(text, ground) + 0.05) / (Math.min(text, ground) + 0.05)); })()"""
         contrasts = page.run(light)
         self.assertGreater(min(contrasts), 4.5)
-        self.assertLess(page.run("getComputedStyle(document.documentElement).backgroundColor.match(/\\d+/g).reduce((a, b) => a + +b, 0)"), 150)
-        page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "light"}])
+        ground = "getComputedStyle(document.documentElement).backgroundColor"
+        dark = page.run(ground)
+        page.prefer("light")
+        self.assertNotEqual(page.run(ground), dark)
+        self.assertEqual(page.run(ground), "rgb(255, 255, 255)")
         self.assertGreater(min(page.run(light)), 4.5)
         self.assert_quiet(page)
 

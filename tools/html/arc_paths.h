@@ -9,9 +9,9 @@
 
 namespace morsel::tools::html {
 
-/// The arcs of one kind as polylines. Arcs that merge share their further way; here it belongs to the arc of the most
-/// persistent saddle, and those of others end where they meet it. So a piece is to be seen as long as its polyline's saddle
-/// is, and all together there are no more pieces than cells and saddles, however long the arcs are.
+/// The arcs of one kind as polylines. Arcs that merge share their further way; here it belongs to the arc of the
+/// most persistent saddle, and those of others end where they meet it. So a piece is to be seen as long as its
+/// polyline's saddle is, and all together there are no more pieces than cells and saddles, however long the arcs are.
 ///
 /// Descending: cells are vertices, from the saddle's on. Ascending: cells are triangles, and the line runs from the
 /// saddle's vertex by their barycentres and the midpoints of the edges between them, in which it may end as well.

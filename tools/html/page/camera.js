@@ -1,14 +1,20 @@
 // A camera that turns round a place, and what hands and keys do to it.
 
 const directions = {
-  '+z': [0, 0, 0], '-z': [0, Math.PI, 0], '+x': [0, Math.PI / 2, 0], '-x': [0, -Math.PI / 2, 0],
-  '+y': [-Math.PI / 2, 0, 0], '-y': [Math.PI / 2, 0, 0],
+  '+z': [0, 0, 0],
+  '-z': [0, Math.PI, 0],
+  '+x': [0, Math.PI / 2, 0],
+  '-x': [0, -Math.PI / 2, 0],
+  '+y': [-Math.PI / 2, 0, 0],
+  '-y': [Math.PI / 2, 0, 0],
 };
 
 class Orbit {
   constructor() { this.reset('+z', [0.5, 0.5, 0.5], 1); }
 
-  /** Looks from a direction, so that a box of these half sizes round the origin fills a view of that aspect. */
+  /**
+   * Looks from a direction, so that a box of these half sizes round the origin fills a view of that aspect.
+   */
   reset(direction, half, aspect) {
     this.target = new THREE.Vector3();
     this.rotation = new THREE.Quaternion().setFromEuler(new THREE.Euler(...directions[direction], 'YXZ'));
@@ -35,7 +41,8 @@ class Orbit {
     this.target.add(new THREE.Vector3(-right * size, -up * size, 0).applyQuaternion(this.rotation));
   }
   apply(camera, aspect) {
-    camera.position.copy(new THREE.Vector3(0, 0, this.distance).applyQuaternion(this.rotation).add(this.target));
+    camera.position.copy(
+        new THREE.Vector3(0, 0, this.distance).applyQuaternion(this.rotation).add(this.target));
     camera.quaternion.copy(this.rotation);
     const reach = 0.52 + this.target.length();  // of the model from the target
     camera.near = Math.max(this.distance - reach, 0.02 * this.distance, 0.004);
@@ -49,7 +56,10 @@ class Orbit {
 }
 const fieldOfView = 32 * Math.PI / 180;
 
-/** Lets pointer, wheel and keys on `area` move orbit(); calls moved() after each move and clicked(event) for a click. */
+/**
+ * Lets pointer, wheel and keys on `area` move orbit(); calls moved() after each move and clicked(event) for
+ * a click.
+ */
 function attachControls(area, orbit, moved, clicked) {
   const pointers = new Map();
   let travelled = 0;
@@ -86,7 +96,8 @@ function attachControls(area, orbit, moved, clicked) {
   const release = (event) => {
     if (!pointers.delete(event.pointerId)) return;
     if (pointers.size === 0) area.classList.remove('turning');
-    if (event.type === 'pointerup' && event.button === 0 && travelled < 5 && pointers.size === 0) clicked(event);
+    if (event.type === 'pointerup' && event.button === 0 && travelled < 5 && pointers.size === 0)
+      clicked(event);
   };
   area.addEventListener('pointerup', release);
   area.addEventListener('pointercancel', release);
@@ -101,11 +112,16 @@ function attachControls(area, orbit, moved, clicked) {
     const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
     if (event.key in arrows) {
       const [x, y] = arrows[event.key];
-      if (event.shiftKey) orbit().move(0.06 * x, -0.06 * y);
-      else orbit().turn(0.12 * x, 0.12 * y);
-    } else if (event.key === '+' || event.key === '=') orbit().zoom(1 / 1.15);
-    else if (event.key === '-') orbit().zoom(1.15);
-    else return;
+      if (event.shiftKey)
+        orbit().move(0.06 * x, -0.06 * y);
+      else
+        orbit().turn(0.12 * x, 0.12 * y);
+    } else if (event.key === '+' || event.key === '=')
+      orbit().zoom(1 / 1.15);
+    else if (event.key === '-')
+      orbit().zoom(1.15);
+    else
+      return;
     event.preventDefault();
     moved();
   });

@@ -12,7 +12,8 @@ function bytesOfBase64(text) {
 /** The bytes that the element holds; it is emptied. */
 async function inflate(id) {
   if (typeof DecompressionStream === 'undefined')
-    throw new Error('this browser cannot unpack the page\'s data: it lacks DecompressionStream, which browsers have since 2023');
+    throw new Error(
+        'this browser cannot unpack the page\'s data: it lacks DecompressionStream, which browsers have since 2023');
   const holder = element(id);
   const packed = new Blob([bytesOfBase64(holder.textContent)]);
   holder.remove();
@@ -42,7 +43,9 @@ function readArray(buffers, reference) {
   const {type, offset, bytes, count} = reference;
   if (type === 'delta') return readDeltas(new Uint8Array(buffers, offset, bytes), count);
   const part = buffers.slice(offset, offset + bytes);
-  return type === 'u8' ? new Uint8Array(part) : type === 'u16' ? new Uint16Array(part) : new Float64Array(part);
+  return type === 'u8' ? new Uint8Array(part) :
+      type === 'u16'   ? new Uint16Array(part) :
+                         new Float64Array(part);
 }
 
 /** Replaces every reference in a piece of metadata by its array. */
@@ -56,7 +59,8 @@ function readMesh(buffers, meta) {
   const mesh = resolve(buffers, meta);
   const n = mesh.vertices;
   const whole = mesh.positions;  // coordinate by coordinate
-  // Drawn around the origin and at size 1, so that single precision suffices wherever the surface is; `scale` and `center` lead back.
+  // Drawn around the origin and at size 1, so that single precision suffices wherever the surface is; `scale`
+  // and `center` lead back.
   const lowest = [0, 1, 2].map((c) => minimumOf(whole, c * n, n));
   const highest = [0, 1, 2].map((c) => maximumOf(whole, c * n, n));
   const size = Math.max(1e-300, Math.hypot(...[0, 1, 2].map((c) => highest[c] - lowest[c])));
@@ -94,7 +98,10 @@ function middleRange({low, high, data}, share) {
   return [below(share * data.length), below((1 - share) * data.length)];
 }
 
-/** A method's arrays, and what follows from them: persistence of points and pairs, points by vertex and by counterpart. */
+/**
+ * A method's arrays, and what follows from them: persistence of points and pairs, points by vertex and by
+ * counterpart.
+ */
 function readMethod(buffers, meta, report) {
   const method = resolve(buffers, meta);
   method.report = report;
@@ -127,7 +134,8 @@ function readMethod(buffers, meta, report) {
     addPartner(saddle, extremum);
     if (!ofCap) addPartner(extremum, saddle);
   }
-  for (let i = 0; i < points.count; ++i) if (open[i] > 0) points.persistence[i] = Infinity;
+  for (let i = 0; i < points.count; ++i)
+    if (open[i] > 0) points.persistence[i] = Infinity;
   points.shown = Float32Array.from(points.persistence, (p) => Math.min(p, 3e38));  // as shaders compare it
   points.byVertex = new Map();
   points.byMatch = new Map();
@@ -136,7 +144,7 @@ function readMethod(buffers, meta, report) {
     if (points.match[i] > 0) points.byMatch.set(points.match[i] - 1, i);
   }
   points.ranking = Array.from({length: points.count}, (_, i) => i)
-    .sort((a, b) => points.shown[b] - points.shown[a] || a - b);
+                       .sort((a, b) => points.shown[b] - points.shown[a] || a - b);
   points.rankedShown = Float32Array.from(points.ranking, (i) => points.shown[i]);
   return method;
 }

@@ -7,13 +7,16 @@ function arcPieces(mesh, method, kind) {
   const ends = [], shown = [];
   const at = (v) => [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
   const middle = (a, b) => [0, 1, 2].map((c) => (positions[3 * a + c] + positions[3 * b + c]) / 2);
-  const center = (t) => [0, 1, 2].map((c) =>
-    (positions[3 * corners[3 * t] + c] + positions[3 * corners[3 * t + 1] + c] + positions[3 * corners[3 * t + 2] + c]) / 3);
+  const center = (t) => [0, 1, 2].map(
+      (c) => (positions[3 * corners[3 * t] + c] + positions[3 * corners[3 * t + 1] + c] +
+              positions[3 * corners[3 * t + 2] + c]) /
+          3);
   const side = (t, i) => middle(corners[3 * t + i], corners[3 * t + (i + 1) % 3]);
   const shared = (t, u) => {
     for (let i = 0; i < 3; ++i) {
       const a = corners[3 * t + i], b = corners[3 * t + (i + 1) % 3];
-      for (let k = 0; k < 3; ++k) if (corners[3 * u + k] === b && corners[3 * u + (k + 1) % 3] === a) return middle(a, b);
+      for (let k = 0; k < 3; ++k)
+        if (corners[3 * u + k] === b && corners[3 * u + (k + 1) % 3] === a) return middle(a, b);
     }
     throw new Error('the page\'s data are damaged: triangles of an arc are not neighbours');
   };
@@ -44,13 +47,17 @@ function arcPieces(mesh, method, kind) {
       go(center(t));
     });
     const lastCell = cells[cells.length - 1];
-    if (end >= 4) go(side(lastCell, end - 4));
-    else if (end >= 1) go(at(corners[3 * lastCell + end - 1]));
+    if (end >= 4)
+      go(side(lastCell, end - 4));
+    else if (end >= 1)
+      go(at(corners[3 * lastCell + end - 1]));
   }
   // by falling persistence, so that a threshold ends them; polylines come so but for rounding
   const order = Array.from({length: shown.length}, (_, k) => k).sort((a, b) => shown[b] - shown[a] || a - b);
   const sorted = new Float32Array(ends.length);
-  order.forEach((k, n) => { for (let c = 0; c < 6; ++c) sorted[6 * n + c] = ends[6 * k + c]; });
+  order.forEach((k, n) => {
+    for (let c = 0; c < 6; ++c) sorted[6 * n + c] = ends[6 * k + c];
+  });
   return {ends: sorted, shown: Float32Array.from(order, (k) => shown[k])};
 }
 
@@ -82,7 +89,8 @@ void main() { gl_FragColor = vec4(color, 1.0 - smoothstep(0.7, 1.0, abs(vSide)))
 class Arcs {
   constructor(pieces, color) {
     const geometry = new THREE.InstancedBufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]), 3));
+    geometry.setAttribute(
+        'position', new THREE.BufferAttribute(new Float32Array([0, -1, 0, 1, -1, 0, 1, 1, 0, 0, 1, 0]), 3));
     geometry.setIndex([0, 1, 2, 0, 2, 3]);
     const both = new THREE.InstancedInterleavedBuffer(pieces.ends, 6, 1);
     geometry.setAttribute('start', new THREE.InterleavedBufferAttribute(both, 3, 0));
@@ -90,8 +98,15 @@ class Arcs {
     this.geometry = geometry;
     this.shown = pieces.shown;
     this.material = new THREE.ShaderMaterial({
-      uniforms: {viewport: {value: new THREE.Vector2(1, 1)}, width: {value: 2}, color: {value: new THREE.Vector3(...color)}},
-      vertexShader: lineVertexShader, fragmentShader: lineFragmentShader, transparent: true, side: THREE.DoubleSide,
+      uniforms: {
+        viewport: {value: new THREE.Vector2(1, 1)},
+        width: {value: 2},
+        color: {value: new THREE.Vector3(...color)}
+      },
+      vertexShader: lineVertexShader,
+      fragmentShader: lineFragmentShader,
+      transparent: true,
+      side: THREE.DoubleSide,
     });
     this.object = new THREE.Mesh(geometry, this.material);
     this.object.frustumCulled = false;

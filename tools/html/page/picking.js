@@ -1,6 +1,9 @@
 // Which critical point is under a place on the screen.
 
-/** Whether a triangle lies between two places: the first one met counts, and none within `slack` of the second. */
+/**
+ * Whether a triangle lies between two places: the first one met counts, and none within `slack` of the
+ * second.
+ */
 function isHidden(mesh, from, to, slack) {
   const d = [0, 1, 2].map((c) => to[c] - from[c]);
   const length = Math.hypot(...d);
@@ -30,11 +33,18 @@ function projectPoint(camera, centers, i, width, height) {
   const place = new THREE.Vector3(centers[3 * i], centers[3 * i + 1], centers[3 * i + 2]);
   const depth = -place.clone().applyMatrix4(camera.matrixWorldInverse).z;
   place.project(camera);
-  return {x: (place.x + 1) / 2 * width, y: (1 - place.y) / 2 * height, depth,
-    scale: height / (2 * depth * Math.tan(camera.fov * Math.PI / 360))};
+  return {
+    x: (place.x + 1) / 2 * width,
+    y: (1 - place.y) / 2 * height,
+    depth,
+    scale: height / (2 * depth * Math.tan(camera.fov * Math.PI / 360))
+  };
 }
 
-/** The number of the nearest point to (x, y) that is shown, within reach and not hidden by the surface; -1 if there is none. */
+/**
+ * The number of the nearest point to (x, y) that is shown, within reach and not hidden by the surface; -1 if
+ * there is none.
+ */
 function pickPoint(mesh, camera, spheres, isShown, radius, x, y, width, height) {
   const near = [];
   const count = spheres.centers.length / 3;

@@ -24,13 +24,16 @@ function logTicks(low, high, wanted) {
   for (let e = first; e <= last; e += skip) ticks.push(10 ** e);
   if (ticks.length >= 3) return ticks;
   const fine = [];
-  for (let e = first - 1; e <= last; ++e) for (const k of [1, 2, 5]) if (k * 10 ** e >= low * 0.999 && k * 10 ** e <= high * 1.001) fine.push(k * 10 ** e);
+  for (let e = first - 1; e <= last; ++e)
+    for (const k of [1, 2, 5])
+      if (k * 10 ** e >= low * 0.999 && k * 10 ** e <= high * 1.001) fine.push(k * 10 ** e);
   return fine.length >= 2 ? fine : [low, high];
 }
 
 function tickText(x) {
   const size = Math.abs(x);
-  if (size !== 0 && (size >= 1e5 || size < 1e-3)) return x.toExponential(0).replace('e+', 'e').replaceAll('-', '−');
+  if (size !== 0 && (size >= 1e5 || size < 1e-3))
+    return x.toExponential(0).replace('e+', 'e').replaceAll('-', '−');
   return String(Number(x.toPrecision(6))).replace('-', '−');
 }
 
@@ -51,14 +54,20 @@ class Axis {
   pixel(x) { return this.from + Math.max(-0.02, Math.min(1.02, this.share(x))) * (this.to - this.from); }
   value(pixel) {
     const share = (pixel - this.from) / (this.to - this.from);
-    return this.isLog ? this.low * (this.high / this.low) ** share : this.low + share * (this.high - this.low);
+    return this.isLog ? this.low * (this.high / this.low) ** share :
+                        this.low + share * (this.high - this.low);
   }
-  ticks(wanted) { return this.isLog ? logTicks(this.low, this.high, wanted) : linearTicks(this.low, this.high, wanted); }
+  ticks(wanted) {
+    return this.isLog ? logTicks(this.low, this.high, wanted) : linearTicks(this.low, this.high, wanted);
+  }
 }
 
 /** A figure with a caption, a drawing of its own size, and a line that tells what is under the pointer. */
 class Figure {
-  /** draw(figure) is called whenever the size changes; hover(x, y) with pixels, or null, returns what to tell. */
+  /**
+   * draw(figure) is called whenever the size changes; hover(x, y) with pixels, or null, returns what to
+   * tell.
+   */
   constructor(caption, describe) {
     this.svg = makeSvg('svg', {tabindex: '0', role: 'img', 'aria-label': describe});
     this.readout = make('div', {class: 'readout', 'aria-live': 'polite'});
@@ -120,9 +129,10 @@ class Figure {
       this.svg.append(makeSvg('text', {x: left - 6, y: at + 4, 'text-anchor': 'end'}, tickText(tick)));
     }
     this.svg.prepend(makeSvg('path', {class: 'grid', d: grid}));
-    this.svg.append(makeSvg('path', {class: 'axis', d: `M${left} ${top}V${bottom}H${right}`}),
-      makeSvg('text', {x: (left + right) / 2, y: this.height - 5, 'text-anchor': 'middle'}, xName),
-      makeSvg('text', {x: 4, y: 12}, yName));
+    this.svg.append(
+        makeSvg('path', {class: 'axis', d: `M${left} ${top}V${bottom}H${right}`}),
+        makeSvg('text', {x: (left + right) / 2, y: this.height - 5, 'text-anchor': 'middle'}, xName),
+        makeSvg('text', {x: 4, y: 12}, yName));
   }
 
   line(path, color, dash) {
@@ -131,8 +141,9 @@ class Figure {
     this.svg.append(makeSvg('path', attributes));
   }
   key(color, dash, text) {
-    const mark = makeSvg('svg', {width: 22, height: 8, style: 'width:22px;height:8px'},
-      makeSvg('path', {d: 'M0 4H22', stroke: color, 'stroke-width': 3, 'stroke-dasharray': dash}));
+    const mark = makeSvg(
+        'svg', {'aria-hidden': 'true', width: 22, height: 8, style: 'width:22px;height:8px'},
+        makeSvg('path', {d: 'M0 4H22', stroke: color, 'stroke-width': 3, 'stroke-dasharray': dash}));
     this.keys.append(make('span', {}, mark, text));
   }
 }

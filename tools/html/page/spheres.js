@@ -50,7 +50,10 @@ void main() {
   gl_FragColor = vec4(color, 1.0 - smoothstep(1.0 - soft, 1.0 + soft, r));
 }`;
 
-/** A method's points. First drawn is the selected one, if any; then all by falling persistence, so that a threshold ends them. */
+/**
+ * A method's points. First drawn is the selected one, if any; then all by falling persistence, so that a
+ * threshold ends them.
+ */
 class Spheres {
   constructor(mesh, points) {
     this.points = points;
@@ -70,10 +73,20 @@ class Spheres {
     this.projection = new THREE.Matrix4();
     this.material = new THREE.ShaderMaterial({
       uniforms: {
-        radius: {value: 0.01}, pixels: {value: 1}, kinds: {value: new THREE.Vector3(1, 1, 1)}, projection: {value: this.projection},
-        colors: {value: [new THREE.Vector3(0.13, 0.38, 0.85), new THREE.Vector3(0.18, 0.70, 0.36), new THREE.Vector3(0.85, 0.14, 0.20)]},
+        radius: {value: 0.01},
+        pixels: {value: 1},
+        kinds: {value: new THREE.Vector3(1, 1, 1)},
+        projection: {value: this.projection},
+        colors: {
+          value: [
+            new THREE.Vector3(0.13, 0.38, 0.85), new THREE.Vector3(0.18, 0.70, 0.36),
+            new THREE.Vector3(0.85, 0.14, 0.20)
+          ]
+        },
       },
-      vertexShader: sphereVertexShader, fragmentShader: sphereFragmentShader, transparent: true,
+      vertexShader: sphereVertexShader,
+      fragmentShader: sphereFragmentShader,
+      transparent: true,
     });
     this.object = new THREE.Points(this.geometry, this.material);
     this.object.frustumCulled = false;
@@ -89,7 +102,9 @@ class Spheres {
     this.look.needsUpdate = this.position.needsUpdate = true;
   }
 
-  setThreshold(threshold) { this.geometry.setDrawRange(0, 1 + shownCount(this.points.rankedShown, threshold)); }
+  setThreshold(threshold) {
+    this.geometry.setDrawRange(0, 1 + shownCount(this.points.rankedShown, threshold));
+  }
 }
 
 /** How many of the falling persistences are shown: all at threshold 0, else those above. */
@@ -98,8 +113,10 @@ function shownCount(falling, threshold) {
   let low = 0, high = falling.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (falling[middle] > threshold) low = middle + 1;
-    else high = middle;
+    if (falling[middle] > threshold)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return low;
 }

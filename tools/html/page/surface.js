@@ -5,14 +5,22 @@ function vertexNormals(positions, corners) {
   const normals = new Float32Array(positions.length);
   for (let h = 0; h < corners.length; h += 3) {
     const a = 3 * corners[h], b = 3 * corners[h + 1], c = 3 * corners[h + 2];
-    const ux = positions[b] - positions[a], uy = positions[b + 1] - positions[a + 1], uz = positions[b + 2] - positions[a + 2];
-    const vx = positions[c] - positions[a], vy = positions[c + 1] - positions[a + 1], vz = positions[c + 2] - positions[a + 2];
+    const ux = positions[b] - positions[a], uy = positions[b + 1] - positions[a + 1],
+          uz = positions[b + 2] - positions[a + 2];
+    const vx = positions[c] - positions[a], vy = positions[c + 1] - positions[a + 1],
+          vz = positions[c + 2] - positions[a + 2];
     const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    for (const v of [a, b, c]) { normals[v] += x; normals[v + 1] += y; normals[v + 2] += z; }
+    for (const v of [a, b, c]) {
+      normals[v] += x;
+      normals[v + 1] += y;
+      normals[v + 2] += z;
+    }
   }
   for (let v = 0; v < normals.length; v += 3) {
     const length = Math.hypot(normals[v], normals[v + 1], normals[v + 2]) || 1;
-    normals[v] /= length; normals[v + 1] /= length; normals[v + 2] /= length;
+    normals[v] /= length;
+    normals[v + 1] /= length;
+    normals[v + 2] /= length;
   }
   return normals;
 }
@@ -21,7 +29,8 @@ function surfaceArea(positions, corners) {
   let twice = 0;
   for (let h = 0; h < corners.length; h += 3) {
     const [a, b, c] = [3 * corners[h], 3 * corners[h + 1], 3 * corners[h + 2]];
-    const u = [0, 1, 2].map((k) => positions[b + k] - positions[a + k]), v = [0, 1, 2].map((k) => positions[c + k] - positions[a + k]);
+    const u = [0, 1, 2].map((k) => positions[b + k] - positions[a + k]),
+          v = [0, 1, 2].map((k) => positions[c + k] - positions[a + k]);
     twice += Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
   }
   return twice / 2;
@@ -64,7 +73,10 @@ void main() {
   gl_FragColor = vec4(color, 1.0);
 }`;
 
-/** What the views share: positions, normals, triangles, once by vertices and, when segments are wanted, once by corners. */
+/**
+ * What the views share: positions, normals, triangles, once by vertices and, when segments are wanted, once
+ * by corners.
+ */
 class SurfaceParts {
   constructor(mesh) {
     this.mesh = mesh;
@@ -113,7 +125,8 @@ class SurfaceParts {
   segments(method, kind) {
     const {ascending, descending} = method.segments;
     const last = (labels) => ({labels, count: maximumOf(labels, 0, labels.length) + 1});
-    const {labels, count} = kind === 'cells' ? numberPairs(ascending, descending) : last(kind === 'ascending' ? ascending : descending);
+    const {labels, count} = kind === 'cells' ? numberPairs(ascending, descending) :
+                                               last(kind === 'ascending' ? ascending : descending);
     return this.byTriangle(labels, colorSegments(this.mesh.corners, this.mesh.vertices, labels, count));
   }
 }
@@ -133,8 +146,12 @@ class Surface {
     this.textures = new Map();
     this.material = new THREE.ShaderMaterial({
       uniforms: {ramp: {value: null}, scale: {value: new THREE.Vector2()}, coloring: {value: 0}},
-      vertexShader: surfaceVertexShader, fragmentShader: surfaceFragmentShader, side: THREE.DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      vertexShader: surfaceVertexShader,
+      fragmentShader: surfaceFragmentShader,
+      side: THREE.DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
     });
     this.geometries = new Map([['field', parts.byVertex(method.values.data)]]);
     this.object = new THREE.Mesh(this.geometries.get('field'), this.material);
@@ -145,14 +162,19 @@ class Surface {
     const isSegment = kind !== 'field' && kind !== 'plain';
     const key = isSegment ? kind : 'field';
     if (!this.geometries.has(key)) {  // one kind of segments at a time is kept: they are as large as the mesh
-      for (const [other, geometry] of this.geometries) if (other !== 'field') { geometry.dispose(); this.geometries.delete(other); }
+      for (const [other, geometry] of this.geometries)
+        if (other !== 'field') {
+          geometry.dispose();
+          this.geometries.delete(other);
+        }
       this.geometries.set(key, this.parts.segments(this.method, kind));
     }
     this.object.geometry = this.geometries.get(key);
     const uniforms = this.material.uniforms;
     uniforms.coloring.value = isSegment ? 1 : kind === 'plain' ? 2 : 0;
     const {low, high} = this.method.values, width = scale.high - scale.low;
-    uniforms.scale.value.set(width > 0 ? (low - scale.low) / width : 0.5, width > 0 ? (high - low) / width : 0);
+    uniforms.scale.value.set(
+        width > 0 ? (low - scale.low) / width : 0.5, width > 0 ? (high - low) / width : 0);
     if (!this.textures.has(scale.bytes)) this.textures.set(scale.bytes, rampTexture(scale.bytes));
     uniforms.ramp.value = this.textures.get(scale.bytes);
   }

@@ -1,4 +1,5 @@
-// The models, side by side on one canvas (browsers allow few WebGL contexts), drawn only when something changed.
+// The models, side by side on one canvas (browsers allow few WebGL contexts), drawn only when something
+// changed.
 
 /** One method's model: its part of the canvas, its objects, its camera. */
 class View {
@@ -17,13 +18,15 @@ class View {
     const room = Math.sqrt(parts.area / Math.max(1, this.method.points.count));
     this.radius = Math.min(0.0105, Math.max(0.0032, 0.16 * room));
 
-    this.area = make('div', {class: 'view', tabindex: '0', role: 'application', 'aria-roledescription': 'model'});
+    this.area =
+        make('div', {class: 'view', tabindex: '0', role: 'application', 'aria-roledescription': 'model'});
     this.caption = make('div', {class: 'caption'});
     this.bar = make('div', {class: 'bar'});
     this.low = make('span');
     this.middle = make('span');
     this.high = make('span');
-    this.legend = make('div', {class: 'legend'}, this.bar, make('div', {class: 'ends'}, this.low, this.middle, this.high));
+    this.legend = make(
+        'div', {class: 'legend'}, this.bar, make('div', {class: 'ends'}, this.low, this.middle, this.high));
     this.area.append(this.caption, this.legend);
   }
 
@@ -51,14 +54,16 @@ class View {
       }
     const uniforms = this.spheres.material.uniforms;
     this.spheres.setThreshold(state.threshold);
-    this.spheres.select(state.selected !== null && state.selected.method === this.number ? state.selected.point : -1);
+    this.spheres.select(
+        state.selected !== null && state.selected.method === this.number ? state.selected.point : -1);
     uniforms.kinds.value.set(...[1, 2, 3].map((type) => (state.types[type] ? 1 : 0)));
     uniforms.radius.value = this.drawnRadius = this.radius * state.size;
 
     const counts = [0, 0, 0, 0], {points} = this.method;
     const count = shownCount(points.rankedShown, state.threshold);
     for (let rank = 0; rank < count; ++rank) ++counts[points.type[points.ranking[rank]]];
-    const texts = [1, 2, 3].map((type) => `${formatCount(counts[type])} ${['', 'minima', 'saddles', 'maxima'][type]}`);
+    const texts =
+        [1, 2, 3].map((type) => `${formatCount(counts[type])} ${['', 'minima', 'saddles', 'maxima'][type]}`);
     this.caption.replaceChildren(this.method.name, make('small', {}, texts.join(', ')));
     this.area.setAttribute('aria-label', `${this.method.name}: ${texts.join(', ')}`);
     this.legend.hidden = state.surface !== 'field';
@@ -77,8 +82,10 @@ class Viewer {
     this.page = page;
     this.state = state;
     this.canvas = element('canvas');
-    const context = this.canvas.getContext('webgl2', {antialias: true, alpha: true, powerPreference: 'high-performance'});
-    if (context === null) throw new Error('this browser shows no WebGL 2, which the models need; numbers and plots are below');
+    const context =
+        this.canvas.getContext('webgl2', {antialias: true, alpha: true, powerPreference: 'high-performance'});
+    if (context === null)
+      throw new Error('this browser shows no WebGL 2, which the models need; numbers and plots are below');
     this.renderer = new THREE.WebGLRenderer({canvas: this.canvas, context, antialias: true, alpha: true});
     this.renderer.autoClear = false;
     this.parts = new SurfaceParts(page.mesh);
@@ -95,7 +102,9 @@ class Viewer {
   }
 
   moved(view) {
-    if (this.state.linked) for (const other of this.views) if (other !== view) other.orbit.copy(view.orbit);
+    if (this.state.linked)
+      for (const other of this.views)
+        if (other !== view) other.orbit.copy(view.orbit);
     this.draw();
   }
 
@@ -109,8 +118,9 @@ class Viewer {
   click(view, event) {
     const box = view.area.getBoundingClientRect();
     const {state} = this;
-    const i = pickPoint(this.page.mesh, view.camera, view.spheres, (k) => view.isShown(state, k), view.drawnRadius,
-      event.clientX - box.left, event.clientY - box.top, box.width, box.height);
+    const i = pickPoint(
+        this.page.mesh, view.camera, view.spheres, (k) => view.isShown(state, k), view.drawnRadius,
+        event.clientX - box.left, event.clientY - box.top, box.width, box.height);
     this.onPick(i < 0 ? null : {method: view.number, point: i});
   }
 
@@ -118,8 +128,13 @@ class Viewer {
   placeOnPage(method, point) {
     const view = this.views[method], box = view.area.getBoundingClientRect();
     const at = projectPoint(view.camera, view.spheres.centers, point, box.width, box.height);
-    return {x: box.left + at.x, y: box.top + at.y,
-      hidden: isHidden(this.page.mesh, view.camera.position.toArray(), [0, 1, 2].map((c) => view.spheres.centers[3 * point + c]), view.drawnRadius)};
+    return {
+      x: box.left + at.x,
+      y: box.top + at.y,
+      hidden: isHidden(
+          this.page.mesh, view.camera.position.toArray(),
+          [0, 1, 2].map((c) => view.spheres.centers[3 * point + c]), view.drawnRadius)
+    };
   }
 
   /** After the state has changed. */
@@ -157,9 +172,11 @@ class Viewer {
     const begin = performance.now();
     const box = this.canvas.getBoundingClientRect();
     const narrow = matchMedia('(max-width: 860px)').matches;
-    element('views').style.setProperty('--columns', this.columns(this.views.filter((view) => !view.area.hidden).length));
+    element('views').style.setProperty(
+        '--columns', this.columns(this.views.filter((view) => !view.area.hidden).length));
     // no larger than what every device can draw on
-    const ratio = Math.min(window.devicePixelRatio, narrow ? 2 : 3, 4096 / Math.max(box.width, box.height, 1));
+    const ratio =
+        Math.min(window.devicePixelRatio, narrow ? 2 : 3, 4096 / Math.max(box.width, box.height, 1));
     const {renderer} = this;
     renderer.setPixelRatio(ratio);
     renderer.setSize(box.width, box.height, false);
@@ -178,7 +195,7 @@ class Viewer {
       view.spheres.projection.copy(view.camera.projectionMatrix);
       for (const arcs of Object.values(view.arcs)) {
         arcs.material.uniforms.viewport.value.set(part.width * ratio, part.height * ratio);
-        arcs.material.uniforms.width.value = 1.9 * ratio;
+        arcs.material.uniforms.width.value = 2.2 * ratio;
       }
       renderer.render(view.scene, view.camera);
     }
@@ -186,7 +203,8 @@ class Viewer {
     if (this.state.frameTime) {
       const pixel = new Uint8Array(4), gl = renderer.getContext();
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);  // waits until all is drawn
-      element('frame').textContent = `${(performance.now() - begin).toFixed(1)} ms, ${formatCount(renderer.info.render.triangles)} triangles a model`;
+      element('frame').textContent = `${(performance.now() - begin).toFixed(1)} ms, ${
+          formatCount(renderer.info.render.triangles)} triangles a model`;
     } else {
       element('frame').textContent = '';
     }
