@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "morsel/persistence/pairing.h"
