@@ -190,7 +190,7 @@ class Viewer(ProgramTest):
         page.run("morsel.viewer.views[0].area.focus()")
         before = page.run(DRAWN)["hash"]
         seen = {before}
-        for key in ("ArrowLeft", "ArrowUp", "+", "-", "ArrowRight"):
+        for key in ("ArrowLeft", "ArrowUp", "+", "ArrowRight", "-"):
             page.press(key)
             seen.add(page.run(DRAWN)["hash"])
         self.assertEqual(len(seen), 6)

@@ -22,6 +22,12 @@ std::vector<Index> by_falling_persistence(const mscomplex::MorseSmaleComplex& co
   return order;
 }
 
+/// Which corner of the triangle the vertex is.
+std::size_t corner_of(const TriangleMesh& mesh, Index triangle, Index vertex) {
+  const auto& corners = mesh.triangle(triangle);
+  return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+}
+
 void close_path(ArcPaths& paths, Index saddle, std::size_t first_cell, std::uint8_t end) {
   paths.saddle.push_back(saddle);
   paths.length.push_back(static_cast<std::uint32_t>(paths.cells.size() - first_cell));
@@ -57,7 +63,8 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
   const TriangleMesh& mesh = complex.mesh();
   ArcPaths paths;
   std::vector<bool> walked(mesh.triangle_count(), false);
-  std::vector<Index> top(mesh.triangle_count(), kNone);  // of critical triangles: the maximum's vertex
+  std::vector<bool> begun(3 * mesh.triangle_count(), false);  // by corner: from the saddle there
+  std::vector<Index> top(mesh.triangle_count(), kNone);       // of critical triangles: the maximum's vertex
   for (const mscomplex::CriticalCell& maximum : gradient.maxima()) top[maximum.cell] = maximum.vertex;
   for (const Index i : by_falling_persistence(complex, persistence)) {
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
@@ -73,6 +80,9 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
         continue;
       }
       Index t = TriangleMesh::triangle_of(side);
+      const std::size_t corner_of_saddle = 3 * std::size_t{t} + corner_of(mesh, t, saddle.vertex);
+      if (begun[corner_of_saddle]) continue;  // two critical edges of a multiple saddle at one triangle
+      begun[corner_of_saddle] = true;
       while (true) {
         paths.cells.push_back(t);
         if (walked[t]) break;
@@ -86,9 +96,7 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
         if (exit != kNone) {
           end = static_cast<std::uint8_t>(ArcPaths::kEndSide + exit % 3);
         } else {
-          const auto& corners = mesh.triangle(t);
-          const auto corner = std::find(corners.begin(), corners.end(), top[t]) - corners.begin();
-          end = static_cast<std::uint8_t>(ArcPaths::kEndCorner + corner);
+          end = static_cast<std::uint8_t>(ArcPaths::kEndCorner + corner_of(mesh, t, top[t]));
         }
         break;
       }
