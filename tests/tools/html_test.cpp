@@ -3,12 +3,17 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <limits>
 #include <map>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "morsel/persistence/pairing.h"
+#include "morsel/mscomplex/hierarchy.h"
 #include "morsel/tools/html/arc_paths.h"
+#include "morsel/tools/html/arc_reach.h"
 #include "morsel/tools/html/command_line.h"
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -25,9 +30,8 @@ using Piece = std::array<double, 6>;
 
 Piece piece(const Point& a, const Point& b) { return {a[0], a[1], a[2], b[0], b[1], b[2]}; }
 
-/// The straight pieces of the polylines, each with its saddle's persistence: read as the page reads them.
-std::multimap<Piece, double> drawn(const TriangleMesh& mesh, const ArcPaths& paths, mscomplex::ArcKind kind,
-                                   const std::vector<double>& persistence) {
+/// The straight pieces of the polylines, each with its reach: read as the page reads them.
+std::multimap<Piece, double> drawn(const TriangleMesh& mesh, const ArcPaths& paths, mscomplex::ArcKind kind) {
   const auto middle = [&](Index h) -> Point {
     return (mesh.position(mesh.origin(h)) + mesh.position(mesh.target(h))) / 2;
   };
@@ -57,29 +61,35 @@ std::multimap<Piece, double> drawn(const TriangleMesh& mesh, const ArcPaths& pat
       else if (end >= ArcPaths::kEndCorner)
         line.push_back(mesh.position(mesh.triangle(cells.back())[end - ArcPaths::kEndCorner]));
     }
-    for (std::size_t i = 1; i < line.size(); ++i)
-      pieces.emplace(piece(line[i - 1], line[i]), persistence[paths.saddle[p]]);
+    for (std::size_t i = 1; i < line.size(); ++i) pieces.emplace(piece(line[i - 1], line[i]), paths.reach[p]);
   }
   REQUIRE(first == paths.cells.size());
   return pieces;
 }
 
-/// The pieces of all arcs as the complex traces them, each with the largest persistence of a saddle whose arc goes
-/// there.
-std::map<Piece, double> traced(const mscomplex::MorseSmaleComplex& complex, mscomplex::ArcKind kind,
-                               const std::vector<double>& persistence) {
-  std::map<Piece, double> pieces;
+/// The pieces of all arcs as the complex traces them.
+std::set<Piece> traced(const mscomplex::MorseSmaleComplex& complex, mscomplex::ArcKind kind) {
+  std::set<Piece> pieces;
   std::vector<Point> line;
   for (Index arc = 0; arc < complex.arc_count(); ++arc) {
     if (mscomplex::MorseSmaleComplex::arc_kind(arc) != kind) continue;
     complex.trace(arc, line);
-    const double own = persistence[complex.node(complex.arc_saddle(arc)).vertex];
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      const auto at = pieces.emplace(piece(line[i - 1], line[i]), own).first;
-      at->second = std::max(at->second, own);
-    }
+    for (std::size_t i = 1; i < line.size(); ++i) pieces.insert(piece(line[i - 1], line[i]));
   }
   return pieces;
+}
+
+/// Pieces without a direction, and without those that end at one of `left_out`.
+template <class Pieces>
+std::set<Piece> compared(const Pieces& pieces, const std::set<std::array<double, 3>>& left_out) {
+  std::set<Piece> result;
+  for (const Piece& p : pieces) {
+    std::array<double, 3> a = {p[0], p[1], p[2]}, b = {p[3], p[4], p[5]};
+    if (left_out.count(a) > 0 || left_out.count(b) > 0) continue;
+    if (b < a) std::swap(a, b);
+    result.insert({a[0], a[1], a[2], b[0], b[1], b[2]});
+  }
+  return result;
 }
 
 /// The same triangles with each piece of their lines in a place of its own.
@@ -94,35 +104,113 @@ TriangleMesh in_general_position(const TriangleMesh& mesh, unsigned seed) {
   return {std::move(positions), std::move(triangles)};
 }
 
-void check_paths(const core::ScalarField& field) {
-  const mscomplex::MorseSmaleComplex complex(field);
-  const std::vector<double> persistence =
-      persistence::vertex_persistence(persistence::pair_extrema(field), field.mesh().vertex_count());
+ArcPaths paths_of(const mscomplex::PersistenceHierarchy& hierarchy, mscomplex::ArcKind kind) {
+  const std::vector<double> reach = tools::html::arc_reach(hierarchy, kind);
+  return kind == mscomplex::ArcKind::descending ? tools::html::descending_paths(hierarchy.complex(), reach)
+                                                : tools::html::ascending_paths(hierarchy.complex(), reach);
+}
+
+/// At level 0 the pieces are those of the complex, each once.
+void check_paths(const mscomplex::PersistenceHierarchy& hierarchy) {
   for (const auto kind : {mscomplex::ArcKind::descending, mscomplex::ArcKind::ascending}) {
-    const ArcPaths paths = kind == mscomplex::ArcKind::descending
-                               ? tools::html::descending_paths(complex, persistence)
-                               : tools::html::ascending_paths(complex, persistence);
-    const auto got = drawn(field.mesh(), paths, kind, persistence);
-    const auto expected = traced(complex, kind, persistence);
+    const auto got = drawn(hierarchy.complex().mesh(), paths_of(hierarchy, kind), kind);
+    const std::set<Piece> expected = traced(hierarchy.complex(), kind);
     REQUIRE(got.size() == expected.size());
-    REQUIRE(std::equal(got.begin(), got.end(), expected.begin()));
+    REQUIRE(std::equal(got.begin(), got.end(), expected.begin(),
+                       [](const auto& one, const Piece& other) { return one.first == other; }));
   }
+}
+
+/// The saddles whose arcs of a kind those of a level are concatenated of, followed arc by arc.
+std::set<Index> concatenated(const mscomplex::PersistenceHierarchy& hierarchy, mscomplex::ArcKind kind,
+                             Index level) {
+  std::map<Index, Index> cancelled_by;  // node of an extremum: cancellation
+  std::vector<Index> turn(hierarchy.complex().saddle_count(), core::kNone);
+  for (Index i = 0; i < hierarchy.cancellations().size(); ++i) {
+    cancelled_by[hierarchy.cancellations()[i].extremum] = i;
+    turn[hierarchy.cancellations()[i].arc / 4] = i;
+  }
+  std::set<Index> used;
+  const std::function<void(Index, Index)> follow = [&](Index saddle, Index time) {
+    used.insert(saddle);
+    for (Index arc = 4 * saddle; arc < 4 * saddle + 4; ++arc) {
+      if (mscomplex::MorseSmaleComplex::arc_kind(arc) != kind) continue;
+      Index end = hierarchy.complex().arc_end(arc);
+      for (auto at = cancelled_by.find(end); at != cancelled_by.end() && at->second < time;
+           at = cancelled_by.find(end)) {
+        const mscomplex::Cancellation& c = hierarchy.cancellations()[at->second];
+        follow(c.arc / 4, at->second);
+        end = c.survivor;
+      }
+      REQUIRE(end == hierarchy.arc_end(arc, time));
+    }
+  };
+  for (Index s = 0; s < turn.size(); ++s)
+    if (turn[s] == core::kNone || turn[s] >= level) follow(s, level);
+  return used;
+}
+
+/// Above a threshold the arcs are those that a level's are concatenated of, and along them run those of the complex in the
+/// gradient with cancelled V-paths turned round; but for the last steps to what is cancelled, where ascending lines go by the
+/// saddle's vertex instead of the middle of its edge.
+void check_level(const core::ScalarField& field, const mscomplex::PersistenceHierarchy& hierarchy,
+                 double threshold) {
+  const TriangleMesh& mesh = field.mesh();
+  const Index level = hierarchy.level_above(threshold);
+  const mscomplex::MorseSmaleComplex simple(field, hierarchy.gradient(level));
+  std::set<std::array<double, 3>> cancelled;
+  const auto add = [&](const Point& p) { cancelled.insert({p[0], p[1], p[2]}); };
+  for (Index i = 0; i < level; ++i) {
+    const mscomplex::Cancellation& c = hierarchy.cancellations()[i];
+    const mscomplex::CriticalCell& saddle = hierarchy.complex().gradient().saddles()[c.arc / 4];
+    const auto ends = mesh.edge_vertices(saddle.cell);
+    add(mesh.position(saddle.vertex));
+    add((mesh.position(ends[0]) + mesh.position(ends[1])) / 2);
+    if (mscomplex::MorseSmaleComplex::arc_kind(c.arc) == mscomplex::ArcKind::ascending)
+      add(mesh.position(hierarchy.complex().node(c.extremum).vertex));
+  }
+  for (const auto kind : {mscomplex::ArcKind::descending, mscomplex::ArcKind::ascending}) {
+    const std::vector<double> reach = tools::html::arc_reach(hierarchy, kind);
+    std::set<Index> reaching;
+    for (Index s = 0; s < reach.size(); ++s)
+      if (reach[s] > threshold) reaching.insert(s);
+    REQUIRE(reaching == concatenated(hierarchy, kind, level));
+
+    std::set<Piece> shown;
+    for (const auto& [p, until] : drawn(mesh, paths_of(hierarchy, kind), kind))
+      if (until > threshold) shown.insert(p);
+    const std::set<std::array<double, 3>> none;
+    const auto& left_out = kind == mscomplex::ArcKind::ascending ? cancelled : none;
+    const std::set<Piece> got = compared(shown, left_out),
+                          expected = compared(traced(simple, kind), left_out);
+    REQUIRE(std::includes(got.begin(), got.end(), expected.begin(), expected.end()));
+  }
+}
+
+void check_levels(const core::ScalarField& field) {
+  const mscomplex::PersistenceHierarchy hierarchy(field);
+  check_paths(hierarchy);
+  const std::size_t count = hierarchy.cancellations().size();
+  for (const std::size_t i : {count / 4, count / 2, count - count / 8})
+    if (i < count) check_level(field, hierarchy, hierarchy.cancellations()[i].persistence);
+  check_level(field, hierarchy, std::numeric_limits<double>::max());
 }
 
 }  // namespace
 
 TEST_CASE(
-    "a page's polylines are the arcs, each piece once, with the most persistent saddle that leads there") {
+    "a page's polylines are the arcs, each piece once, and above a threshold those of the cancelled "
+    "complex") {
   for (const auto& [mesh_name, mesh] : mesh_zoo())
     for (const auto& [field_name, field] : field_zoo(mesh, 7)) {
       INFO(mesh_name << ", " << field_name);
-      check_paths(field);
+      check_paths(mscomplex::PersistenceHierarchy(field));
     }
   for (unsigned seed = 0; seed < 300; ++seed) {
     const TriangleMesh mesh = in_general_position(random_surface(seed), seed);
     INFO("random surface " << seed);
-    check_paths({mesh, random_values(mesh.vertex_count(), seed)});
-    check_paths({mesh, tied_values(mesh.vertex_count(), 3, seed)});
+    check_levels({mesh, random_values(mesh.vertex_count(), seed)});
+    check_levels({mesh, tied_values(mesh.vertex_count(), 3, seed)});
   }
 }
 

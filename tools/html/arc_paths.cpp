@@ -10,15 +10,11 @@ using core::Index;
 using core::kNone;
 using core::TriangleMesh;
 
-/// The saddles, the most persistent first; among equals as the complex has them.
-std::vector<Index> by_falling_persistence(const mscomplex::MorseSmaleComplex& complex,
-                                          std::span<const double> persistence) {
-  const auto saddles = complex.gradient().saddles();
-  std::vector<Index> order(saddles.size());
+/// The saddles, the one with the largest reach first; among equals as the complex has them.
+std::vector<Index> by_falling_reach(std::span<const double> reach) {
+  std::vector<Index> order(reach.size());
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-    return persistence[saddles[a].vertex] > persistence[saddles[b].vertex];
-  });
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return reach[a] > reach[b]; });
   return order;
 }
 
@@ -28,19 +24,20 @@ std::size_t corner_of(const TriangleMesh& mesh, Index triangle, Index vertex) {
   return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
 }
 
-void close_path(ArcPaths& paths, Index saddle, std::size_t first_cell, std::uint8_t end) {
+void close_path(ArcPaths& paths, Index saddle, double reach, std::size_t first_cell, std::uint8_t end) {
   paths.saddle.push_back(saddle);
+  paths.reach.push_back(reach);
   paths.length.push_back(static_cast<std::uint32_t>(paths.cells.size() - first_cell));
   paths.end.push_back(end);
 }
 
 }  // namespace
 
-ArcPaths descending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<const double> persistence) {
+ArcPaths descending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<const double> reach) {
   const mscomplex::DiscreteGradient& gradient = complex.gradient();
   ArcPaths paths;
   std::vector<bool> walked(complex.mesh().vertex_count(), false);  // from the vertex down
-  for (const Index i : by_falling_persistence(complex, persistence)) {
+  for (const Index i : by_falling_reach(reach)) {
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
     for (const Index start : complex.mesh().edge_vertices(saddle.cell)) {
       const std::size_t first = paths.cells.size();
@@ -52,13 +49,13 @@ ArcPaths descending_paths(const mscomplex::MorseSmaleComplex& complex, std::span
         paths.cells.push_back(v);
       }
       if (v != kNone) paths.cells.push_back(v);
-      close_path(paths, saddle.vertex, first, ArcPaths::kEndThere);
+      close_path(paths, saddle.vertex, reach[i], first, ArcPaths::kEndThere);
     }
   }
   return paths;
 }
 
-ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<const double> persistence) {
+ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<const double> reach) {
   const mscomplex::DiscreteGradient& gradient = complex.gradient();
   const TriangleMesh& mesh = complex.mesh();
   ArcPaths paths;
@@ -66,7 +63,7 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
   std::vector<bool> begun(3 * mesh.triangle_count(), false);  // by corner: from the saddle there
   std::vector<Index> top(mesh.triangle_count(), kNone);       // of critical triangles: the maximum's vertex
   for (const mscomplex::CriticalCell& maximum : gradient.maxima()) top[maximum.cell] = maximum.vertex;
-  for (const Index i : by_falling_persistence(complex, persistence)) {
+  for (const Index i : by_falling_reach(reach)) {
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
     const Index edge_side = mesh.edge_halfedge(saddle.cell);
     for (const Index side : {edge_side, mesh.twin(edge_side)}) {
@@ -75,7 +72,7 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
       if (side == kNone) {  // a boundary edge: straight into the cap
         const Index t = TriangleMesh::triangle_of(edge_side);
         paths.cells.push_back(t);
-        close_path(paths, saddle.vertex, first,
+        close_path(paths, saddle.vertex, reach[i], first,
                    static_cast<std::uint8_t>(ArcPaths::kOnlySide + edge_side % 3));
         continue;
       }
@@ -100,7 +97,7 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
         }
         break;
       }
-      close_path(paths, saddle.vertex, first, end);
+      close_path(paths, saddle.vertex, reach[i], first, end);
     }
   }
   return paths;

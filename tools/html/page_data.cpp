@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "morsel/core/parallel.h"
-#include "morsel/persistence/diagram.h"
 #include "morsel/tools/html/arc_paths.h"
+#include "morsel/tools/html/arc_reach.h"
 
 namespace morsel::tools::html {
 namespace {
@@ -89,6 +89,7 @@ Json write_pairs(const MethodOutcome& outcome, Buffers& buffers) {
 Json write_paths(ArcPaths paths, const std::vector<morse::CriticalPoint>& points, Buffers& buffers) {
   for (std::uint32_t& saddle : paths.saddle) saddle = number_of(points, saddle);
   return {{"saddle", buffers.add_deltas(paths.saddle)},
+          {"reach", buffers.add(paths.reach)},
           {"length", buffers.add_deltas(paths.length)},
           {"end", buffers.add(paths.end)},
           {"cells", buffers.add_deltas(paths.cells)}};
@@ -126,8 +127,8 @@ Json write_mesh(const core::LoadedMesh& loaded, Buffers& buffers) {
 
 Json write_method(const MethodOutcome& outcome, Buffers& buffers) {
   const Measurement& m = outcome.measurement;
-  const std::vector<double> persistence =
-      persistence::vertex_persistence(m.diagram, outcome.field.mesh().vertex_count());
+  const mscomplex::PersistenceHierarchy hierarchy(outcome.field, m.complex);
+  const auto reach = [&](mscomplex::ArcKind kind) { return arc_reach(hierarchy, kind); };
   const std::vector<morse::CriticalPoint>& points = m.critical_points.points;
   Json section = {{"name", outcome.specification}};
   section["values"] = write_values(outcome.field, buffers);
@@ -135,8 +136,11 @@ Json write_method(const MethodOutcome& outcome, Buffers& buffers) {
   section["pairs"] = write_pairs(outcome, buffers);
   section["segments"] = {{"ascending", buffers.add_deltas(m.segmentation.ascending.triangle)},
                          {"descending", buffers.add_deltas(m.segmentation.descending.triangle)}};
-  section["arcs"] = {{"descending", write_paths(descending_paths(m.complex, persistence), points, buffers)},
-                     {"ascending", write_paths(ascending_paths(m.complex, persistence), points, buffers)}};
+  section["arcs"] = {
+      {"descending",
+       write_paths(descending_paths(m.complex, reach(mscomplex::ArcKind::descending)), points, buffers)},
+      {"ascending",
+       write_paths(ascending_paths(m.complex, reach(mscomplex::ArcKind::ascending)), points, buffers)}};
   return section;
 }
 

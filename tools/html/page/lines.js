@@ -11,6 +11,8 @@ function arcPieces(mesh, method, kind) {
       (c) => (positions[3 * corners[3 * t] + c] + positions[3 * corners[3 * t + 1] + c] +
               positions[3 * corners[3 * t + 2] + c]) /
           3);
+  const numberOf = new Map();  // of the critical point at a vertex
+  points.vertex.forEach((v, i) => numberOf.set(v, i));
   const side = (t, i) => middle(corners[3 * t + i], corners[3 * t + (i + 1) % 3]);
   const shared = (t, u) => {
     for (let i = 0; i < 3; ++i) {
@@ -22,14 +24,14 @@ function arcPieces(mesh, method, kind) {
   };
   let first = 0;
   for (let p = 0; p < paths.saddle.length; ++p) {
-    const persistence = points.shown[paths.saddle[p]];
+    const reach = Math.min(paths.reach[p], 3e38);  // as shaders compare it
     const cells = paths.cells.subarray(first, first + paths.length[p]), end = paths.end[p];
     first += paths.length[p];
     let before = null;
-    const go = (to) => {
+    const go = (to, until = reach) => {
       if (before !== null) {
         ends.push(...before, ...to);
-        shown.push(persistence);
+        shown.push(until);
       }
       before = to;
     };
@@ -49,10 +51,12 @@ function arcPieces(mesh, method, kind) {
     const lastCell = cells[cells.length - 1];
     if (end >= 4)
       go(side(lastCell, end - 4));
-    else if (end >= 1)
-      go(at(corners[3 * lastCell + end - 1]));
+    else if (end >= 1) {
+      const top = corners[3 * lastCell + end - 1];  // a maximum that is hidden is passed by
+      go(at(top), Math.min(reach, points.shown[numberOf.get(top)]));
+    }
   }
-  // by falling persistence, so that a threshold ends them; polylines come so but for rounding
+  // by falling persistence, so that a threshold ends them
   const order = Array.from({length: shown.length}, (_, k) => k).sort((a, b) => shown[b] - shown[a] || a - b);
   const sorted = new Float32Array(ends.length);
   order.forEach((k, n) => {
