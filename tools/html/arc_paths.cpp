@@ -60,8 +60,8 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
   const TriangleMesh& mesh = complex.mesh();
   ArcPaths paths;
   std::vector<bool> walked(mesh.triangle_count(), false);
-  std::vector<bool> begun(3 * mesh.triangle_count(), false);  // by corner: from the saddle there
-  std::vector<Index> top(mesh.triangle_count(), kNone);       // of critical triangles: the maximum's vertex
+  std::vector<bool> begun(3 * std::size_t{mesh.triangle_count()}, false);  // by corner: from the saddle there
+  std::vector<Index> top(mesh.triangle_count(), kNone);  // of critical triangles: the maximum's vertex
   for (const mscomplex::CriticalCell& maximum : gradient.maxima()) top[maximum.cell] = maximum.vertex;
   for (const Index i : by_falling_reach(reach)) {
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
