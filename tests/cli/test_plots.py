@@ -115,8 +115,8 @@ class Plots(ProgramTest):
             colors = {data[i:i + 3] for i in range(0, len(data), 3)}
             self.assertIn(b"\xff\xff\xff", colors)
             self.assertGreater(len(colors), 50)
-            # An even margin, of 6 points of 1/72 inch at 300 pixels an inch, but for what antialiasing adds.
-            row, margin = 3 * width, 20
+            # A margin of 6 points of 1/72 inch at 300 pixels an inch, of which numbers at the ends of axes take half.
+            row, margin = 3 * width, 10
             self.assertEqual(set(data[:margin * row]) | set(data[-margin * row:]), {0xff})
             for y in range(0, height, 7):
                 line = data[y * row:(y + 1) * row]

@@ -257,6 +257,8 @@ TEST_CASE("plots without data, with one point and of one value can be drawn") {
   }
   Plot only_infinite = of_points({1}, {kInfinity});
   CHECK_THAT(svg_of(only_infinite), Contains("h0"));
+  only_infinite.diagonal = true;  // once refused: no finite death was taken for an infinite one
+  CHECK_THAT(svg_of(only_infinite), Contains("h0"));
 }
 
 TEST_CASE("a million marks become a small file that says so") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -69,6 +70,12 @@ double linear_part(std::span<const MethodCurves> methods) {
   // Far from 0 a logarithm spreads nothing.
   if (std::min(std::abs(lowest), std::abs(highest)) > largest / 10 && lowest * highest > 0) return 0;
   return std::pow(10, std::floor(std::log10(largest / kDecades)));
+}
+
+/// Of lines that may run along one another (a cancelled field keeps all other pairs): each shows the ones below it.
+Dash dash_of(std::size_t line) {
+  constexpr Dash kDashes[] = {Dash::solid, Dash::dashed, Dash::dotted, Dash::dash_dot};
+  return kDashes[(line + line / std::size(kPalette)) % std::size(kDashes)];
 }
 
 Plot diagrams(std::span<const MethodCurves> methods, const std::string& field) {
@@ -150,6 +157,7 @@ Plot persistence_plot(const std::vector<MethodCurves>& methods, const std::strin
     series.name = methods[m].name;
     series.draw = Draw::steps;
     set_line_style(series, m);
+    series.dash = dash_of(m);
     const auto first = std::upper_bound(persistences.begin(), persistences.end(), least);
     auto left =
         static_cast<std::size_t>(persistences.end() - first);  // pairs of at least the next persistence

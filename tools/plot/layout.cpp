@@ -219,6 +219,7 @@ class Layouter {
     };
     const auto most = static_cast<std::size_t>(kMarksAnArea * frame_width_ * finite_height_);
     for (const Series& series : panel.series) {
+      if (series.x.empty()) continue;
       std::vector<Spot> spots;
       spots.reserve(series.x.size() * (series.draw == Draw::steps ? 2 : 1));
       for (std::size_t i = 0; i < series.x.size(); ++i) {

@@ -25,8 +25,8 @@ struct Bounds {
     upper = std::max(upper, value);
   }
   void add(const Bounds& other) {
-    add(other.lower);
-    add(other.upper);
+    lower = std::min(lower, other.lower);
+    upper = std::max(upper, other.upper);
   }
 };
 
