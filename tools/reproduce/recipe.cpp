@@ -61,12 +61,12 @@ std::span<const FigureRecipe> figures() {
        "The full complex (a) is too complicated for many uses; that of the salient critical points (b) is "
        "simpler "
        "and more uniform.",
-       {{.title = "of Figure 1(b)",
+       {{.title = "full complex of Figure 1(b)",
          .method = "conventional",
          .show = Show::morse_smale,
          .arcs = true,
          .paper = "7,629 critical points"},
-        {.title = "of Figure 1(d)",
+        {.title = "complex of Figure 1(d)",
          .method = "salient:iterations=10,range=local,support=1",
          .show = Show::morse_smale,
          .arcs = true,
