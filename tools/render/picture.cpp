@@ -59,11 +59,13 @@ View Studio::view(const std::string& name, UpAxis up, const core::Progress& prog
 
 std::vector<bool> Studio::shown(const View& view, double least_cosine) const {
   std::vector<char> seen(body_.mesh.vertex_count());  // not bool: threads write side by side
-  const Vec3 direction = view.toward.cast<float>();
+  const core::Point eye = fit_camera(body_.mesh.positions(), view, 1).eye;
   core::parallel_for_each(seen.size(), [&](std::size_t v) {
-    const Vec3 normal = body_.normals[v].cast<float>();
-    const Vec3 start = body_.mesh.position(static_cast<core::Index>(v)).cast<float>() + 1e-4f * normal;
-    seen[v] = body_.normals[v].dot(view.toward) >= least_cosine && !rays_.any(start, direction, 1e-4f, kFar);
+    const core::Point& normal = body_.normals[v];
+    const core::Point start = body_.mesh.position(static_cast<core::Index>(v)) + 1e-4 * normal;
+    const core::Point way = (eye - start).normalized();
+    seen[v] =
+        normal.dot(way) >= least_cosine && !rays_.any(start.cast<float>(), way.cast<float>(), 1e-4f, kFar);
   });
   return {seen.begin(), seen.end()};
 }

@@ -61,8 +61,8 @@ class Studio {
   /// "best", or what named_view() takes.
   View view(const std::string& name, UpAxis up = UpAxis::y, const core::Progress& progress = {}) const;
 
-  /// For each vertex, whether the view shows it: it faces the viewer, the cosine being at least `least_cosine`,
-  /// and nothing is in between.
+  /// For each vertex, whether a square picture shows it: it faces the camera, the cosine being at least
+  /// `least_cosine`, and nothing is in between. Parallel.
   std::vector<bool> shown(const View& view, double least_cosine) const;
 
   /// Throws InvalidArgument on options out of range, a subject of another mesh, or one without a measurement

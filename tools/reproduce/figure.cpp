@@ -107,6 +107,7 @@ std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutco
   if (options.repair) add({"--repair"});
   if (request.show != Show::field) add({"--show", name_of(request.show)});
   if (!request.points) add({"--no-points"});
+  if (!request.legend) add({"--no-legend"});
   if (request.arcs && request.show == Show::field) add({"--arcs"});
   if (request.scale.limits)
     add({"--range=" + core::shortest(request.scale.limits->first) + "/" +
@@ -205,6 +206,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     request.show = panel.recipe->show;
     request.points = panel.recipe->points;
     request.arcs = panel.recipe->arcs;
+    request.legend = panel.recipe->region != Region::close_up;  // that of the whole picture serves
     request.scale = scales.of(*panel.recipe);
     if (figure.region && panel.recipe->region != Region::none)
       (panel.recipe->region == Region::framed ? request.frame : request.close_up) =
