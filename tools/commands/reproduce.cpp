@@ -12,10 +12,10 @@ namespace {
 int make_again(reproduce::Request request, const CommonOptions& common, Console& console) {
   request.repair = common.repair;
   const reproduce::Prepared prepared = reproduce::prepare(request);
+  const reproduce::Reproduction reproduction = reproduce::run(prepared, console.progress());
   for (std::size_t i = 0; i < prepared.files.size(); ++i)
     console.message(std::string(reproduce::models()[i].name) + ": " + prepared.files[i].path.string() +
                     (prepared.files[i].is_sample ? " (a sample mesh in its place)" : ""));
-  const reproduce::Reproduction reproduction = reproduce::run(prepared, console.progress());
   std::cout << reproduce::table_text(reproduction);
   console.message("page: " + (request.folder / "index.html").string());
   return kDone;

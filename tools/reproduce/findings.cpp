@@ -40,7 +40,7 @@ std::string fewer_and_where(const FigureOutcome& figure) {
          " (in the paper 6.5 %). The saliency at a critical point is above that of " +
          percent(mean_rank(saliency, all.measurement.critical_points)) + " of the vertices in (b) and of " +
          percent(mean_rank(saliency, left.measurement.critical_points)) +
-         " in (d), in the mean; 50 % were chance.";
+         " in (d), in the mean; by chance it would be 50 %.";
 }
 
 std::string simpler_complex(const FigureOutcome& figure) {

@@ -34,9 +34,21 @@ std::string html(std::string_view text) {
   return safe;
 }
 
+/// Keys of a method, with a place to break the line after each.
+std::string breakable(std::string_view keys) {
+  std::string text = html(keys);
+  for (std::size_t at = 0; (at = text.find(',', at)) != std::string::npos; at += 6)
+    text.insert(at + 1, "<wbr>");
+  return text;
+}
+
 std::string seconds_text(double seconds) {
   char text[32];
-  std::snprintf(text, sizeof text, seconds < 0.995 ? "%.2f s" : "%.1f s", seconds);
+  std::snprintf(text, sizeof text,
+                seconds < 0.0995  ? "%.3f s"
+                : seconds < 0.995 ? "%.2f s"
+                                  : "%.1f s",
+                seconds);
   return text;
 }
 
@@ -85,7 +97,7 @@ std::string table_section(const Reproduction& reproduction) {
       "class=\"table\"><thead><tr>"
       "<th>Model</th><th>Vertices</th><th>Figure</th><th>Iterations</th><th>The paper</th>";
   for (const TableSetting& setting : table_settings())
-    text += "<th>" + html(setting.keys) + "<small>" + html(setting.note) + "</small></th>";
+    text += "<th>" + breakable(setting.keys) + "<small>" + html(setting.note) + "</small></th>";
   text += "</tr></thead><tbody>\n";
   const Model* before = nullptr;
   for (const TableRowOutcome& row : reproduction.table) {

@@ -31,16 +31,16 @@ struct ModelRecipe {
 enum class Region : std::uint8_t { none, framed, close_up };
 
 struct PanelRecipe {
-  std::string_view title;
+  std::string_view title = {};
   /// A method as the command line words it; "{c}" in it stands for the number of critical points of panel (c).
-  std::string_view method;
+  std::string_view method = {};
   render::Show show = render::Show::field;
   bool points = true;
   bool arcs = false;
   /// Panels of a figure with the same word share the range of their colours; empty: its own.
-  std::string_view scale;
+  std::string_view scale = {};
   Region region = Region::none;
-  std::string_view paper;  ///< the paper's number
+  std::string_view paper = {};  ///< the paper's number
 };
 
 struct FigureOutcome;
