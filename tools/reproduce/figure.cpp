@@ -18,7 +18,10 @@ namespace {
 
 using render::Show;
 
-constexpr double kFacing = 0.5;  // the least cosine at which a region can be looked into
+// Least cosines between normal and line of sight: at which one can look into a region, and see a point.
+constexpr double kFacing = 0.7;
+constexpr double kSeen = 0.2;
+constexpr core::Length kRegion = core::Length::epsilons(8);  // σ, as far as smoothing looks
 
 std::string letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
 
@@ -193,7 +196,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     };
     const ComparedRegion region =
         most_different_region(model.mesh(), points(0), points(1), model.studio().shown(view, kFacing),
-                              model.studio().shown(view, 0), render::Inset{}.radius);
+                              model.studio().shown(view, kSeen), kRegion);
     if (region.vertex != core::kNone) figure.region = region;
   }
   if (!recipe.hierarchy_levels.empty()) figure.levels = count_links(recipe, model, progress);

@@ -63,7 +63,7 @@ std::string region_compared(const FigureOutcome& figure) {
       grouped(figure.panels[1].run->total()) + ", for " + grouped(figure.panels[2].run->total()) + " in (c).";
   if (figure.region) {
     const core::Index vertex = figure.model->loaded().source.numbering.input_vertex(figure.region->vertex);
-    text += " (d) and (e) show the place where this view has most points of (b) more than of (c) within " +
+    text += " (d) and (e) show the place in this view where (b) has most points more than (c) within " +
             core::to_string(figure.region->radius) + ": around vertex " + grouped(vertex) +
             ", where TPS keeps " + grouped(figure.region->first) + " and salient smoothing " +
             grouped(figure.region->second) + ".";

@@ -1,7 +1,6 @@
 #pragma once
 /// What came out of the recipes.
 
-#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -60,7 +59,7 @@ class Model {
 /// Where two panels differ most.
 struct ComparedRegion {
   core::Index vertex = core::kNone;  ///< the mesh's number
-  core::Length radius = render::Inset{}.radius;
+  core::Length radius;
   std::size_t first = 0;  ///< critical points of the first panel that the picture shows within the radius
   std::size_t second = 0;
 };

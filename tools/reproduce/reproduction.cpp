@@ -1,8 +1,5 @@
 #include "morsel/tools/reproduce/reproduction.h"
 
-#include <algorithm>
-#include <array>
-#include <optional>
 #include <string_view>
 #include <utility>
 

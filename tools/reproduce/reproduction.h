@@ -1,9 +1,7 @@
 #pragma once
 /// All of it: figures, table, numbers and page in one folder.
 
-#include <array>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
