@@ -1,5 +1,6 @@
 // What the recipes of figures are made with: finding meshes, regions, and close-ups. Pictures are compared by
 // tests/cli/test_reproduce.py.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
