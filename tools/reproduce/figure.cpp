@@ -18,9 +18,8 @@ namespace {
 
 using render::Show;
 
-// Least cosines between normal and line of sight: at which one can look into a region, and see a point.
+// The least cosine between normal and line of sight at which one can look into a region.
 constexpr double kFacing = 0.7;
-constexpr double kSeen = 0.2;
 constexpr core::Length kRegion = core::Length::epsilons(8);  // σ, as far as smoothing looks
 
 std::string letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
@@ -194,9 +193,8 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     const auto points = [&](std::size_t i) -> const morse::CriticalPoints& {
       return figure.panels[(*recipe.compared)[i]].run->measurement.critical_points;
     };
-    const ComparedRegion region =
-        most_different_region(model.mesh(), points(0), points(1), model.studio().shown(view, kFacing),
-                              model.studio().shown(view, kSeen), kRegion);
+    const ComparedRegion region = most_different_region(model.mesh(), points(0), points(1),
+                                                        model.studio().shown(view, kFacing), kRegion);
     if (region.vertex != core::kNone) figure.region = region;
   }
   if (!recipe.hierarchy_levels.empty()) figure.levels = count_links(recipe, model, progress);

@@ -60,7 +60,7 @@ class Model {
 struct ComparedRegion {
   core::Index vertex = core::kNone;  ///< the mesh's number
   core::Length radius;
-  std::size_t first = 0;  ///< critical points of the first panel that the picture shows within the radius
+  std::size_t first = 0;  ///< critical points of the first panel within the radius
   std::size_t second = 0;
 };
 

@@ -10,11 +10,9 @@ namespace {
 using core::Index;
 using core::Point;
 
-std::vector<Point> seen_positions(const core::TriangleMesh& mesh, const morse::CriticalPoints& points,
-                                  const std::vector<bool>& seen) {
+std::vector<Point> positions_of(const core::TriangleMesh& mesh, const morse::CriticalPoints& points) {
   std::vector<Point> positions;
-  for (const morse::CriticalPoint& point : points.points)
-    if (seen[point.vertex]) positions.push_back(mesh.position(point.vertex));
+  for (const morse::CriticalPoint& point : points.points) positions.push_back(mesh.position(point.vertex));
   return positions;
 }
 
@@ -22,9 +20,9 @@ std::vector<Point> seen_positions(const core::TriangleMesh& mesh, const morse::C
 
 ComparedRegion most_different_region(const core::TriangleMesh& mesh, const morse::CriticalPoints& first,
                                      const morse::CriticalPoints& second, const std::vector<bool>& places,
-                                     const std::vector<bool>& seen, const core::Length& radius) {
-  const std::vector<Point> a = seen_positions(mesh, first, seen);
-  const std::vector<Point> b = seen_positions(mesh, second, seen);
+                                     const core::Length& radius) {
+  const std::vector<Point> a = positions_of(mesh, first);
+  const std::vector<Point> b = positions_of(mesh, second);
   const core::PointSearch near_a(a), near_b(b);
   const double reach = radius.on(mesh);
 
