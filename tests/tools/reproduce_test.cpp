@@ -197,18 +197,18 @@ TEST_CASE("a view shows what faces it and what nothing hides") {
     if (cosine > 0.85) CHECK(middle[v]);
   }
   // A small sphere in front of a large one hides a part of it.
-  Soup far = sphere(3), near = sphere(2);
-  const double size = far.positions[0].norm();
-  for (Point& p : near.positions) p = 0.3 * p + Point(0, 0, 3 * size);
-  const TriangleMesh two = together(far, near).mesh();
+  Soup both = together(sphere(3), sphere(2));  // side by side
+  const std::vector<Point> near = sphere(2).positions;
+  for (std::size_t i = 0; i < near.size(); ++i)
+    both.positions[mesh.vertex_count() + i] = 0.3 * near[i] + Point(0, 0, 3);
+  const TriangleMesh two = both.mesh();
   const std::vector<bool> shown = render::Studio(two).shown(view, 0.1);
   const Point eye = render::fit_camera(two.positions(), view, 1).eye;
   int hidden = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Point& p = mesh.position(v);
     const Point way = (eye - p).normalized();
-    const double past =
-        (Point(0, 0, 3 * size) - p).cross(way).norm() / size;  // of the way to the small sphere's centre
+    const double past = (Point(0, 0, 3) - p).cross(way).norm();  // of the way to the small sphere's centre
     if (p.normalized().dot(way) < 0.15) continue;
     if (past < 0.27) CHECK_FALSE(shown[v]);
     if (past > 0.31) CHECK(shown[v]);
