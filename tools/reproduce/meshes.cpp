@@ -59,6 +59,7 @@ std::optional<fs::path> find_model(const ModelRecipe& model, const std::vector<f
   if (found.empty()) return std::nullopt;
   if (found.size() == 1) return found.front();
   std::vector<std::string> names;
+  names.reserve(found.size());
   for (const fs::path& mesh : found) names.push_back(mesh.filename().string());
   throw core::BadInput(std::to_string(found.size()) + " meshes in " + found.front().parent_path().string() +
                        " could be the " + std::string(model.name) + ": " + listed(names) +
