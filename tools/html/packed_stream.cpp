@@ -6,26 +6,14 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
-#include <string>
 #include <vector>
+
+#include "morsel/tools/report/base64.h"
 
 namespace morsel::tools::html {
 namespace {
 
 constexpr std::size_t kBlock = 3 * 16384;  // whole groups of three bytes
-
-/// Three bytes become four characters; a last group that is not whole is padded.
-std::string base64(const std::uint8_t* data, std::size_t size) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text((size + 2) / 3 * 4, '=');
-  for (std::size_t i = 0, k = 0; i < size; i += 3, k += 4) {
-    const std::size_t bytes = std::min<std::size_t>(3, size - i);
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < bytes; ++b) group |= std::uint32_t{data[i + b]} << (16 - 8 * b);
-    for (std::size_t c = 0; c <= bytes; ++c) text[k + c] = kDigits[group >> (18 - 6 * c) & 63];
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -40,7 +28,7 @@ struct PackedStream::State {
   State& operator=(const State&) = delete;
 
   void write_block() {
-    file.write(base64(block.data(), kBlock - stream.avail_out));
+    file.write(base64({reinterpret_cast<const char*>(block.data()), kBlock - stream.avail_out}));
     stream.next_out = block.data();
     stream.avail_out = kBlock;
   }
