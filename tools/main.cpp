@@ -55,6 +55,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_quads(app, invocation);
   add_render(app, invocation);
   add_reproduce(app, invocation);
+  add_stability(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
