@@ -23,7 +23,7 @@ struct Preset {
 };
 
 constexpr Preset kPaper = {"paper", 10, core::Length::epsilons(8), core::Length::absolute(0)};
-constexpr Preset kRobust = {"robust", 10, core::Length::epsilons(8), core::Length::edges(1.6)};
+constexpr Preset kRobust = {"robust", 1, core::Length::edges(1.5), core::Length::edges(2)};
 
 class Salient final : public core::Method {
  public:
