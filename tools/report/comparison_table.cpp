@@ -1,24 +1,12 @@
 #include "morsel/tools/report/comparison_table.h"
 
-#include <cstdio>
-
 #include "morsel/core/parameters.h"
 #include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
-namespace {
-
-std::string fixed(double value, const char* format) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
-}  // namespace
-
 std::string field_line(const FieldOutcome& outcome) {
-  return outcome.name + ": " + fixed(outcome.field.min(), "%.6g") + " to " +
-         fixed(outcome.field.max(), "%.6g") + " on " + grouped(outcome.field.mesh().vertex_count()) +
+  return outcome.name + ": " + formatted(outcome.field.min(), "%.6g") + " to " +
+         formatted(outcome.field.max(), "%.6g") + " on " + grouped(outcome.field.mesh().vertex_count()) +
          " vertices";
 }
 
@@ -40,7 +28,7 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
        grouped(m.diagram.count_above(0.01 * outcome.field.extent()) + m.diagram.cap_pairs().size()),
        grouped(m.complex.arc_count()), grouped(m.segmentation.morse_smale.count),
        grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
-       fixed(seconds, "%.2f")});
+       formatted(seconds, "%.2f")});
   if (outcome.target && !outcome.target->note.empty())
     notes_ += outcome.specification + ": " + outcome.target->note + "\n";
 }

@@ -109,14 +109,19 @@ Json target_section(const TargetOutcome& target, const core::VertexNumbering& nu
           {"note", target.note}};
 }
 
+Json method_section(const MethodChain& chain, const ChainOutcome& outcome,
+                    const core::VertexNumbering& numbering) {
+  Json section = {{"name", chain.name}};
+  section.update(steps_section(outcome.steps));
+  if (outcome.target) section["target"] = target_section(*outcome.target, numbering);
+  section["min"] = outcome.field.min();
+  section["max"] = outcome.field.max();
+  return section;
+}
+
 Json method_section(const FieldRecipe& recipe, const MadeField& made,
                     const core::VertexNumbering& numbering) {
-  Json section = {{"name", recipe.chain.name}};
-  section.update(steps_section(made.outcome.steps));
-  if (made.outcome.target) section["target"] = target_section(*made.outcome.target, numbering);
-  section["min"] = made.field().min();
-  section["max"] = made.field().max();
-  return section;
+  return method_section(recipe.chain, made.outcome, numbering);
 }
 
 }  // namespace morsel::tools

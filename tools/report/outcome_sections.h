@@ -35,6 +35,8 @@ Json steps_section(const std::vector<StepOutcome>& steps);
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering);
 /// The method that made a field: {"name", "parameters", "details", "iterations", "target" (if there was one),
 /// "min", "max"}
+Json method_section(const MethodChain& chain, const ChainOutcome& outcome,
+                    const core::VertexNumbering& numbering);
 Json method_section(const FieldRecipe& recipe, const MadeField& made, const core::VertexNumbering& numbering);
 
 }  // namespace morsel::tools

@@ -1,6 +1,7 @@
 #include "morsel/tools/report/text_table.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace morsel::tools {
 
@@ -9,6 +10,12 @@ std::string grouped(std::uint64_t number) {
   for (auto place = static_cast<std::ptrdiff_t>(text.size()) - 3; place > 0; place -= 3)
     text.insert(static_cast<std::size_t>(place), ",");
   return text;
+}
+
+std::string formatted(double value, const char* format) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
 }
 
 std::size_t display_width(const std::string& text) {

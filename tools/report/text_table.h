@@ -10,6 +10,9 @@ namespace morsel::tools {
 /// 1234567 → "1,234,567".
 std::string grouped(std::uint64_t number);
 
+/// As std::printf() writes it ("%.2f").
+std::string formatted(double value, const char* format);
+
 /// Rows of cells, the first row a header, aligned: the first column to the left, the others to the right.
 std::string text_table(const std::vector<std::vector<std::string>>& rows);
 

@@ -1,0 +1,158 @@
+// morsel stability: how well critical points repeat on perturbed surfaces.
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/stability_table.h"
+#include "morsel/tools/report/stability_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  StabilityRequest request;
+  std::string output;
+};
+
+void write(std::ostream& out, bool as_csv, const StabilityReport& report) {
+  if (as_csv) {
+    write_stability_csv(out, report);
+    return;
+  }
+  JsonStream json(out);
+  write_stability(json, report);
+}
+
+int measure_stability(const Options& options, const CommonOptions& common, Console& console) {
+  // Wrong names and unwritable targets are told before the work, not after it.
+  const PreparedStability prepared = prepare(options.request);
+  const StabilityRequest request = with_defaults(options.request);
+  const bool to_stdout = options.output == "-";
+  const std::string extension = core::file_extension(options.output);
+  if (!options.output.empty() && !to_stdout && extension != ".json" && extension != ".csv")
+    throw core::InvalidArgument("cannot write " + options.output + ": the output is a .json or a .csv file");
+  std::optional<core::FileWriter> file;
+  if (!options.output.empty() && !to_stdout) file.emplace(options.output);
+
+  const Stopwatch load_watch;
+  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
+  const StabilityResult result = run_stability(input.loaded, prepared, console.progress());
+  const StabilityReport report{input.loaded, about, request, prepared, result};
+  if (to_stdout) write(std::cout, false, report);
+  if (file) {
+    write(file->stream(), extension == ".csv", report);
+    file->commit();
+  }
+  if (!to_stdout) std::cout << stability_table(prepared, result);
+  if (file) console.message("stability: " + options.output);
+  return kDone;
+}
+
+void add_perturbation_options(CLI::App& command, StabilityRequest& request) {
+  command
+      .add_option("--noise", request.noise,
+                  "Gaussian noise of these standard deviations, in mean edge lengths (default, if no\n"
+                  "perturbation is given: 0.05,0.15,0.3,0.5)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("S,S,...");
+  command
+      .add_option("--kind", request.noise_kind,
+                  "Noise along the vertex normals (normal) or in x, y and z independently (isotropic)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, NoiseKind>{
+          {"normal", NoiseKind::normal}, {"isotropic", NoiseKind::isotropic}}))
+      ->type_name("KIND")
+      ->default_str("normal");
+  command
+      .add_option("--decimate", request.decimate,
+                  "Edges collapsed, short ones first, until these shares of the vertices are left")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("R,R,...");
+  command
+      .add_option("--subdivide", request.subdivide,
+                  "Every edge cut into so many equal pieces, the surface staying the same")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("N,N,...");
+  command.add_option("--trials", request.trials, "Trials of each random perturbation")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--seed", request.seed, "Of the random numbers: a trial depends on it and its number")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_stability(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  StabilityRequest& request = options->request;
+  CLI::App& command = *app.add_subcommand(
+      "stability",
+      "How well critical points repeat on perturbed surfaces: with noise, with fewer vertices, with more");
+  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_option("--field", request.fields, "Morse function (below); may be given several times")
+      ->type_name("F")
+      ->allow_extra_args(false)
+      ->default_str("mean-curvature");
+  command
+      .add_option("--method", request.methods,
+                  "A method or chain of methods (below); may be given several times\n"
+                  "(default: conventional, salient and tps)")
+      ->type_name("M")
+      ->allow_extra_args(false);
+  add_perturbation_options(command, request);
+  add_target_option(command, request.target);
+  command.get_option("--target")
+      ->description(
+          "Besides each method's own count, end with so many critical points, or with the nearest smaller\n"
+          "number that can be had: as much of the (last) method as leaves enough of them, persistence\n"
+          "cancellation for the rest");
+  command
+      .add_option("--radius", request.radius,
+                  "Points match within this length, or this percentage of the bounding box's diagonal")
+      ->type_name("R")
+      ->capture_default_str();
+  command.add_option("--points", request.points, "Which points are held against each other: all or extrema")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, PointChoice>{{"all", PointChoice::all}, {"extrema", PointChoice::extrema}}))
+      ->type_name("WHICH")
+      ->default_str("all");
+  command
+      .add_option(
+          "--reference", request.reference,
+          "Agreement is the share of a method's clean points that this method has too, ended with as\n"
+          "many points by persistence cancellation")
+      ->type_name("M")
+      ->capture_default_str();
+  command
+      .add_option("--reference-field", request.reference_field,
+                  "Morse function of the reference (default: the first --field)")
+      ->type_name("F");
+  command
+      .add_option(
+          "-o,--output", options->output,
+          "Write every trial (.json) or a row for each method and perturbation (.csv) here; - is JSON\n"
+          "on standard output")
+      ->type_name("OUT");
+  add_common_options(command, invocation.common);
+  command.footer(specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return measure_stability(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

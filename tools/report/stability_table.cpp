@@ -1,0 +1,85 @@
+#include "morsel/tools/report/stability_table.h"
+
+#include <vector>
+
+#include "morsel/core/parameters.h"
+#include "morsel/tools/report/comparison_table.h"
+#include "morsel/tools/report/text_table.h"
+
+namespace morsel::tools {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string rounded(const Estimate& estimate, double unit = 1) {
+  return estimate.count == 0 ? "" : formatted(estimate.mean / unit, "%.3f");
+}
+
+std::string width(const Estimate& estimate) {
+  return estimate.half_width ? formatted(*estimate.half_width, "%.3f") : "";
+}
+
+class Tables {
+ public:
+  Tables(const PreparedStability& prepared, const StabilityResult& result)
+      : prepared_(prepared), result_(result) {}
+
+  std::string text() const {
+    std::string text;
+    for (const FieldOutcome& field : result_.fields) text += field_line(field) + "\n";
+    text += std::to_string(prepared_.trials) + (prepared_.trials == 1 ? " trial" : " trials") + ", seed " +
+            std::to_string(prepared_.seed) + "; " +
+            (prepared_.points == PointChoice::all ? "points" : "extrema") + " matched within " +
+            formatted(result_.radius, "%.6g") + "; mean edge length " +
+            formatted(result_.mean_edge_length, "%.6g") + ", the unit of noise and drift\n";
+    for (const std::optional<std::size_t>& target : prepared_.targets)
+      text += (target ? "\nTarget " + std::to_string(*target) : "\nEach method's own count") + "\n" +
+              text_table(clean_rows(target)) + "\n" + text_table(perturbed_rows(target));
+    return text;
+  }
+
+ private:
+  std::string name(const StabilityOutcome& outcome) const {
+    const std::string& method = prepared_.chains[outcome.method].specification;
+    if (prepared_.functions.size() == 1) return method;
+    return prepared_.functions[outcome.field].specification + ", " + method;
+  }
+
+  Rows clean_rows(const std::optional<std::size_t>& target) const {
+    Rows rows = {{"clean surface", "minima", "saddles", "maxima", "total", "matched", "agreement"}};
+    for (const StabilityOutcome& outcome : result_.outcomes) {
+      if (outcome.target != target) continue;
+      rows.push_back({name(outcome), grouped(outcome.points.minima), grouped(outcome.points.saddles),
+                      grouped(outcome.points.maxima), grouped(outcome.points.total()),
+                      grouped(outcome.with_reference.found), formatted(outcome.agreement(), "%.3f")});
+    }
+    return rows;
+  }
+
+  Rows perturbed_rows(const std::optional<std::size_t>& target) const {
+    Rows rows = {
+        {"perturbation", "method", "points", "F", "\u00b1", "recall", "precision", "drift", "chance"}};
+    for (std::size_t p = 0; p < prepared_.perturbations.size(); ++p)
+      for (const StabilityOutcome& outcome : result_.outcomes) {
+        if (outcome.target != target) continue;
+        const PerturbationOutcome& perturbed = outcome.perturbations[p];
+        const Estimate f = perturbed.f_score();
+        rows.push_back({to_string(perturbed.perturbation), name(outcome),
+                        formatted(perturbed.found().mean, "%.1f"), rounded(f), width(f),
+                        rounded(perturbed.recall()), rounded(perturbed.precision()),
+                        rounded(perturbed.drift(), result_.mean_edge_length), rounded(perturbed.chance())});
+      }
+    return rows;
+  }
+
+  const PreparedStability& prepared_;
+  const StabilityResult& result_;
+};
+
+}  // namespace
+
+std::string stability_table(const PreparedStability& prepared, const StabilityResult& result) {
+  return Tables(prepared, result).text();
+}
+
+}  // namespace morsel::tools

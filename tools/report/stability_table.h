@@ -1,0 +1,13 @@
+#pragma once
+/// The outcome of a stability run as tables for people.
+
+#include <string>
+
+#include "morsel/tools/stability/stability.h"
+
+namespace morsel::tools {
+
+/// For each count (the methods' own, the wanted one) the clean points, then a row for each perturbation and method.
+std::string stability_table(const PreparedStability& prepared, const StabilityResult& result);
+
+}  // namespace morsel::tools

@@ -1,0 +1,217 @@
+#include "morsel/tools/report/stability_writer.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/parameters.h"
+#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/version.h"
+
+namespace morsel::tools {
+namespace {
+
+Json estimate_section(const Estimate& estimate) {
+  if (estimate.count == 0) return nullptr;
+  return {{"mean", estimate.mean},
+          {"deviation", estimate.count > 1 ? Json(estimate.deviation) : Json()},
+          {"half_width", estimate.half_width ? Json(*estimate.half_width) : Json()}};
+}
+
+Json request_section(const StabilityRequest& request, bool repair) {
+  Json asked = {{"fields", request.fields},
+                {"methods", request.methods},
+                {"noise", request.noise},
+                {"kind", to_string(request.noise_kind)},
+                {"decimate", request.decimate},
+                {"subdivide", request.subdivide},
+                {"trials", request.trials},
+                {"seed", request.seed},
+                {"radius", request.radius},
+                {"points", to_string(request.points)},
+                {"reference_field", request.reference_field},
+                {"reference", request.reference},
+                {"repair", repair}};
+  if (request.target) asked["target"] = *request.target;
+  return asked;
+}
+
+Cell cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(nullptr); }
+
+void write_trials(JsonSink& json, const PerturbationOutcome& perturbed, double edge) {
+  json.begin_array("runs");
+  for (std::size_t t = 0; t < perturbed.trials.size(); ++t) {
+    const Trial& trial = perturbed.trials[t];
+    const Agreement& agreement = trial.agreement;
+    std::optional<double> drift = agreement.drift();
+    if (drift) *drift /= edge;
+    json.row({{"trial", std::uint64_t{t + 1}},
+              {"minima", std::uint64_t{trial.points.minima}},
+              {"saddles", std::uint64_t{trial.points.saddles}},
+              {"saddle_multiplicity", std::uint64_t{trial.points.saddle_multiplicity}},
+              {"maxima", std::uint64_t{trial.points.maxima}},
+              {"found", std::uint64_t{agreement.found}},
+              {"matched", std::uint64_t{agreement.matched}},
+              {"recall", agreement.recall()},
+              {"precision", agreement.precision()},
+              {"f_score", agreement.f_score()},
+              {"drift", cell(drift)},
+              {"chance", trial.chance}});
+  }
+  json.end_array();
+}
+
+Estimate in_edges(Estimate drift, double edge) {
+  drift.mean /= edge;
+  drift.deviation /= edge;
+  if (drift.half_width) *drift.half_width /= edge;
+  return drift;
+}
+
+void write_perturbation(JsonSink& json, const PerturbationOutcome& perturbed, double edge) {
+  const Perturbation& perturbation = perturbed.perturbation;
+  json.begin_object();
+  json.member("perturbation", to_string(perturbation.kind));
+  json.member("amount", perturbation.amount);
+  json.member("trials", perturbed.trials.size());
+  json.member("points", estimate_section(perturbed.found()));
+  json.member("recall", estimate_section(perturbed.recall()));
+  json.member("precision", estimate_section(perturbed.precision()));
+  json.member("f_score", estimate_section(perturbed.f_score()));
+  json.member("drift", estimate_section(in_edges(perturbed.drift(), edge)));
+  json.member("chance", estimate_section(perturbed.chance()));
+  write_trials(json, perturbed, edge);
+  json.end_object();
+}
+
+void write_outcome(JsonSink& json, const StabilityReport& report, const StabilityOutcome& outcome) {
+  json.begin_object();
+  json.member("field", report.prepared.functions[outcome.field].specification);
+  json.member("method", report.prepared.chains[outcome.method].specification);
+  json.member("target", outcome.target ? Json(*outcome.target) : Json());
+  json.begin_object("clean");
+  Json made =
+      method_section(report.prepared.chains[outcome.method], outcome.clean, report.loaded.source.numbering);
+  made.erase("iterations");  // they are not counted
+  for (const auto& [key, value] : made.items()) json.member(key, value);
+  json.member("critical_points", counts_section(outcome.points));
+  json.member("points", outcome.with_reference.found);
+  json.end_object();
+  json.member("agreement", {{"share", outcome.agreement()},
+                            {"matched", outcome.with_reference.matched},
+                            {"reference_points", outcome.with_reference.reference}});
+  json.begin_array("perturbations");
+  for (const PerturbationOutcome& perturbed : outcome.perturbations)
+    write_perturbation(json, perturbed, report.result.mean_edge_length);
+  json.end_array();
+  json.end_object();
+}
+
+/// A line of comma-separated values.
+class CsvLine {
+ public:
+  void add(std::string_view text) {
+    next();
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+      line_ += text;
+      return;
+    }
+    line_ += '"';
+    for (const char c : text) line_ += c == '"' ? std::string("\"\"") : std::string(1, c);
+    line_ += '"';
+  }
+  void add(double value) { add(core::shortest(value)); }
+  void add(const std::optional<double>& value) { value ? add(*value) : next(); }
+  void add(std::uint64_t value) { add(std::to_string(value)); }
+  void add(const Estimate& estimate) {
+    add(estimate.count > 0 ? std::optional(estimate.mean) : std::nullopt);
+    add(estimate.half_width);
+  }
+  const std::string& text() const { return line_; }
+
+ private:
+  void next() {
+    if (!first_) line_ += ',';
+    first_ = false;
+  }
+  std::string line_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+void write_stability(JsonSink& json, const StabilityReport& report) {
+  const StabilityResult& result = report.result;
+  const double diagonal = report.loaded.mesh.bounding_box().diagonal();
+  json.begin_object();
+  json.member("schema", "morsel.stability/1");
+  json.member("tool", tool_section());
+  json.member("request", request_section(report.request, report.input.repair));
+  json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded.mesh,
+                                   report.loaded.source.repairs));
+  json.member("matching", {{"radius", result.radius},
+                           {"radius_of_diagonal", result.radius / diagonal},
+                           {"mean_edge_length", result.mean_edge_length},
+                           {"confidence", kConfidence},
+                           {"placements", kPlacements}});
+  json.begin_array("fields");
+  for (std::size_t f = 0; f < result.fields.size(); ++f) {
+    Json section = {{"specification", report.prepared.functions[f].specification}};
+    section.update(field_section(result.fields[f]));
+    json.begin_object();
+    for (const auto& [key, value] : section.items()) json.member(key, value);
+    json.end_object();
+  }
+  json.end_array();
+  json.begin_array("outcomes");
+  for (const StabilityOutcome& outcome : result.outcomes) write_outcome(json, report, outcome);
+  json.end_array();
+  json.member("timings",
+              {{"load", report.input.load_seconds},
+               {"clean", result.clean_seconds},
+               {"trials", result.trial_seconds},
+               {"total", report.input.load_seconds + result.clean_seconds + result.trial_seconds}});
+  json.end_object();
+}
+
+void write_stability_csv(std::ostream& out, const StabilityReport& report) {
+  out << "version,mesh,sha256,seed,radius,compared,field,field_parameters,method,method_parameters,target,"
+         "clean_points,agreement,perturbation,amount,kind,trials,points,points_half_width,f_score,"
+         "f_score_half_width,recall,recall_half_width,precision,precision_half_width,drift,drift_half_width,"
+         "chance,chance_half_width\n";
+  const StabilityResult& result = report.result;
+  for (const StabilityOutcome& outcome : result.outcomes)
+    for (const PerturbationOutcome& perturbed : outcome.perturbations) {
+      const Perturbation& perturbation = perturbed.perturbation;
+      const bool is_noise = perturbation.kind == PerturbationKind::noise;
+      CsvLine line;
+      line.add(kVersion);
+      line.add(report.input.mesh_path);
+      line.add(report.input.mesh_sha256);
+      line.add(std::uint64_t{report.prepared.seed});
+      line.add(result.radius);
+      line.add(to_string(report.prepared.points));
+      line.add(report.prepared.functions[outcome.field].specification);
+      line.add(json_text(to_json(result.fields[outcome.field].parameters)));
+      line.add(report.prepared.chains[outcome.method].specification);
+      line.add(json_text(steps_section(outcome.clean.steps)["parameters"]));
+      line.add(outcome.target ? std::to_string(*outcome.target) : "");
+      line.add(std::uint64_t{outcome.with_reference.found});
+      line.add(outcome.agreement());
+      line.add(to_string(perturbation.kind));
+      line.add(perturbation.amount);
+      line.add(is_noise ? to_string(perturbation.direction) : "");
+      line.add(std::uint64_t{perturbed.trials.size()});
+      line.add(perturbed.found());
+      line.add(perturbed.f_score());
+      line.add(perturbed.recall());
+      line.add(perturbed.precision());
+      line.add(in_edges(perturbed.drift(), result.mean_edge_length));
+      line.add(perturbed.chance());
+      out << line.text() << '\n';
+    }
+}
+
+}  // namespace morsel::tools

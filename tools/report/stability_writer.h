@@ -1,0 +1,29 @@
+#pragma once
+/// What a stability run found, as a JSON document ("morsel.stability/1", see stability.schema.json) and as CSV.
+
+#include <ostream>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/stability/stability.h"
+
+namespace morsel::tools {
+
+/// A run; refers to all of it.
+struct StabilityReport {
+  const core::LoadedMesh& loaded;
+  const ReportInput& input;
+  const StabilityRequest& request;  ///< with its defaults
+  const PreparedStability& prepared;
+  const StabilityResult& result;
+};
+
+/// The whole document, every trial included.
+void write_stability(JsonSink& json, const StabilityReport& report);
+
+/// A row for each count, field, method and perturbation, with the means over the trials; each tells the program's version,
+/// the mesh with its hash, the seed and all resolved parameters. Without timings, so always the same bytes.
+void write_stability_csv(std::ostream& out, const StabilityReport& report);
+
+}  // namespace morsel::tools
