@@ -1,9 +1,12 @@
 // morsel stability: how well critical points repeat on perturbed surfaces.
 
+#include <algorithm>
+#include <initializer_list>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_extension.h"
@@ -57,6 +60,25 @@ int measure_stability(const Options& options, const CommonOptions& common, Conso
   return kDone;
 }
 
+/// An option whose values are named by to_string(); the first is the default.
+template <class Choice>
+void add_choice(CLI::App& command, const std::string& name, Choice& chosen,
+                std::initializer_list<Choice> choices, const std::string& description) {
+  std::vector<std::string> names;
+  for (const Choice choice : choices) names.emplace_back(to_string(choice));
+  const std::vector<Choice> values = choices;
+  command
+      .add_option_function<std::string>(
+          name,
+          [&chosen, names, values](const std::string& text) {
+            chosen = values[static_cast<std::size_t>(std::ranges::find(names, text) - names.begin())];
+          },
+          description)
+      ->check(CLI::IsMember(names))
+      ->default_str(names.front())
+      ->type_name("WHICH");
+}
+
 void add_perturbation_options(CLI::App& command, StabilityRequest& request) {
   command
       .add_option("--noise", request.noise,
@@ -65,13 +87,8 @@ void add_perturbation_options(CLI::App& command, StabilityRequest& request) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("S,S,...");
-  command
-      .add_option("--kind", request.noise_kind,
-                  "Noise along the vertex normals (normal) or in x, y and z independently (isotropic)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, NoiseKind>{
-          {"normal", NoiseKind::normal}, {"isotropic", NoiseKind::isotropic}}))
-      ->type_name("KIND")
-      ->default_str("normal");
+  add_choice(command, "--kind", request.noise_kind, {NoiseKind::normal, NoiseKind::isotropic},
+             "Noise along the vertex normals (normal) or in x, y and z independently (isotropic)");
   command
       .add_option("--decimate", request.decimate,
                   "Edges collapsed, short ones first, until these shares of the vertices are left")
@@ -124,11 +141,8 @@ void add_stability(CLI::App& app, Invocation& invocation) {
                   "Points match within this length, or this percentage of the bounding box's diagonal")
       ->type_name("R")
       ->capture_default_str();
-  command.add_option("--points", request.points, "Which points are held against each other: all or extrema")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, PointChoice>{{"all", PointChoice::all}, {"extrema", PointChoice::extrema}}))
-      ->type_name("WHICH")
-      ->default_str("all");
+  add_choice(command, "--points", request.points, {PointChoice::all, PointChoice::extrema},
+             "Which points are held against each other: all or extrema");
   command
       .add_option(
           "--reference", request.reference,

@@ -1,0 +1,201 @@
+"""morsel stability: how critical points repeat on perturbed surfaces, its files and its errors."""
+
+import csv
+import json
+import os
+import unittest
+
+import jsonschema
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+
+STABILITY_SCHEMA = SCHEMA.parent / "stability.schema.json"
+LION = SAMPLES / "lion-head.off"
+SMALL = SAMPLES / "mushroom.off"
+ALL = ("--noise", "0.1,0.3", "--decimate", "0.8", "--subdivide", "2", "--trials", "2", "--target", "30")
+
+
+class Stability(ProgramTest):
+    def stability(self, *arguments, name="stability.json"):
+        self.morsel("stability", *arguments, "-o", name)
+        return json.loads((self.folder / name).read_text())
+
+    def f_scores(self, document):
+        return {(o["field"], o["method"], o["target"], p["perturbation"], p["amount"]): p["f_score"]["mean"]
+                for o in document["outcomes"] for p in o["perturbations"]}
+
+
+class Results(Stability):
+    def test_no_noise_repeats_exactly(self):
+        document = self.stability(SMALL, "--noise", "0", "--radius", "0", "--trials", "2")
+        self.assertEqual(len(document["outcomes"]), 3)
+        for outcome in document["outcomes"]:
+            perturbed, = outcome["perturbations"]
+            for what in ("recall", "precision", "f_score"):
+                self.assertEqual(perturbed[what], {"mean": 1, "deviation": 0, "half_width": 0})
+            self.assertEqual(perturbed["drift"]["mean"], 0)
+            self.assertLess(perturbed["chance"]["mean"], 1)
+
+    def test_the_lion_head(self):
+        document = self.stability(LION, "--method", "conventional", "--method", "laplacian:iterations=30",
+                                  "--noise", "0.05,0.3", "--trials", "2", "--target", "148")
+        jsonschema.validate(document, json.loads(STABILITY_SCHEMA.read_text()))
+        self.assertEqual([(o["target"], o["method"]) for o in document["outcomes"]],
+                         [(target, method) for target in (None, 148)
+                          for method in ("conventional", "laplacian:iterations=30")])
+        raw = document["outcomes"][0]
+        self.assertEqual(raw["clean"]["critical_points"]["total"], 1895)
+        self.assertEqual(raw["agreement"], {"share": 1, "matched": 1895, "reference_points": 1895})
+        for outcome in document["outcomes"][2:]:
+            self.assertIn(outcome["clean"]["critical_points"]["total"], (147, 148))
+            self.assertEqual(outcome["clean"]["target"]["wanted"], 148)
+        f = self.f_scores(document)
+        method = "laplacian:iterations=30"
+        # At equal counts smoothing repeats better under little noise, and chance is far below.
+        self.assertGreater(f["mean-curvature", method, 148, "noise", 0.05],
+                           f["mean-curvature", "conventional", 148, "noise", 0.05] + 0.1)
+        for outcome in document["outcomes"][2:]:
+            for perturbed in outcome["perturbations"]:
+                self.assertLess(2 * perturbed["chance"]["mean"], perturbed["f_score"]["mean"])
+
+    def test_figures_are_consistent(self):
+        document = self.stability(SMALL, *ALL)
+        for outcome in document["outcomes"]:
+            clean = outcome["clean"]["points"]
+            for perturbed in outcome["perturbations"]:
+                self.assertEqual(len(perturbed["runs"]), 1 if perturbed["perturbation"] == "subdivision" else 2)
+                for run in perturbed["runs"]:
+                    self.assertEqual(run["found"], run["minima"] + run["saddles"] + run["maxima"])
+                    self.assertAlmostEqual(run["recall"], run["matched"] / clean)
+                    self.assertAlmostEqual(run["precision"], run["matched"] / run["found"])
+                    self.assertAlmostEqual(run["f_score"], 2 * run["matched"] / (clean + run["found"]))
+                for what in ("recall", "precision", "f_score", "chance"):
+                    mean = sum(run[what] for run in perturbed["runs"]) / len(perturbed["runs"])
+                    self.assertAlmostEqual(perturbed[what]["mean"], mean)
+
+    def test_fields_side_by_side_with_one_reference(self):
+        document = self.stability(SMALL, "--field", "mean-curvature", "--field", "height", "--method", "conventional",
+                                  "--noise", "0.1", "--trials", "1", "--points", "extrema")
+        curvature, height = document["outcomes"]
+        self.assertEqual(curvature["agreement"]["share"], 1)
+        self.assertLess(height["agreement"]["share"], 1)
+        for outcome in (curvature, height):
+            counts = outcome["clean"]["critical_points"]
+            self.assertEqual(outcome["clean"]["points"], counts["minima"] + counts["maxima"])
+
+    def test_the_table(self):
+        out = self.morsel("stability", SMALL, "--method", "conventional", "--noise", "0.1", "--trials", "2",
+                          "--target", "20").stdout
+        self.assertIn("2 trials, seed 1", out)
+        self.assertIn("Each method's own count", out)
+        self.assertIn("Target 20", out)
+        row, = [line for line in out.split("Target 20")[1].splitlines() if line.startswith("noise 0.1")]
+        self.assertEqual(len(row.split()), 10)
+
+    def test_a_mesh_that_had_to_be_mended(self):
+        document = self.stability(self.file("d.off", DAMAGED), "--repair", "--field", "height", "--noise", "0.1",
+                                  "--subdivide", "3", "--trials", "1")
+        self.assertEqual([r["action"] for r in document["mesh"]["repairs"]],
+                         ["removed_degenerate_faces", "removed_unreferenced_vertices"])
+
+
+class Files(Stability):
+    def test_documents_follow_the_schema(self):
+        schema = json.loads(STABILITY_SCHEMA.read_text())
+        mesh = self.file("o.off", OCTAHEDRON)
+        for arguments in ([mesh, "--field", "height"], [SMALL, *ALL, "--kind", "isotropic"],
+                          [mesh, "--method", "tps:count=9+gaussian:iterations=2,sigma=0.5", "--trials", "1"],
+                          [self.file("d.off", DAMAGED), "--repair", "--radius", "4eps", "--points", "extrema"]):
+            jsonschema.validate(self.stability(*arguments), schema)
+
+    def test_the_schema_refuses_what_it_should(self):
+        schema = json.loads(STABILITY_SCHEMA.read_text())
+        mesh = self.file("o.off", OCTAHEDRON)
+        for spoil in (lambda d: d.update(schema="morsel.stability/2"), lambda d: d.pop("matching"),
+                      lambda d: d["outcomes"][0].pop("target"), lambda d: d["outcomes"][0]["agreement"].update(share=2),
+                      lambda d: d["outcomes"][0]["perturbations"][0].update(perturbation="heat"),
+                      lambda d: d["outcomes"][0]["perturbations"][0]["runs"][0].pop("chance")):
+            document = self.stability(mesh, "--field", "height", "--trials", "1")
+            jsonschema.validate(document, schema)
+            spoil(document)
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate(document, schema)
+
+    def test_csv_says_what_json_says(self):
+        document = self.stability(SMALL, *ALL)
+        self.morsel("stability", SMALL, *ALL, "-o", "s.CSV")
+        with open(self.folder / "s.CSV", newline="") as file:
+            rows = list(csv.DictReader(file))
+        expected = [(o, p) for o in document["outcomes"] for p in o["perturbations"]]
+        self.assertEqual(len(rows), len(expected))
+        for row, (outcome, perturbed) in zip(rows, expected):
+            self.assertEqual(row["sha256"], document["mesh"]["sha256"])
+            self.assertEqual(row["version"], document["tool"]["version"])
+            self.assertEqual(row["seed"], "1")
+            self.assertEqual(row["target"], "" if outcome["target"] is None else str(outcome["target"]))
+            self.assertEqual(json.loads(row["method_parameters"]), outcome["clean"]["parameters"])
+            self.assertEqual((row["method"], row["perturbation"], float(row["amount"])),
+                             (outcome["method"], perturbed["perturbation"], perturbed["amount"]))
+            for what in ("f_score", "recall", "precision", "drift", "chance"):
+                self.assertEqual(float(row[what]), perturbed[what]["mean"])
+                half = perturbed[what]["half_width"]
+                self.assertEqual(row[what + "_half_width"] == "", half is None)
+                if half is not None:
+                    self.assertEqual(float(row[what + "_half_width"]), half)
+
+    def test_the_same_bytes_at_any_number_of_threads_but_for_timings(self):
+        documents, tables, files = [], [], []
+        for threads in (1, 2, 5):
+            document = self.stability(SMALL, *ALL, "--threads", threads)
+            del document["timings"]
+            documents.append(document)
+            tables.append(self.morsel("stability", SMALL, *ALL, "--threads", threads, "-o", "s.csv").stdout)
+            files.append((self.folder / "s.csv").read_bytes())
+        for each in (documents, tables, files):
+            self.assertEqual(each[0], each[1])
+            self.assertEqual(each[0], each[2])
+
+    def test_standard_output(self):
+        result = self.morsel("stability", self.file("o.off", OCTAHEDRON), "--field", "height", "--trials", "1",
+                             "-o", "-")
+        self.assertEqual(json.loads(result.stdout)["schema"], "morsel.stability/1")
+
+
+class Refused(Stability):
+    def refuse(self, *arguments, naming, code=2):
+        result = self.morsel("stability", LION, *arguments, code=code)
+        for word in naming:
+            self.assertIn(word, result.stderr)
+
+    def test_options(self):
+        self.refuse("--noise=-0.1", naming=["-0.1", "edge lengths"])
+        self.refuse("--noise", "0.1,x", naming=["x"])
+        self.refuse("--noise", "inf", naming=["inf"])
+        self.refuse("--decimate", "0", naming=["decimation", "0"])
+        self.refuse("--decimate", "50", naming=["50", "at most 1"])
+        self.refuse("--subdivide", "1.5", naming=["1.5", "whole"])
+        self.refuse("--trials", "0", naming=["trials"])
+        self.refuse("--target", "0", naming=["target"])
+        self.refuse("--radius", "far", naming=["--radius", "far"])
+        self.refuse("--radius=-2%", naming=["-2%"])
+        self.refuse("--kind", "odd", naming=["odd", "isotropic"])
+        self.refuse("--points", "odd", naming=["odd", "extrema"])
+        self.refuse("--method", "nonsense", naming=["nonsense", "salient"])
+        self.refuse("--field", "nonsense", naming=["nonsense", "height"])
+        self.refuse("--reference", "nonsense", naming=["nonsense"])
+        self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2", naming=["vertex-scalar", "--subdivide"])
+
+    def test_files(self):
+        self.refuse("-o", "s.txt", naming=["s.txt", ".json", ".csv"])
+        self.refuse("-o", "absent/s.json", naming=["absent"], code=4)
+        self.morsel("stability", "absent.off", "-o", "s.json", code=3)
+        self.assertEqual(os.listdir(self.folder), [])  # no half-written document
+
+    def test_a_trial_that_fails(self):
+        mesh = self.file("o.off", OCTAHEDRON)
+        result = self.morsel("stability", mesh, "--field", "height", "--decimate", "0.1", "-o", "s.json", code=3)
+        self.assertIn("decimation 0.1, trial 1: ", result.stderr)
+        self.assertEqual(os.listdir(self.folder), ["o.off"])
+
+
+if __name__ == "__main__":
+    unittest.main()
