@@ -19,11 +19,12 @@ struct Preset {
   std::string_view name;
   int iterations;
   core::Length sigma;
+  const char* range;
   core::Length scale;
 };
 
-constexpr Preset kPaper = {"paper", 10, core::Length::epsilons(8), core::Length::absolute(0)};
-constexpr Preset kRobust = {"robust", 1, core::Length::edges(1.5), core::Length::edges(2)};
+constexpr Preset kPaper = {"paper", 10, core::Length::epsilons(8), "1std", core::Length::absolute(0)};
+constexpr Preset kRobust = {"robust", 1, core::Length::edges(1), "0.2std", core::Length::edges(1.8)};
 
 class Salient final : public core::Method {
  public:
@@ -136,7 +137,7 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   options.iterations = criteria.iterations;
   read_sigma(reader, options);
   options.range = parse_value_range(
-      reader.text("range", "1std",
+      reader.text("range", preset.range,
                   "standard deviation of the weight of values: a multiple of "
                   "the field's (1std), local, literal (sigma), none (no limit), or a number"),
       reader.owner() + ":range");
