@@ -18,8 +18,11 @@ namespace morsel::morse {
 /// it is evaluated as a Chebyshev series (Taubin, Zhang, Golub, "Optimal surface smoothing as filter design", ECCV
 /// 1996), in O(s/h) products with P rather than O(s⁴/h⁴) steps; its coefficients beyond 1e-9 are left out. Half the
 /// height is kept at k_c = (h/2s)², the frequency of such a wave on even triangles with edges h; h is the mean edge
-/// length. So the result does not depend on the sampling density of evenly sampled surfaces; where a surface is
-/// sampled more densely than on average, its scale is smaller.
+/// length. So the result does not depend on how densely a surface of even triangles is sampled; where it is sampled more
+/// densely than on average, its scale is smaller. Uniform means do not heed the shapes of triangles, which is what noise
+/// ruins; the price is that they see the triangulation: where vertices have other than six neighbours or edges change in
+/// length, vertices slide along the surface, and one-ring curvatures keep a trace of it (on an icosphere, at 2 edges, the
+/// twelve vertices with five neighbours have a mean curvature of 1.8/r).
 ///
 /// A boundary vertex takes the mean over its two neighbours along the boundary, so that boundaries are smoothed as curves
 /// that know nothing of the inside (the hierarchical neighbourhoods of section 3 there). A plane stays in its plane. Without its short

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "morsel/core/error.h"
+#include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/tools/stability/random_stream.h"
