@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "morsel/core/error.h"
+#include "morsel/core/subdivision.h"
+
 using namespace morsel;
 
 TEST_CASE("cutting every edge keeps the surface and multiplies triangles") {
@@ -24,6 +27,10 @@ TEST_CASE("cutting every edge keeps the surface and multiplies triangles") {
       };
       CHECK(area(finer) == Approx(area(mesh)));
     }
+}
+
+TEST_CASE("edges cannot be cut into no pieces") {
+  CHECK_THROWS_AS(core::subdivided(test::tetrahedron().mesh(), 0), core::InvalidArgument);
 }
 
 TEST_CASE("noise is bounded by its share of the mean edge and repeats with its seed") {

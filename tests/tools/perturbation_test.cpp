@@ -1,5 +1,6 @@
 #include "morsel/tools/stability/perturbation.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>

@@ -225,5 +225,5 @@ TEST_CASE("stability requests are checked") {
     r.fields = {"vertex-scalar:file=values.txt"};
     r.subdivide = {2};
   });
-  CHECK(tools::prepare({}).perturbations.size() == 4);
+  CHECK(tools::prepare(StabilityRequest{}).perturbations.size() == 4);
 }

@@ -46,12 +46,14 @@ class Tables {
   }
 
   Rows clean_rows(const std::optional<std::size_t>& target) const {
-    Rows rows = {{"clean surface", "minima", "saddles", "maxima", "total", "matched", "agreement"}};
+    Rows rows = {
+        {"clean surface", "minima", "saddles", "maxima", "total", "compared", "agreement", "chance"}};
     for (const StabilityOutcome& outcome : result_.outcomes) {
       if (outcome.target != target) continue;
       rows.push_back({name(outcome), grouped(outcome.points.minima), grouped(outcome.points.saddles),
                       grouped(outcome.points.maxima), grouped(outcome.points.total()),
-                      grouped(outcome.with_reference.found), formatted(outcome.agreement(), "%.3f")});
+                      grouped(outcome.with_reference.found), formatted(outcome.agreement(), "%.3f"),
+                      formatted(outcome.chance, "%.3f")});
     }
     return rows;
   }

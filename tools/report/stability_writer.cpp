@@ -100,6 +100,7 @@ void write_outcome(JsonSink& json, const StabilityReport& report, const Stabilit
   json.member("points", outcome.with_reference.found);
   json.end_object();
   json.member("agreement", {{"share", outcome.agreement()},
+                            {"chance", outcome.chance},
                             {"matched", outcome.with_reference.matched},
                             {"reference_points", outcome.with_reference.reference}});
   json.begin_array("perturbations");
@@ -178,7 +179,8 @@ void write_stability(JsonSink& json, const StabilityReport& report) {
 
 void write_stability_csv(std::ostream& out, const StabilityReport& report) {
   out << "version,mesh,sha256,seed,radius,compared,field,field_parameters,method,method_parameters,target,"
-         "clean_points,agreement,perturbation,amount,kind,trials,points,points_half_width,f_score,"
+         "clean_points,agreement,agreement_chance,perturbation,amount,kind,trials,points,points_half_width,f_"
+         "score,"
          "f_score_half_width,recall,recall_half_width,precision,precision_half_width,drift,drift_half_width,"
          "chance,chance_half_width\n";
   const StabilityResult& result = report.result;
@@ -200,6 +202,7 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(outcome.target ? std::to_string(*outcome.target) : "");
       line.add(std::uint64_t{outcome.with_reference.found});
       line.add(outcome.agreement());
+      line.add(outcome.chance);
       line.add(to_string(perturbation.kind));
       line.add(perturbation.amount);
       line.add(is_noise ? to_string(perturbation.direction) : "");

@@ -22,8 +22,8 @@ struct StabilityReport {
 /// The whole document, every trial included.
 void write_stability(JsonSink& json, const StabilityReport& report);
 
-/// A row for each count, field, method and perturbation, with the means over the trials; each tells the program's version,
-/// the mesh with its hash, the seed and all resolved parameters. Without timings, so always the same bytes.
+/// A row for each count, field, method and perturbation, with the means over the trials; each tells the program's
+/// version, the mesh with its hash, the seed and all resolved parameters. Without timings, so always the same bytes.
 void write_stability_csv(std::ostream& out, const StabilityReport& report);
 
 }  // namespace morsel::tools

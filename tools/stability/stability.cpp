@@ -65,9 +65,9 @@ class CleanPoints {
   std::array<PointMatcher, kTypes.size()> matchers_;
 };
 
-/// The mean F-score of as many points of each type as were found, at random places of the perturbed surface.
-double chance_level(const CleanPoints& clean, const PointsByType& found, std::span<const Point> places,
-                    RandomStream random) {
+/// How many of as many points of each type as were found match, on average over random vertices of their surface.
+double matches_by_chance(const CleanPoints& clean, const PointsByType& found, std::span<const Point> places,
+                         RandomStream random) {
   std::vector<Index> vertices(places.size());
   std::iota(vertices.begin(), vertices.end(), Index{0});
   double sum = 0;
@@ -79,7 +79,7 @@ double chance_level(const CleanPoints& clean, const PointsByType& found, std::sp
         std::swap(vertices[used], vertices[used + random.below(vertices.size() - used)]);
         placed[k].push_back(places[vertices[used]]);
       }
-    sum += clean.match(placed).f_score();
+    sum += static_cast<double>(clean.match(placed).matched);
   }
   return sum / kPlacements;
 }
@@ -187,7 +187,8 @@ class Trials {
     const RandomStream random(
         prepared_.seed, RandomUse::placement,
         {std::uint64_t(perturbation.kind), std::bit_cast<std::uint64_t>(perturbation.amount), t});
-    trial.chance = chance_level(clean, found, mesh.places, random);
+    trial.chance = 2 * matches_by_chance(clean, found, mesh.places, random) /
+                   static_cast<double>(trial.agreement.reference + trial.agreement.found);
     return trial;
   }
 
@@ -220,8 +221,12 @@ std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const Prepared
         const CleanPoints of_reference(by_type(reference, prepared.points, clean.mesh.positions()),
                                        result.radius);
         points.emplace_back(compared, result.radius);
+        const Agreement agreement = of_reference.match(compared);
+        const double chance = matches_by_chance(of_reference, compared, clean.mesh.positions(),
+                                                {prepared.seed, RandomUse::placement, {}}) /
+                              static_cast<double>(agreement.found);
         result.outcomes.push_back(
-            {f, m, target, std::move(made), std::move(critical), of_reference.match(compared), {}});
+            {f, m, target, std::move(made), std::move(critical), agreement, chance, {}});
       }
   return points;
 }

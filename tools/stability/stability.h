@@ -36,8 +36,8 @@ struct StabilityRequest {
   std::string reference = "conventional";
 };
 
-/// Puts in the perturbations that a request leaves to us: if there are none, noise of 0.05, 0.15, 0.3 and 0.5; and the
-/// reference field.
+/// Puts in the perturbations that a request leaves to us: if there are none, noise of 0.05, 0.15, 0.3 and 0.5; and
+/// the reference field.
 StabilityRequest with_defaults(StabilityRequest request);
 
 /// A length or a share of the bounding box's diagonal.
@@ -119,6 +119,7 @@ struct StabilityOutcome {
   ChainOutcome clean;
   morse::CriticalPoints points;  ///< on the clean surface
   Agreement with_reference;  ///< `found`: the method's clean points; those of the reference at the same count
+  double chance = 0;         ///< expected agreement of as many points of the same types at random vertices
   std::vector<PerturbationOutcome> perturbations;
 
   /// Share of the clean points that the reference has too.
@@ -137,16 +138,17 @@ struct StabilityResult {
 /// Random placements that each chance level is the mean of.
 inline constexpr std::size_t kPlacements = 10;
 
-/// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their critical points with
-/// the clean ones (PointMatcher, type by type) by where they lie on the clean surface (PerturbedMesh::places): a point that stays at
-/// its vertex has not moved. Points of a subdivided surface lie where they lie.
+/// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their critical
+/// points with the clean ones (PointMatcher, type by type) by where they lie on the clean surface
+/// (PerturbedMesh::places): a point that stays at its vertex has not moved. Points of a subdivided surface lie where
+/// they lie.
 ///
-/// The chance level is the mean F-score of kPlacements sets of as many points of each type at vertices of the perturbed
-/// surface, all equally likely and no two of a set the same.
+/// The chance level is the mean F-score of kPlacements sets of as many points of each type at vertices of the
+/// perturbed surface, all equally likely and no two of a set the same.
 ///
-/// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it is the same
-/// whatever else runs and at any number of threads. Throws what functions and methods throw; an error in a trial names
-/// the perturbation, trial, field and method, and of several it is that of the first.
+/// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it is the
+/// same whatever else runs and at any number of threads. Throws what functions and methods throw; an error in a trial
+/// names the perturbation, trial, field and method, and of several it is that of the first.
 StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
                               const core::Progress& progress = {});
 
