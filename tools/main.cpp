@@ -54,6 +54,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_cut(app, invocation);
   add_quads(app, invocation);
   add_render(app, invocation);
+  add_reproduce(app, invocation);
   add_stability(app, invocation);
   try {
     app.parse(argc, argv);

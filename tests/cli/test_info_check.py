@@ -1,9 +1,10 @@
 """morsel info and morsel check."""
 
 import json
+import subprocess
 import unittest
 
-from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest
+from support import DAMAGED, OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest
 
 
 class Info(ProgramTest):
@@ -102,6 +103,49 @@ class Check(ProgramTest):
         (self.folder / "sub").mkdir()
         self.morsel("compare", "octahedron.off", "-o", "relative.json")
         self.morsel("check", self.folder / "relative.json", cwd=self.folder / "sub")
+
+    def test_many_reports_have_a_line_each_and_a_table_of_differences(self):
+        (self.folder / "reports" / "deeper").mkdir(parents=True)
+        for name in ("reports/a.json", "reports/deeper/b.json"):
+            self.morsel("compare", self.mesh, "--field", "height:axis=x", "-o", name)
+        self.file("reports/notes.txt", "no report")
+        self.file("reports/other.json", '{"schema": "morsel.cut/1"}')
+        same = self.morsel("check", "reports", "report.json")
+        self.assertEqual(same.stdout.splitlines()[-1], "3 reports: 3 unchanged, 0 changed, 0 not checked; passed over: 1 other document")
+        self.assertEqual(len(same.stdout.splitlines()), 4)
+
+        report = json.loads((self.folder / "reports/a.json").read_text())
+        report["methods"][1]["critical_points"]["total"] = 77
+        self.file("reports/a.json", json.dumps(report))
+        lines = self.morsel("check", "reports", code=1).stdout.splitlines()
+        self.assertIn("1 difference", lines[0])
+        self.assertIn("unchanged", lines[1])
+        table = [line for line in lines if "critical_points.total" in line]
+        self.assertEqual(len(table), 1)
+        self.assertEqual(table[0].split()[-2:], ["77", "2"])
+        self.assertEqual(lines[-1], "2 reports: 1 unchanged, 1 changed, 0 not checked; passed over: 1 other document")
+
+        # one that cannot be checked stops nobody else, and is never passed over
+        self.file("reports/b.json", "{")
+        self.file("reports/c.json", json.dumps({**report, "request": {}}))
+        result = subprocess.run([PROGRAM, "check", "reports"], capture_output=True, text=True, timeout=240,
+                                cwd=self.folder, check=False)  # results come with the error
+        self.assertEqual(result.returncode, 3)
+        self.assertEqual(result.stdout.splitlines()[-1], "4 reports: 1 unchanged, 1 changed, 2 not checked; passed over: 1 other document")
+        self.assertIn("2 of 4 reports", result.stderr)
+        for named in ("absent.json", "reports/other.json"):
+            bad = subprocess.run([PROGRAM, "check", "report.json", named], capture_output=True, text=True, timeout=240,
+                                 cwd=self.folder, check=False)
+            self.assertEqual(bad.returncode, 3)
+            self.assertIn("1 of 2 reports", bad.stderr)
+            self.assertIn(f"{named}: not checked: ", bad.stdout)
+        (self.folder / "empty").mkdir()
+        self.assertIn("empty", self.morsel("check", "empty", code=3).stderr)
+        self.file("empty/other.json", '{"schema": "morsel.cut/1"}')
+        nothing = subprocess.run([PROGRAM, "check", "empty"], capture_output=True, text=True, timeout=240,
+                                 cwd=self.folder, check=False)
+        self.assertEqual(nothing.returncode, 3)
+        self.assertIn("no comparison report", nothing.stderr)
 
     def test_what_is_no_report_is_bad_input(self):
         self.morsel("check", "absent.json", code=3)

@@ -47,8 +47,8 @@ def line_of(text, position):
     return text.count("\n", 0, position) + 1
 
 
-def check_source(module, text, is_header):
-    """Yields (line, complaint) for one header or source of `module`."""
+def check_source(module, text, is_header, own_header=None):
+    """Yields (line, complaint) for one header or source of `module`; `own_header` is the header of its name."""
     code = without(text, ("//", "/*", "R"))
     foreign = NOT_IN_TOOLS if module == "tools" else NOT_IN_LIBRARY
     for match in INCLUDE.finditer(code):
@@ -64,6 +64,12 @@ def check_source(module, text, is_header):
             yield line, f"{module} may not include <{path}>"
         elif is_header and path.startswith(NOT_IN_HEADERS):
             yield line, f"a header may not include <{path}>, which users of the library need not have"
+    if is_header and not re.search(r"^#pragma once$", code, re.MULTILINE):
+        yield 1, "a header begins with #pragma once"
+    if own_header is not None:
+        first = INCLUDE.search(code)
+        if first is None or first.group(2) != own_header:
+            yield line_of(code, first.start()) if first else 1, f'the first include is to be "{own_header}"'
     if module in LIBRARY:
         for match in PRINTS_OR_EXITS.finditer(without(text, ("//", "/*", "R", '"', "'"))):
             yield line_of(text, match.start()), f'{module} may not print nor exit: "{match.group().strip("( ")}"'
@@ -83,7 +89,9 @@ def check(root):
     for module in MAY_INCLUDE:
         for path in sorted((root / module).rglob("*")):
             if path.suffix in (".h", ".hpp", ".cpp", ".inl"):
-                found = check_source(module, path.read_text(encoding="utf-8"), path.suffix != ".cpp")
+                header = path.with_suffix(".h")
+                own = f"morsel/{header.relative_to(root)}" if path.suffix == ".cpp" and header.exists() else None
+                found = check_source(module, path.read_text(encoding="utf-8"), path.suffix != ".cpp", own)
             elif path.name == "CMakeLists.txt":
                 found = check_cmake(module, path.read_text(encoding="utf-8"))
             else:

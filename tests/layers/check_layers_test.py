@@ -14,8 +14,8 @@ CLEAN = {
     "core/a.h": "#pragma once\n#include <Eigen/Core>\n#include <vector>\n",
     "core/a.cpp": '#include "morsel/core/a.h"\n',
     "morse/functions/height.cpp": '#include "morsel/core/a.h"\n#include "morsel/morse/functions/height.h"\n',
-    "persistence/pairing.h": '#include "morsel/core/a.h"\n',
-    "mscomplex/complex.h": '#include <boost/graph/adjacency_list.hpp>\n#include "morsel/core/a.h"\n',
+    "persistence/pairing.h": '#pragma once\n#include "morsel/core/a.h"\n',
+    "mscomplex/complex.h": '#pragma once\n#include <boost/graph/adjacency_list.hpp>\n#include "morsel/core/a.h"\n',
     "tools/main.cpp": '#include <iostream>\n#include "morsel/mscomplex/complex.h"\nint main() { std::cout << 1; }\n',
 }
 
@@ -62,6 +62,15 @@ class CheckLayers(unittest.TestCase):
                 found = complaints({name: f"#pragma once\n{code}\n"})
                 self.assertEqual(len(found), 1)
                 self.assertTrue(found[0].startswith(f"{name}:2: "), found)
+
+    def test_headers_stand_alone(self):
+        for changes, where in (({"core/b.h": "#include <vector>\n"}, "core/b.h:1: "),
+                               ({"core/a.cpp": "#include <vector>\n#include \"morsel/core/a.h\"\n"}, "core/a.cpp:1: "),
+                               ({"core/a.cpp": "int x;\n"}, "core/a.cpp:1: ")):
+            with self.subTest(changes=changes):
+                found = complaints(changes)
+                self.assertEqual(len(found), 1)
+                self.assertTrue(found[0].startswith(where), found)
 
     def test_printing_and_exiting(self):
         for code in ("std::cout << 1;", "std::cerr << 1;", 'printf("x");', 'std::printf ("x");', "std::exit(1);",

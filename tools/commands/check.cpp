@@ -1,83 +1,142 @@
 // morsel check: a report is its own regression test.
 
+#include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/tools/commands/commands.h"
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/report/difference.h"
-#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/report_check.h"
 #include "morsel/tools/report/report_reader.h"
-#include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
 namespace {
 
+constexpr std::size_t kShown = 20;  // differences of a report
+
 struct Options {
-  std::string report;
+  std::vector<std::string> paths;
   bool all = false;
 };
 
-/// The report that the same request gives now.
-ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
-                         const core::Progress& progress) {
-  const HashedMesh input = read_hashed_mesh(mesh_path, {.repair = report.repair}, progress);
-  ReportCollector again;
-  ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.repair, report.items},
-                      report.request);
-  run_comparison(input.loaded, prepare(report.request), {&writer}, progress);
-  writer.finish();
-  return again.take();
+std::string counted(std::size_t count, const std::string& what) {
+  return grouped(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-void print_differences(const std::vector<Difference>& differences, bool all) {
-  constexpr std::size_t kShown = 20;
-  const std::size_t shown = all ? differences.size() : std::min(kShown, differences.size());
-  for (std::size_t i = 0; i < shown; ++i)
-    std::cout << "  " << differences[i].where << ": " << differences[i].before << " -> "
-              << differences[i].after << '\n';
-  if (shown < differences.size())
-    std::cout << "  … and " << differences.size() - shown << " more (--all shows them)\n";
+/// What is said of a report in one line.
+std::string verdict(const ReportCheck& check) {
+  if (check.mesh_is_missing) return "the mesh " + check.mesh_path + " is missing";
+  if (check.differences.empty())
+    return "unchanged (" + counted(check.methods, "method") + " on " + check.mesh_path + ")";
+  return counted(check.differences.size(), "difference") + " (report -> now)";
 }
+
+std::string left_out(std::size_t count) { return "… and " + grouped(count) + " more (--all shows them)"; }
+
+int check_one(const std::string& path, bool all, Console& console) {
+  const ReportCheck check = check_report(path, console.progress());
+  std::cout << path << ": " << verdict(check) << '\n';
+  const std::size_t shown = all ? check.differences.size() : std::min(kShown, check.differences.size());
+  for (std::size_t i = 0; i < shown; ++i)
+    std::cout << "  " << check.differences[i].where << ": " << check.differences[i].before << " -> "
+              << check.differences[i].after << '\n';
+  if (shown < check.differences.size())
+    std::cout << "  " << left_out(check.differences.size() - shown) << '\n';
+  return check.is_unchanged() ? kDone : kDifferences;
+}
+
+/// A line each as they are checked, then a table of what differs.
+class ManyReports {
+ public:
+  ManyReports(bool all, Console& console) : all_(all), console_(console) {}
+
+  /// `is_named`: by the user, not found in a folder, where documents of other kinds may lie.
+  void check(const std::string& path, bool is_named) {
+    console_.enter(path);
+    try {
+      const ReportCheck result = check_report(path, console_.progress());
+      say(path, verdict(result));
+      ++(result.is_unchanged() ? unchanged_ : changed_);
+      add_rows(path, result);
+    } catch (const OtherDocument& error) {
+      if (is_named) fail(path, error);
+      if (!is_named) ++other_documents_;
+    } catch (const core::BadInput& error) {
+      fail(path, error);
+    }
+  }
+
+  /// Throws BadInput if any could not be checked, or there was none.
+  int finish() {
+    const std::size_t checked = unchanged_ + changed_;
+    if (rows_.size() > 1) std::cout << '\n' << text_table(rows_) << '\n';
+    std::cout << counted(checked + failed_, "report") << ": " << grouped(unchanged_) << " unchanged, "
+              << grouped(changed_) << " changed, " << grouped(failed_) << " not checked"
+              << (other_documents_ > 0 ? "; passed over: " + counted(other_documents_, "other document") : "")
+              << std::endl;
+    if (failed_ > 0)
+      throw core::BadInput(grouped(failed_) + " of " + counted(checked + failed_, "report") +
+                           " could not be checked");
+    if (checked == 0) throw core::BadInput("there is no comparison report to check");
+    return changed_ > 0 ? kDifferences : kDone;
+  }
+
+ private:
+  static void say(const std::string& path, const std::string& text) {
+    std::cout << path << ": " << text << std::endl;  // seen when it is known
+  }
+  void fail(const std::string& path, const core::Error& error) {
+    ++failed_;
+    say(path, std::string("not checked: ") + error.what());
+  }
+  void add_rows(const std::string& path, const ReportCheck& check) {
+    const std::size_t shown = all_ ? check.differences.size() : std::min(kShown, check.differences.size());
+    for (std::size_t i = 0; i < shown; ++i)
+      rows_.push_back(
+          {path, check.differences[i].where, check.differences[i].before, check.differences[i].after});
+    if (shown < check.differences.size())
+      rows_.push_back({path, left_out(check.differences.size() - shown), "", ""});
+  }
+
+  bool all_;
+  Console& console_;
+  std::size_t unchanged_ = 0, changed_ = 0, failed_ = 0, other_documents_ = 0;
+  std::vector<std::vector<std::string>> rows_ = {{"report", "what", "report has", "now"}};
+};
 
 int check(const Options& options, Console& console) {
-  const LoadedReport report = read_report(options.report);
-  const std::filesystem::path mesh = find_mesh(report, options.report);
-  if (mesh.empty()) {
-    std::cout << options.report << ": the mesh " << report.mesh_path << " is missing\n";
-    return kDifferences;
+  if (options.paths.size() == 1 && !std::filesystem::is_directory(options.paths.front()))
+    return check_one(options.paths.front(), options.all, console);
+  ManyReports reports(options.all, console);
+  for (const std::string& path : options.paths) {
+    if (!std::filesystem::is_directory(path))
+      reports.check(path, true);
+    else
+      for (const std::filesystem::path& file : json_files(path)) reports.check(file.string(), false);
   }
-  ReportDocument again;
-  try {
-    again = run_again(report, mesh, console.progress());
-  } catch (const core::InvalidArgument& error) {
-    throw core::BadInput(options.report + " asks for what this version does not do: " + error.what());
-  }
-  const std::vector<Difference> differences = report_differences(report.document, again);
-  if (differences.empty()) {
-    std::cout << options.report << ": unchanged (" << report.request.methods.size() << " method"
-              << (report.request.methods.size() == 1 ? "" : "s") << " on " << report.mesh_path << ")\n";
-    return kDone;
-  }
-  std::cout << options.report << ": " << differences.size() << " difference"
-            << (differences.size() == 1 ? "" : "s") << " (report -> now)\n";
-  print_differences(differences, options.all);
-  return kDifferences;
+  return reports.finish();
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("check", "Run a report's comparison again and show what changed");
-  command.add_option("REPORT", options->report, "A report of morsel compare")->required();
-  command.add_flag("--all", options->all, "Show every difference, not only the first 20");
+  CLI::App& command = *app.add_subcommand("check", "Run comparisons of reports again and show what changed");
+  command
+      .add_option("REPORT", options->paths,
+                  "Reports of morsel compare, or folders in which all of them (.json) are checked")
+      ->required();
+  command.add_flag("--all", options->all, "Show every difference, not only the first 20 of a report");
   add_common_options(command, invocation.common, false);
   command.footer(
-      "The mesh is looked for from the working folder, then from the report's folder. Timings and the "
+      "Meshes are looked for from the working folder, then from the report's folder. Timings and the "
       "program's\n"
-      "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.");
+      "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.\n"
+      "Exit code: 0 if nothing changed, 1 if anything did, 3 if a report could not be checked.");
   command.callback([options, &invocation] {
     invocation.action = [options](Console& console) { return check(*options, console); };
   });

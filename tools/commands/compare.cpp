@@ -9,8 +9,12 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/html/html_sink.h"
+#include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
@@ -26,7 +30,9 @@ struct Options {
   bool no_items = false;
   std::string export_folder;
   std::string figure_folder;
+  std::string figure_size = "1200x840";
   render::CameraText camera;
+  std::string page;
 };
 
 /// Shows on the console which method is running.
@@ -56,49 +62,94 @@ class SideBySide : public ComparisonSink {
   std::vector<ComparisonSink*> sinks_;
 };
 
+/// What makes the page again. What changes nothing in it is left out.
+std::string page_command(const Options& options, const CommonOptions& common) {
+  const ComparisonRequest& request = options.request;
+  std::vector<std::string> words = {"morsel", "compare", options.mesh, "--field", request.field};
+  for (const std::string& method : request.methods) words.insert(words.end(), {"--method", method});
+  if (request.target) words.insert(words.end(), {"--target", std::to_string(*request.target)});
+  if (request.snap) words.emplace_back("--snap");
+  if (common.repair) words.emplace_back("--repair");
+  words.insert(words.end(), {"--html", options.page});
+  return command_line(words);
+}
+
+/// All that a comparison is written to.
+class Outputs {
+ public:
+  /// Unwritable targets are told here, before the work.
+  Outputs(const Options& options, const CommonOptions& common)
+      : options_(options),
+        common_(common),
+        figure_size_(render::parse_size(options.figure_size)),
+        report_target_(options.report) {
+    if (!options.page.empty()) page_file_.emplace(options.page);
+    if (!options.figure_folder.empty()) plots_.emplace(options.figure_folder);
+  }
+
+  /// `sinks` are told, too. Refers to `input`.
+  void run(const PreparedComparison& comparison, const HashedMesh& input, double load_seconds,
+           std::vector<ComparisonSink*> sinks, const core::Progress& progress) {
+    const core::LoadedMesh& loaded = input.loaded;
+    const ReportInput about{options_.mesh, input.sha256, common_.repair, !options_.no_items, load_seconds};
+    if (report_target_.is_wanted())
+      files_.add(report_.emplace(report_target_.json(), loaded, about, options_.request));
+    if (page_file_)
+      files_.add(
+          page_.emplace(*page_file_, loaded, about, options_.request, page_command(options_, common_)));
+    if (!options_.export_folder.empty()) files_.add(exports_.emplace(options_.export_folder, loaded));
+    if (plots_) files_.add(*plots_);
+    sinks.push_back(&files_);
+    if (!options_.figure_folder.empty())
+      sinks.push_back(
+          &figures_.emplace(options_.figure_folder, loaded, options_.camera, figure_size_, progress));
+    run_comparison(loaded, comparison, sinks, progress);
+    if (figures_) figures_->finish();
+    if (plots_) plots_->finish();
+    if (report_) report_->finish();
+    if (page_) page_->finish();
+    report_target_.commit();
+    if (page_file_) page_file_->commit();
+  }
+
+  /// Whether the report is what standard output is for.
+  bool is_on_stdout() const { return report_target_.is_stdout(); }
+
+  void tell(Console& console) const {
+    if (report_target_.is_file()) console.message("report: " + options_.report);
+    if (page_file_) console.message("page: " + options_.page);
+    if (exports_) console.message("files for ParaView: " + options_.export_folder);
+    if (figures_) console.message("pictures and plots: " + options_.figure_folder);
+  }
+
+ private:
+  const Options& options_;
+  const CommonOptions& common_;
+  render::Size figure_size_;
+  DocumentTarget report_target_;
+  std::optional<core::FileWriter> page_file_;
+  std::optional<ReportWriter> report_;
+  std::optional<HtmlSink> page_;
+  std::optional<ExportSink> exports_;
+  std::optional<PlotSink> plots_;
+  std::optional<render::FigureSink> figures_;
+  SideBySide files_;
+};
+
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedComparison comparison = prepare(options.request);
   options.camera.check();
-  const bool report_to_stdout = options.report == "-";
-  std::optional<core::FileWriter> file;
-  if (!options.report.empty() && !report_to_stdout) file.emplace(options.report);
+  Outputs outputs(options, common);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
-  const core::LoadedMesh& loaded = input.loaded;
-  const ReportInput about{options.mesh, input.sha256, common.repair, !options.no_items, load_watch.seconds()};
-
   Announcer announcer(console);
   ComparisonTable table;
-  SideBySide files;
-  std::optional<JsonStream> json;
-  std::optional<ReportWriter> report;
-  if (file || report_to_stdout) {
-    json.emplace(report_to_stdout ? std::cout : file->stream());
-    report.emplace(*json, loaded, about, options.request);
-    files.add(*report);
-  }
-  std::optional<ExportSink> exports;
-  if (!options.export_folder.empty()) {
-    exports.emplace(options.export_folder, loaded);
-    files.add(*exports);
-  }
-  std::vector<ComparisonSink*> sinks = {&announcer, &table, &files};
-  std::optional<render::FigureSink> figures;
-  if (!options.figure_folder.empty()) {
-    figures.emplace(options.figure_folder, loaded, options.camera, console.progress());
-    sinks.push_back(&*figures);
-  }
-  run_comparison(loaded, comparison, sinks, console.progress());
-  if (figures) figures->finish();
-  if (report) report->finish();
-  if (file) file->commit();
+  outputs.run(comparison, input, load_watch.seconds(), {&announcer, &table}, console.progress());
 
-  if (!report_to_stdout) std::cout << table.text();
-  if (file) console.message("report: " + options.report);
-  if (exports) console.message("files for ParaView: " + options.export_folder);
-  if (figures) console.message("pictures: " + options.figure_folder);
+  if (!outputs.is_on_stdout()) std::cout << table.text();
+  outputs.tell(console);
   return kDone;
 }
 
@@ -134,10 +185,21 @@ void add_compare(CLI::App& app, Invocation& invocation) {
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
       ->type_name("DIR");
   command
-      .add_option("--figures", options->figure_folder,
-                  "Write pictures (.png) here: one of each method, and a sheet with them side by side")
+      .add_option(
+          "--figures", options->figure_folder,
+          "Write pictures here: one of each method, a sheet with them side by side (.png), persistence\n"
+          "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
       ->type_name("DIR");
+  command.add_option("--size", options->figure_size, "Width and height of each method's picture in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
   add_camera_options(command, options->camera);
+  command
+      .add_option(
+          "--html", options->page,
+          "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers;\n"
+          "one file, for which no network is needed")
+      ->type_name("REPORT.html");
   add_common_options(command, invocation.common);
   command.footer(specification_help());
   command.callback([options, &invocation] {

@@ -7,10 +7,11 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/comparison/made_field.h"
-#include "morsel/tools/report/cut_writer.h"
-#include "morsel/tools/export/cut_files.h"
 #include "morsel/tools/cutting/cutting.h"
+#include "morsel/tools/export/cut_files.h"
+#include "morsel/tools/report/cut_writer.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/text_table.h"
 
@@ -64,9 +65,7 @@ int cut(const Options& options, const CommonOptions& common, Console& console) {
   check_cut_mesh_path(options.output);
   if (!options.graph.empty()) check_cut_graph_path(options.graph);
   // Unwritable targets are told before the work, not after it.
-  const bool json_to_stdout = options.json == "-";
-  std::optional<core::FileWriter> json;
-  if (!options.json.empty() && !json_to_stdout) json.emplace(options.json);
+  DocumentTarget document(options.json);
   { const core::FileWriter probe(options.output); }
   if (!options.graph.empty()) const core::FileWriter probe(options.graph);
 
@@ -80,19 +79,18 @@ int cut(const Options& options, const CommonOptions& common, Console& console) {
   const Stopwatch write_watch;
   write_cut_mesh(options.output, outcome.opened, input.loaded.source.numbering, console.progress());
   if (!options.graph.empty()) write_cut_graph(options.graph, outcome.cut, input.loaded);
-  if (!options.json.empty()) {
+  if (document.is_wanted()) {
     const CutRequest request{options.request, !options.no_shorten, common.repair};
     const CutTimings timings{load_seconds, write_watch.seconds()};
-    JsonStream stream(json ? json->stream() : std::cout);
-    write_cut_document(stream, options.mesh, input, request, recipe, made, outcome, timings);
-    if (json) json->commit();
+    write_cut_document(document.json(), options.mesh, input, request, recipe, made, outcome, timings);
   }
-  if (!json_to_stdout) std::cout << table(outcome);
+  document.commit();
+  if (!document.is_stdout()) std::cout << table(outcome);
   if (!options.no_shorten && !outcome.is_settled)
     console.message("shortening ended before no path could be made shorter, after " +
                     std::to_string(outcome.attempts) + " attempts");
   console.message("cut mesh: " + options.output);
-  if (json) console.message("report: " + options.json);
+  if (document.is_file()) console.message("report: " + options.json);
   if (!options.graph.empty()) console.message("cut for ParaView: " + options.graph);
   return kDone;
 }

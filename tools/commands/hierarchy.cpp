@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/export/hierarchy_export.h"
 #include "morsel/tools/hierarchy/hierarchy.h"
 #include "morsel/tools/report/hashed_mesh.h"
@@ -38,9 +38,7 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedHierarchy prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
-  const bool to_stdout = options.output == "-";
-  std::optional<core::FileWriter> file;
-  if (!options.output.empty() && !to_stdout) file.emplace(options.output);
+  DocumentTarget document(options.output);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
@@ -50,11 +48,9 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   TargetTeller teller(console);
   HierarchyTable table(prepared);
   std::vector<HierarchySink*> sinks = {&teller, &table};
-  std::optional<JsonStream> json;
   std::optional<HierarchyWriter> writer;
-  if (file || to_stdout) {
-    json.emplace(to_stdout ? std::cout : file->stream());
-    writer.emplace(*json, loaded, about, request, prepared);
+  if (document.is_wanted()) {
+    writer.emplace(document.json(), loaded, about, request, prepared);
     sinks.push_back(&*writer);
   }
   std::optional<HierarchyExport> exports;
@@ -64,10 +60,10 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   }
   run_hierarchy(loaded, prepared, sinks, console.progress());
   if (writer) writer->finish();
-  if (file) file->commit();
+  document.commit();
 
-  if (!to_stdout) std::cout << table.text();
-  if (file) console.message("hierarchy: " + options.output);
+  if (!document.is_stdout()) std::cout << table.text();
+  if (document.is_file()) console.message("hierarchy: " + options.output);
   if (exports) console.message("files for ParaView: " + options.export_folder);
   return kDone;
 }

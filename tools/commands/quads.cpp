@@ -9,6 +9,7 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/mesh_writer.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/quads_writer.h"
 
@@ -29,9 +30,7 @@ int make(const Options& options, const CommonOptions& common, Console& console) 
   if (core::file_extension(options.output) != ".obj")
     throw core::InvalidArgument("quads are written as .obj, not to " + options.output);
   { const core::FileWriter target(options.output); }  // one that cannot be written is told before the work
-  const bool json_to_stdout = options.json == "-";
-  std::optional<core::FileWriter> file;
-  if (!options.json.empty() && !json_to_stdout) file.emplace(options.json);
+  DocumentTarget document(options.json);
 
   const core::Progress progress = console.progress();
   const Stopwatch load_watch;
@@ -41,15 +40,13 @@ int make(const Options& options, const CommonOptions& common, Console& console) 
   tell_target(made, console);
   const Quadrangulation result = quadrangulate(made.field(), quads, progress);
   core::write_obj(options.output, result.mesh.positions, result.mesh.quads, progress);
-  if (file || json_to_stdout) {
-    JsonStream json(json_to_stdout ? std::cout : file->stream());
-    write_quads(json, {options.mesh, common.repair, load_seconds, options.field, options.quads}, input,
-                recipe, made, result);
-    if (file) file->commit();
-  }
-  if (!json_to_stdout) std::cout << described(result, input.loaded.mesh.bounding_box().diagonal());
+  if (document.is_wanted())
+    write_quads(document.json(), {options.mesh, common.repair, load_seconds, options.field, options.quads},
+                input, recipe, made, result);
+  document.commit();
+  if (!document.is_stdout()) std::cout << described(result, input.loaded.mesh.bounding_box().diagonal());
   console.message("quads: " + options.output);
-  if (file) console.message("report: " + options.json);
+  if (document.is_file()) console.message("report: " + options.json);
   return kDone;
 }
 

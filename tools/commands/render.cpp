@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/made_field.h"
@@ -28,6 +30,8 @@ struct Options {
   std::string background = "white";
   std::string range = "2%";
   std::string caption;
+  std::string frame;
+  std::string close_up;
 };
 
 int draw(const Options& options, const CommonOptions& common, Console& console) {
@@ -39,13 +43,22 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
   render::parse_range(options.range, request.scale);
   if (!request.scale.colormap.empty()) const render::Colormap known(request.scale.colormap);
   options.camera.check();
+  for (const std::string& region : {options.frame, options.close_up})
+    if (!region.empty()) render::parse_inset(region);
+  if (!options.close_up.empty() && !(options.frame.empty() && options.camera.inset.empty()))
+    throw core::InvalidArgument("--close-up does not go with --inset or --frame");
   const FieldRecipe recipe = prepare(options.field);
   core::FileWriter file(options.output);
 
   const core::Progress progress = console.progress();
   const core::LoadedMesh loaded = core::read_mesh(options.mesh, {.repair = common.repair}, progress);
-  if (!options.camera.inset.empty())
-    request.inset = render::find_inset(render::parse_inset(options.camera.inset), loaded);
+  const auto region = [&](const std::string& text) -> std::optional<render::Inset> {
+    if (text.empty()) return std::nullopt;
+    return render::find_inset(render::parse_inset(text), loaded);
+  };
+  request.inset = region(options.camera.inset);
+  request.frame = region(options.frame);
+  request.close_up = region(options.close_up);
   const MadeField made = make_field(recipe, loaded, progress);
   tell_target(made, console);
   Timings timings;
@@ -105,6 +118,14 @@ void add_render(CLI::App& app, Invocation& invocation) {
       ->type_name("WxH")
       ->capture_default_str();
   add_camera_options(command, options->camera);
+  command
+      .add_option("--frame", options->frame,
+                  "Frame what lies within a radius (default 15eps) of a vertex: what --close-up shows")
+      ->type_name("VERTEX[:RADIUS]");
+  command
+      .add_option("--close-up", options->close_up,
+                  "Fill the picture with what lies within a radius (default 15eps) of a vertex")
+      ->type_name("VERTEX[:RADIUS]");
   command.add_option("--samples", picture.samples, "Samples a pixel, 1 to 1024")
       ->check(CLI::Range(1, 1024))
       ->type_name("N")

@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "morsel/core/file_writer.h"
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/export/label_file.h"
 #include "morsel/tools/report/segments_writer.h"
 #include "morsel/tools/report/sha256.h"
@@ -62,16 +62,14 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   const FieldRecipe recipe = prepare(options.request);
   const SegmentRequest request = segment_request(options);
   check_label_path(options.output);
-  const bool json_to_stdout = options.json == "-";
-  std::optional<core::FileWriter> json_file;
-  if (!options.json.empty() && !json_to_stdout) json_file.emplace(options.json);
+  DocumentTarget document(options.json);
 
   const core::Progress progress = console.progress();
   Timings timings;
   const Stopwatch load_watch;
   const core::WholeMesh input = core::read_whole_mesh(options.mesh, {.repair = common.repair}, progress);
   const core::LoadedMesh& loaded = input.loaded;
-  const std::string hash = options.json.empty() ? std::string() : sha256_of_file(options.mesh);
+  const std::string hash = document.is_wanted() ? sha256_of_file(options.mesh) : std::string();
   timings.emplace_back("load", load_watch.seconds());
 
   const MadeField field = make_field(recipe, loaded, progress);
@@ -86,16 +84,14 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   const std::vector<std::filesystem::path> written =
       write_labels(options.output, labels, field.field(), field.input.name, loaded.source.numbering,
                    input.input_positions);
-  if (!options.json.empty()) {
-    JsonStream json(json_to_stdout ? std::cout : json_file->stream());
-    write_segments(json, {options.mesh, hash, common.repair, options.request, request}, loaded, recipe, field,
-                   made, timings);
-    if (json_file) json_file->commit();
-  }
+  if (document.is_wanted())
+    write_segments(document.json(), {options.mesh, hash, common.repair, options.request, request}, loaded,
+                   recipe, field, made, timings);
+  document.commit();
   console.message(described(made));
   if (!made.note.empty()) console.message(made.note);
   for (const std::filesystem::path& path : written) console.message("labels: " + path.string());
-  if (json_file) console.message("table: " + options.json);
+  if (document.is_file()) console.message("table: " + options.json);
   return kDone;
 }
 

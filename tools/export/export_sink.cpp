@@ -7,7 +7,6 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parallel.h"
 #include "morsel/tools/export/complex_file.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/export/surface_file.h"
 
 namespace morsel::tools {
@@ -51,8 +50,7 @@ ExportSink::ExportSink(std::filesystem::path folder, const core::LoadedMesh& loa
 void ExportSink::field(const FieldOutcome& outcome) { field_name_ = outcome.name; }
 
 void ExportSink::method(const MethodOutcome& outcome) {
-  const int use = ++uses_[outcome.name];
-  const std::string name = outcome.name + (use == 1 ? "" : "-" + std::to_string(use));
+  const std::string name = names_.next(outcome.name);
   const std::filesystem::path base = folder_ / name;
   const std::vector<double> persistence =
       persistence::vertex_persistence(outcome.measurement.diagram, loaded_.mesh.vertex_count());

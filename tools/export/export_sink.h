@@ -2,10 +2,10 @@
 /// The files of `morsel compare --export`.
 
 #include <filesystem>
-#include <map>
 #include <string>
 
 #include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/export/folder.h"
 
 namespace morsel::tools {
 
@@ -26,7 +26,7 @@ class ExportSink : public ComparisonSink {
   std::filesystem::path folder_;
   const core::LoadedMesh& loaded_;
   std::string field_name_;
-  std::map<std::string, int> uses_;
+  FileNames names_;
 };
 
 }  // namespace morsel::tools

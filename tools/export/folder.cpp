@@ -14,4 +14,9 @@ void make_folder(const std::filesystem::path& folder) {
                             (error ? ": " + error.message() : ": a file of that name is there"));
 }
 
+std::string FileNames::next(const std::string& name) {
+  const int use = ++uses_[name];
+  return use == 1 ? name : name + "-" + std::to_string(use);
+}
+
 }  // namespace morsel::tools

@@ -1,9 +1,6 @@
 #include "morsel/tools/render/canvas.h"
 
-#include <cairo-ft.h>
 #include <cairo.h>
-#include <ft2build.h>
-#include FT_FREETYPE_H
 
 #include <algorithm>
 #include <cstring>
@@ -11,81 +8,17 @@
 #include <new>
 #include <string>
 
-#include "morsel/core/error.h"
-#include "morsel/tools/render/font.h"
+#include "morsel/tools/drawing/lettering.h"
 
 namespace morsel::tools::render {
-namespace {
-
-/// Whether cairo will take it.
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t length = byte < 0x80                   ? 1
-                               : byte >= 0xc2 && byte < 0xe0 ? 2
-                               : byte >= 0xe0 && byte < 0xf0 ? 3
-                               : byte >= 0xf0 && byte < 0xf5 ? 4
-                                                             : 0;
-    if (byte == 0 || length == 0 || i + length > text.size()) return false;
-    std::uint32_t code = length == 1 ? byte : byte & (0x7fu >> length);
-    for (std::size_t k = 1; k < length; ++k) {
-      const auto next = static_cast<unsigned char>(text[i + k]);
-      if ((next & 0xc0u) != 0x80) return false;
-      code = code << 6 | (next & 0x3fu);
-    }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-    if (code < kLeast[length] || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff) return false;
-    i += length;
-  }
-  return true;
-}
-
-/// A font face and the library that it lives in. Of its own, as FreeType's are not for several threads.
-struct Face {
-  FT_Library library = nullptr;
-  FT_Face face = nullptr;
-  ~Face() {
-    if (library != nullptr) FT_Done_FreeType(library);  // and its faces
-  }
-};
-
-cairo_font_face_t* make_font() {
-  auto holder = std::make_unique<Face>();
-  if (FT_Init_FreeType(&holder->library) != 0 ||
-      FT_New_Memory_Face(holder->library, reinterpret_cast<const FT_Byte*>(kFontBytes),
-                         static_cast<FT_Long>(kFontSize), 0, &holder->face) != 0)
-    throw std::bad_alloc();
-  cairo_font_face_t* font = cairo_ft_font_face_create_for_ft_face(holder->face, 0);
-  // cairo keeps a font for a while after its last use; the face goes when cairo lets go of it.
-  static const cairo_user_data_key_t key{};
-  if (cairo_font_face_set_user_data(font, &key, holder.get(), [](void* face) {
-        delete static_cast<Face*>(face);
-      }) != CAIRO_STATUS_SUCCESS) {
-    cairo_font_face_destroy(font);
-    throw std::bad_alloc();
-  }
-  holder.release();
-  return font;
-}
-
-}  // namespace
-
 struct Canvas::Surface {
   cairo_surface_t* surface = nullptr;
   cairo_t* cairo = nullptr;
+  drawing::Lettering lettering;
 
   explicit Surface(Size size) {
-    cairo_font_face_t* font = make_font();
     surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, size.width, size.height);
     cairo = cairo_create(surface);
-    cairo_set_font_face(cairo, font);
-    cairo_font_face_destroy(font);
-    cairo_font_options_t* options = cairo_font_options_create();
-    cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
-    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
-    cairo_set_font_options(cairo, options);
-    cairo_font_options_destroy(options);
     if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS) {
       release();
       throw std::bad_alloc();
@@ -142,20 +75,16 @@ void Canvas::draw(const Image& image, int x, int y) {
 
 void Canvas::text(double x, double y, double size, std::string_view text, Align align, Ink ink) {
   if (align != Align::left) x -= text_width(size, text) * (align == Align::center ? 0.5 : 1);
-  if (!is_utf8(text)) throw core::InvalidArgument("a text to be drawn is not UTF-8");
+  drawing::check_text(text);
   surface_->set(ink);
-  cairo_set_font_size(surface_->cairo, size);
+  surface_->lettering.use(surface_->cairo, size);
   cairo_move_to(surface_->cairo, x, y);
   cairo_show_text(surface_->cairo, std::string(text).c_str());
   cairo_new_path(surface_->cairo);
 }
 
 double Canvas::text_width(double size, std::string_view text) {
-  if (!is_utf8(text)) throw core::InvalidArgument("a text to be drawn is not UTF-8");
-  cairo_set_font_size(surface_->cairo, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(surface_->cairo, std::string(text).c_str(), &extents);
-  return extents.x_advance;
+  return surface_->lettering.width(text, size);
 }
 
 void Canvas::line(double x0, double y0, double x1, double y1, double width, Ink ink) {

@@ -40,7 +40,9 @@ void draw_caption(Canvas& canvas, const std::string& text, double em, double x, 
   Ink ink = kBlack;
   double baseline = y + 1.2 * em;
   for (const std::string& line : lines_of(text)) {
-    canvas.text(x + width / 2, baseline, em, line, Align::center, ink);
+    const double fit =
+        std::min(1., 0.97 * width / canvas.text_width(em, line));  // or it would run into its neighbour
+    canvas.text(x + width / 2, baseline, fit * em, line, Align::center, ink);
     baseline += kLine * em;
     ink = kGray;
   }

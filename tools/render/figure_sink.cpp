@@ -1,9 +1,7 @@
 #include "morsel/tools/render/figure_sink.h"
 
-#include <system_error>
 #include <utility>
 
-#include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/render/caption.h"
 
@@ -22,7 +20,7 @@ void write(const std::filesystem::path& path, const Image& image) {
 }  // namespace
 
 FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera,
-                       core::Progress progress, Size size)
+                       Size size, core::Progress progress)
     : folder_(std::move(folder)),
       loaded_(loaded),
       camera_(std::move(camera)),
@@ -31,11 +29,7 @@ FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loa
   request_.size = size;
   check_size(size);
   if (!camera_.inset.empty()) request_.inset = find_inset(parse_inset(camera_.inset), loaded_);
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error || !std::filesystem::is_directory(folder_))
-    throw core::WriteFailed("cannot make the folder " + folder_.string() +
-                            (error ? ": " + error.message() : ": a file of that name is there"));
+  make_folder(folder_);
 }
 
 void FigureSink::field(const FieldOutcome& outcome) {
@@ -45,8 +39,7 @@ void FigureSink::field(const FieldOutcome& outcome) {
 }
 
 void FigureSink::method(const MethodOutcome& outcome) {
-  const int use = ++uses_[outcome.name];
-  const std::string name = outcome.name + (use == 1 ? "" : "-" + std::to_string(use));
+  const std::string name = names_.next(outcome.name);
   const morse::CriticalPoints& points = outcome.measurement.critical_points;
   request_.arcs = points.total() <= kPointsWithArcs;
   const Subject subject{outcome.field, &outcome.measurement,

@@ -2,13 +2,13 @@
 /// The pictures of `morsel compare --figures`.
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "morsel/core/progress.h"
 #include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/export/folder.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/render/sheet.h"
 
@@ -22,10 +22,10 @@ namespace morsel::tools::render {
 /// made it.
 class FigureSink : public ComparisonSink {
  public:
-  /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset. Refers to
+  /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset, or an impossible size. Refers to
   /// `loaded`.
-  FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera,
-             core::Progress progress = {}, Size size = {1200, 840});
+  FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera, Size size,
+             core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
   /// Writes the sheet; to be called after the comparison.
@@ -40,7 +40,7 @@ class FigureSink : public ComparisonSink {
   std::optional<Studio> studio_;
   View view_;
   std::string field_name_;
-  std::map<std::string, int> uses_;
+  FileNames names_;
   std::vector<Panel> panels_;
 };
 

@@ -31,14 +31,33 @@ double overlap(const Square& a, double x, double y, double side) {
   return std::max(0., w) * std::max(0., h);
 }
 
+void check_radius(double radius) {
+  if (!(radius > 1e-4 && radius <= 1))
+    throw core::InvalidArgument(
+        "the radius of a magnified region is above 0.01 % of the mesh's diagonal and at most all of it");
+}
+
 }  // namespace
+
+FilmWindow window_around(const Camera& camera, const core::Point& center, double radius) {
+  check_radius(radius);
+  const Eigen::Vector2d middle = camera.project(center);
+  const double depth = (camera.eye - center).dot(camera.back);
+  const double reach = radius / (depth * std::min(camera.half_width, camera.half_height));
+  return {middle[0] - reach, middle[1] - reach, middle[0] + reach, middle[1] + reach};
+}
+
+void draw_window(Canvas& canvas, Size picture, const FilmWindow& window, double em) {
+  const double x = (window.x0 + 1) / 2 * picture.width, y = (1 - window.y1) / 2 * picture.height;
+  const double width = (window.x1 - window.x0) / 2 * picture.width;
+  const double height = (window.y1 - window.y0) / 2 * picture.height;
+  canvas.frame(x, y, width, height, std::max(1.5, em / 6), kBlack);
+}
 
 void draw_inset(Canvas& canvas, const Image& picture, const Tracer& tracer, const Camera& camera,
                 const TraceOptions& options, const core::Point& center, double radius, double em,
                 const core::Progress& progress) {
-  if (!(radius > 1e-4 && radius <= 1))
-    throw core::InvalidArgument(
-        "the radius of a magnified region is above 0.01 % of the mesh's diagonal and at most all of it");
+  check_radius(radius);
   const auto [width, height] = picture.size;
   const int side = static_cast<int>(0.36 * std::min(width, height));
   if (side < 24) throw core::InvalidArgument("the picture is too small to magnify a region in it");

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "morsel/core/error.h"
+#include "morsel/core/parallel.h"
 #include "morsel/tools/render/best_view.h"
 #include "morsel/tools/render/canvas.h"
 #include "morsel/tools/render/caption.h"
@@ -17,6 +18,7 @@ namespace morsel::tools::render {
 namespace {
 
 const Color kPlain = from_hex(0xd9d4ca);
+constexpr double kCloseBall = 0.045;  // the largest sphere of a close-up, in radii of what it shows
 
 void color_surface(Scene& scene, const Subject& subject, Show show, const ValueScale& scale) {
   switch (show) {
@@ -55,6 +57,19 @@ View Studio::view(const std::string& name, UpAxis up, const core::Progress& prog
   return best_view(body_, rays_, view_weights(body_, progress), up, progress);
 }
 
+std::vector<bool> Studio::shown(const View& view, double least_cosine) const {
+  std::vector<char> seen(body_.mesh.vertex_count());  // not bool: threads write side by side
+  const core::Point eye = fit_camera(body_.mesh.positions(), view, 1).eye;
+  core::parallel_for_each(seen.size(), [&](std::size_t v) {
+    const core::Point& normal = body_.normals[v];
+    const core::Point start = body_.mesh.position(static_cast<core::Index>(v)) + 1e-4 * normal;
+    const core::Point way = (eye - start).normalized();
+    seen[v] =
+        normal.dot(way) >= least_cosine && !rays_.any(start.cast<float>(), way.cast<float>(), 1e-4f, kFar);
+  });
+  return {seen.begin(), seen.end()};
+}
+
 Image Studio::take(const View& view, const Subject& subject, const PictureRequest& request,
                    const core::Progress& progress) const {
   check_size(request.size);
@@ -64,6 +79,10 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
       request.points || request.arcs || (request.show != Show::field && request.show != Show::plain);
   if (measured && subject.measurement == nullptr)
     throw core::InvalidArgument("critical points, arcs and segments are shown of a measured field only");
+
+  if (request.close_up && (request.inset || request.frame))
+    throw core::InvalidArgument("a close-up has no further region magnified or framed in it");
+  const auto radius_of = [&](const Inset& region) { return unit_ > 0 ? region.radius.on(mesh_) / unit_ : 0; };
 
   // The layout: caption below, colour bar on the right, the surface in what is left.
   const Size size = request.size;
@@ -82,7 +101,11 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   Scene scene{body_};
   color_surface(scene, subject, request.show, scale);
   if (measured) {
-    const GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
+    GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
+    if (request.close_up) {
+      sizes.ball = std::min(sizes.ball, kCloseBall * radius_of(*request.close_up));
+      sizes.tube = std::min(sizes.tube, 0.4 * sizes.ball);
+    }
     if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
     if (request.arcs) {
       const bool borders = request.show != Show::field && request.show != Show::plain;
@@ -96,14 +119,17 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   const Tracer tracer(scene);
   const double aspect = static_cast<double>(frame.width) / frame.height;
   const Camera camera = fit_camera(body_.mesh.positions(), view, aspect);
-  const TraceOptions options{frame, request.samples, request.transparent, true, {}};
+  const auto window_of = [&](const Inset& region) {
+    return window_around(camera, body_.mesh.position(region.vertex), radius_of(region));
+  };
+  TraceOptions options{frame, request.samples, request.transparent, true, {}};
+  if (request.close_up) options.window = window_of(*request.close_up);
   const Image surface = tracer.trace(camera, options, progress);
   canvas.draw(surface, 0, 0);
-  if (request.inset) {
-    const double radius = unit_ > 0 ? request.inset->radius.on(mesh_) / unit_ : 0;
-    draw_inset(canvas, surface, tracer, camera, options, body_.mesh.position(request.inset->vertex), radius,
-               em, progress);
-  }
+  if (request.frame) draw_window(canvas, frame, window_of(*request.frame), em);
+  if (request.inset)
+    draw_inset(canvas, surface, tracer, camera, options, body_.mesh.position(request.inset->vertex),
+               radius_of(*request.inset), em, progress);
   if (legend) draw_legend(canvas, scale, subject.quantity, em, frame.width, frame.height);
   draw_caption(canvas, subject.caption, em, 0, frame.height, size.width);
   return canvas.image();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "morsel/core/length.h"
 #include "morsel/core/progress.h"
@@ -21,7 +22,7 @@ namespace morsel::tools::render {
 /// What the surface is coloured by.
 enum class Show { field, descending, ascending, morse_smale, plain };
 
-/// A region that is shown magnified in a corner.
+/// What lies around a vertex: a region that is shown magnified.
 struct Inset {
   core::Index vertex = core::kNone;  ///< the mesh's number
   core::Length radius = core::Length::epsilons(15);
@@ -37,7 +38,9 @@ struct PictureRequest {
   ScaleRequest scale;
   bool legend =
       true;  ///< a colour bar where the surface shows the field; left out of pictures under 240 x 160
-  std::optional<Inset> inset;
+  std::optional<Inset> inset;     ///< shown magnified in a corner
+  std::optional<Inset> frame;     ///< framed, as the region of another picture's close-up
+  std::optional<Inset> close_up;  ///< fills the picture, seen by the camera that would show all
 };
 
 /// What is in a picture.
@@ -57,6 +60,10 @@ class Studio {
 
   /// "best", or what named_view() takes.
   View view(const std::string& name, UpAxis up = UpAxis::y, const core::Progress& progress = {}) const;
+
+  /// For each vertex, whether a square picture shows it: it faces the camera, the cosine being at least
+  /// `least_cosine`, and nothing is in between. Parallel.
+  std::vector<bool> shown(const View& view, double least_cosine) const;
 
   /// Throws InvalidArgument on options out of range, a subject of another mesh, or one without a measurement
   /// where it is needed. The same bytes for every number of threads.

@@ -43,7 +43,9 @@ Image make_sheet(const std::vector<Panel>& panels, const std::string& title, boo
   if (head > 0) canvas.text(size.width / 2., 1.5 * em, 1.1 * em, title, Align::center);
   for (int i = 0; i < count; ++i) {
     const Panel& panel = panels[static_cast<std::size_t>(i)];
-    const int x = (i % columns) * (cell.width + gap);
+    const int in_row = std::min(columns, count - i / columns * columns);  // the last row may be shorter
+    const int indent = (columns - in_row) * (cell.width + gap) / 2;
+    const int x = indent + (i % columns) * (cell.width + gap);
     const int y = head + (i / columns) * (cell.height + strip + gap);
     canvas.draw(panel.image, x + (cell.width - panel.image.size.width) / 2,
                 y + (cell.height - panel.image.size.height) / 2);

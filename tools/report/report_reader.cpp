@@ -2,8 +2,6 @@
 
 #include <fstream>
 
-#include "morsel/core/error.h"
-
 namespace morsel::tools {
 
 LoadedReport read_report(const std::filesystem::path& path) {
@@ -20,8 +18,8 @@ LoadedReport read_report(const std::filesystem::path& path) {
   const bool has_schema = head.is_object() && head.contains("schema") && head["schema"].is_string();
   const std::string schema = has_schema ? head["schema"].get<std::string>() : "none";
   if (schema != "morsel.comparison/1")
-    throw core::BadInput(path.string() + " is not a comparison report: its schema is \"" + schema +
-                         "\", not \"morsel.comparison/1\"");
+    throw OtherDocument(path.string() + " is not a comparison report: its schema is \"" + schema +
+                        "\", not \"morsel.comparison/1\"");
   try {
     const Json& request = head.at("request");
     report.request.field = request.at("field").get<std::string>();

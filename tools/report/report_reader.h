@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "morsel/core/error.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/report/report_document.h"
 
@@ -18,7 +19,13 @@ struct LoadedReport {
   std::string mesh_sha256;
 };
 
-/// Throws BadInput if the file is missing, is not JSON, or is not a report of this schema.
+/// The document is JSON, but of another schema.
+class OtherDocument : public core::BadInput {
+ public:
+  using BadInput::BadInput;
+};
+
+/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of this schema.
 LoadedReport read_report(const std::filesystem::path& path);
 
 /// Where the report's mesh lies now: its path from the working folder, or else from the report's own folder.

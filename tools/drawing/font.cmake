@@ -10,6 +10,6 @@ if(NOT EXISTS ${MORSEL_FONT_SOURCE} OR MORSEL_FONT IS_NEWER_THAN MORSEL_FONT_SOU
   # String literals, which compilers read a hundred times faster than lists of numbers; of pieces, as \x would go on.
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" bytes "${bytes}")
   file(WRITE ${MORSEL_FONT_SOURCE}
-       "#include \"morsel/tools/render/font.h\"\n\nnamespace morsel::tools::render {\n\n"
+       "#include \"morsel/tools/drawing/font.h\"\n\nnamespace morsel::tools::drawing {\n\n"
        "const char* const kFontBytes = \"${bytes}\";\nconst std::size_t kFontSize = ${size};\n\n}\n")
 endif()

@@ -1,0 +1,35 @@
+#pragma once
+/// Bytes on their way into a page: compressed, then written as text.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "morsel/core/file_writer.h"
+
+namespace morsel::tools::html {
+
+/// Writes what it is given, deflated (zlib's format, RFC 1950) and in base64, to a file while it comes. The same
+/// input gives the same text. Throws WriteFailed, and std::bad_alloc.
+class PackedStream {
+ public:
+  /// Refers to `file`, to which nobody else may write before finish().
+  explicit PackedStream(core::FileWriter& file);
+  ~PackedStream();
+  PackedStream(const PackedStream&) = delete;
+  PackedStream& operator=(const PackedStream&) = delete;
+
+  void write(const void* data, std::size_t size);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  /// What is still on its way, and the end. Nothing may be written afterwards.
+  void finish();
+  /// Bytes taken so far, before they were compressed.
+  std::uint64_t size() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace morsel::tools::html

@@ -1,0 +1,52 @@
+#pragma once
+/// The plots of a comparison: persistence diagrams, counts against persistence and against iteration.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/plot/plot.h"
+
+namespace morsel::tools::plot {
+
+/// The points of a persistence diagram by what they are. x is the birth, y the death, +∞ for what never dies.
+struct DiagramPoints {
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+/// What the plots show of a method.
+struct MethodCurves {
+  std::string name;  ///< as given on the command line
+  DiagramPoints minimum_saddle;
+  DiagramPoints saddle_maximum;
+  DiagramPoints saddle_cap;
+  /// Each component's minimum, the saddles that are paired with no extremum and, of closed components, the maximum. (The top class of a
+  /// bounded component is a cap, which is born at +∞ and has no place in a diagram.)
+  DiagramPoints essential;
+  std::vector<double> persistences;  ///< of the finite pairs, ascending
+  /// Critical points after each iteration of all steps together, the input first; empty if no step iterates.
+  std::vector<std::size_t> counts;
+
+  std::size_t pairs() const {
+    return minimum_saddle.x.size() + saddle_maximum.x.size() + saddle_cap.x.size();
+  }
+};
+
+MethodCurves curves_of(const MethodOutcome& outcome);
+
+/// The persistence diagram of one method, a column wide. `field` is what the axes are labelled with.
+Plot diagram_plot(const MethodCurves& method, const std::string& field);
+
+/// Those of all methods with the same axes, side by side on the width of a page.
+Plot diagram_sheet(const std::vector<MethodCurves>& methods, const std::string& field);
+
+/// How many finite pairs have at least a persistence, against it, both logarithmic; a line a method. It begins at a 100,000th of the
+/// largest persistence; what is below, zeros included, is counted nowhere in it.
+Plot persistence_plot(const std::vector<MethodCurves>& methods, const std::string& field);
+
+/// Critical points against iteration, a line for each method that iterates; without panels if none does.
+Plot iteration_plot(const std::vector<MethodCurves>& methods);
+
+}  // namespace morsel::tools::plot

@@ -1,0 +1,36 @@
+#pragma once
+/// The plots of `morsel compare --figures`.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/export/folder.h"
+#include "morsel/tools/plot/comparison_plots.h"
+
+namespace morsel::tools {
+
+/// Writes into one folder (made if it is not there), each as .svg and as .png of 300 pixels an inch:
+///   NAME.diagram  the method's persistence diagram
+///   diagrams      those of all methods, with the same axes
+///   persistence   how many pairs are how persistent, a line a method
+///   iterations    critical points against iteration, a line for each method that iterates; if any does
+/// NAME is the method's; a second method of the same name gets "-2", and so on. Keeps 24 bytes a pair and method.
+class PlotSink : public ComparisonSink {
+ public:
+  /// Throws WriteFailed if the folder cannot be made or written to: to be made before long work.
+  explicit PlotSink(std::filesystem::path folder);
+  void field(const FieldOutcome& outcome) override;
+  void method(const MethodOutcome& outcome) override;
+  /// Writes what shows all methods. To be called once, at the end.
+  void finish();
+
+ private:
+  std::filesystem::path folder_;
+  std::string field_;
+  FileNames names_;
+  std::vector<plot::MethodCurves> methods_;
+};
+
+}  // namespace morsel::tools

@@ -1,0 +1,58 @@
+#include "morsel/tools/report/report_check.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/report_reader.h"
+#include "morsel/tools/report/report_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+/// The report that the same request gives now.
+ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
+                         const core::Progress& progress) {
+  const HashedMesh input = read_hashed_mesh(mesh_path, {.repair = report.repair}, progress);
+  ReportCollector again;
+  ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.repair, report.items},
+                      report.request);
+  run_comparison(input.loaded, prepare(report.request), {&writer}, progress);
+  writer.finish();
+  return again.take();
+}
+
+}  // namespace
+
+ReportCheck check_report(const std::filesystem::path& path, const core::Progress& progress) {
+  const LoadedReport report = read_report(path);
+  ReportCheck result{report.mesh_path, report.request.methods.size(), false, {}};
+  const std::filesystem::path mesh = find_mesh(report, path);
+  if (mesh.empty()) {
+    result.mesh_is_missing = true;
+    return result;
+  }
+  try {
+    result.differences = report_differences(report.document, run_again(report, mesh, progress));
+  } catch (const core::InvalidArgument& error) {
+    throw core::BadInput(path.string() + " asks for what this version does not do: " + error.what());
+  }
+  return result;
+}
+
+std::vector<std::filesystem::path> json_files(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->is_regular_file() && core::file_extension(at->path()) == ".json") files.push_back(at->path());
+  if (error) throw core::BadInput("cannot read the folder " + folder.string() + ": " + error.message());
+  if (files.empty()) throw core::BadInput("there is no report (.json) in the folder " + folder.string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,124 @@
+#include "morsel/tools/reproduce/document.h"
+
+#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/reproduce/table.h"
+
+namespace morsel::tools::reproduce {
+namespace {
+
+Json request_section(const Request& request) {
+  Json section = {{"data", nullptr},         {"meshes", request.samples.string()},
+                  {"size", request.size},    {"samples", request.pixel_samples},
+                  {"views", request.views},  {"up", request.ups},
+                  {"repair", request.repair}};
+  if (!request.data.empty()) section["data"] = request.data.string();
+  return section;
+}
+
+Json model_section(const Model& model, const PictureOptions& pictures) {
+  return {
+      {"name", model.recipe().name},
+      {"paper", model.recipe().paper},
+      {"sample", model.file().is_sample},
+      {"view", pictures.camera.view},
+      {"mesh", mesh_section(model.file().path, model.sha256(), model.mesh(), model.loaded().source.repairs)}};
+}
+
+/// A method on the field, with all its parameters, and what it left.
+Json run_section(const Model& model, const MethodRun& run) {
+  return {{"specification", run.recipe.chain.specification},
+          {"field", field_section(run.made.input)},
+          {"method", method_section(run.recipe, run.made, model.loaded().source.numbering)},
+          {"critical_points", counts_section(run.measurement.critical_points)},
+          {"ms_complex", complex_section(run.measurement.complex, run.measurement.segmentation)}};
+}
+
+Json panel_section(const Model& model, const PanelOutcome& panel, std::size_t number) {
+  Json section = {{"panel", std::string(1, static_cast<char>('a' + number))},
+                  {"title", panel.recipe->title},
+                  {"file", panel.file},
+                  {"command", command_line(panel.command)},
+                  {"paper", nullptr}};
+  if (!panel.recipe->paper.empty()) section["paper"] = panel.recipe->paper;
+  section.update(run_section(model, *panel.run));
+  return section;
+}
+
+Json region_section(const Model& model, const ComparedRegion& region) {
+  return {{"vertex", model.loaded().source.numbering.input_vertex(region.vertex)},
+          {"radius", core::to_string(region.radius)},
+          {"first", region.first},
+          {"second", region.second}};
+}
+
+Json figure_section(const FigureOutcome& figure) {
+  Json section = {{"figure", figure.recipe->number},
+                  {"title", figure.recipe->title},
+                  {"model", figure.model->recipe().name},
+                  {"file", figure.file},
+                  {"paper", figure.recipe->paper},
+                  {"here", figure.finding},
+                  {"panels", Json::array()}};
+  for (std::size_t i = 0; i < figure.panels.size(); ++i)
+    section["panels"].push_back(panel_section(*figure.model, figure.panels[i], i));
+  if (figure.region) section["region"] = region_section(*figure.model, *figure.region);
+  if (!figure.levels.empty()) {
+    section["levels"] = Json::array();
+    for (const LevelLinks& level : figure.levels)
+      section["levels"].push_back({{"points", level.points},
+                                   {"segments", level.cells},
+                                   {"kept", level.kept},
+                                   {"moved", level.moved},
+                                   {"new", level.fresh}});
+  }
+  return section;
+}
+
+Json row_section(const TableRowOutcome& row) {
+  Json section = {{"model", row.model->recipe().name},
+                  {"figure", row.recipe->figure},
+                  {"iterations", row.recipe->iterations},
+                  {"paper", {{"points", nullptr}, {"seconds", nullptr}}},
+                  {"runs", Json::array()}};
+  if (row.recipe->paper_points) section["paper"]["points"] = *row.recipe->paper_points;
+  if (row.recipe->paper_seconds) section["paper"]["seconds"] = *row.recipe->paper_seconds;
+  for (const TableCell& cell : row.cells) section["runs"].push_back(run_section(*row.model, *cell.run));
+  return section;
+}
+
+/// Seconds of every run of the table, row by row, and of the steps.
+Json all_timings(const Reproduction& reproduction) {
+  Json section = timings_section(reproduction.timings);
+  section["table"] = Json::array();
+  for (const TableRowOutcome& row : reproduction.table) {
+    Json seconds = Json::array();
+    for (const TableCell& cell : row.cells) seconds.push_back(cell.run->seconds);
+    section["table"].push_back(std::move(seconds));
+  }
+  return section;
+}
+
+}  // namespace
+
+void write_document(JsonSink& json, const Prepared& prepared, const Reproduction& reproduction) {
+  Json models = Json::array();
+  for (std::size_t i = 0; i < reproduction.models.size(); ++i)
+    models.push_back(model_section(*reproduction.models[i], prepared.pictures[i]));
+  Json figures = Json::array();
+  for (const FigureOutcome& figure : reproduction.figures) figures.push_back(figure_section(figure));
+  Json table = Json::array();
+  for (const TableRowOutcome& row : reproduction.table) table.push_back(row_section(row));
+  json.begin_object();
+  json.member("schema", "morsel.reproduction/1");
+  json.member("tool", tool_section());
+  json.member("request", request_section(prepared.request));
+  json.member("models", models);
+  json.member("figures", figures);
+  json.member("table", table);
+  json.member("timings", all_timings(reproduction));
+  json.end_object();
+}
+
+}  // namespace morsel::tools::reproduce

@@ -1,0 +1,232 @@
+#include "morsel/tools/reproduce/figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/core/parameters.h"
+#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/render/caption.h"
+#include "morsel/tools/render/sheet.h"
+#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/reproduce/region.h"
+
+namespace morsel::tools::reproduce {
+namespace {
+
+using render::Show;
+
+// The least cosine between normal and line of sight at which one can look into a region.
+constexpr double kFacing = 0.7;
+constexpr core::Length kRegion = core::Length::epsilons(8);  // σ, as far as smoothing looks
+
+std::string letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
+
+/// The text with "{c}" replaced by the number of critical points of panel (c).
+std::string resolved(std::string_view method, const FigureRecipe& recipe, Model& model,
+                     const core::Progress& progress) {
+  std::string text(method);
+  for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
+    const std::string placeholder = "{" + letter(i) + "}";
+    const std::size_t at = text.find(placeholder);
+    if (at == std::string::npos) continue;
+    const std::string other = resolved(recipe.panels[i].method, recipe, model, progress);
+    text.replace(at, placeholder.size(), std::to_string(model.run(other, progress).total()));
+  }
+  return text;
+}
+
+/// Away from zero, to two digits: short in commands and on colour bars.
+double rounded_out(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const int digits = 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  // Powers of ten with positive exponents are exact, so that the quotient is the nearest to the decimal number.
+  const double power = std::pow(10, std::abs(digits));
+  const double scaled = digits >= 0 ? std::abs(value) * power : std::abs(value) / power;
+  const double whole = std::ceil(scaled * (1 - 1e-12));
+  return std::copysign(digits >= 0 ? whole / power : whole * power, value);
+}
+
+/// The colours of panels that share a range: from the lowest lower end to the highest upper one.
+class SharedScales {
+ public:
+  void add(const PanelRecipe& panel, const core::ScalarField& field) {
+    if (panel.scale.empty() || panel.show != Show::field) return;
+    const render::ValueScale scale = render::choose_scale(field.values());
+    const auto [place, is_new] = requests_.try_emplace(panel.scale);
+    render::ScaleRequest& request = place->second;
+    if (is_new) {
+      request.limits = {scale.low, scale.high};
+      request.colormap = scale.map.name();
+    }
+    request.limits = {rounded_out(std::min(request.limits->first, scale.low)),
+                      rounded_out(std::max(request.limits->second, scale.high))};
+  }
+  render::ScaleRequest of(const PanelRecipe& panel) const {
+    const auto found = requests_.find(panel.scale);
+    return found == requests_.end() || panel.show != Show::field ? render::ScaleRequest{} : found->second;
+  }
+
+ private:
+  std::map<std::string_view, render::ScaleRequest> requests_;
+};
+
+std::string region_text(const Model& model, const ComparedRegion& region) {
+  return std::to_string(model.loaded().source.numbering.input_vertex(region.vertex)) + ":" +
+         core::to_string(region.radius);
+}
+
+std::string name_of(Show show) {
+  switch (show) {
+    case Show::field:
+      return "field";
+    case Show::descending:
+      return "descending";
+    case Show::ascending:
+      return "ascending";
+    case Show::morse_smale:
+      return "morse-smale";
+    case Show::plain:
+      break;
+  }
+  return "plain";
+}
+
+std::string name_of(render::UpAxis up) {
+  return up == render::UpAxis::x ? "x" : up == render::UpAxis::y ? "y" : "z";
+}
+
+/// What `morsel render` is to be told to make the panel.
+std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutcome& figure,
+                                    const PictureOptions& options, const render::PictureRequest& request) {
+  const Model& model = *figure.model;
+  std::vector<std::string> words = {
+      "morsel",   "render",    model.file().path.string(), "--field", std::string(kField),
+      "--method", panel.method};
+  const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
+  if (options.repair) add({"--repair"});
+  if (request.show != Show::field) add({"--show", name_of(request.show)});
+  if (!request.points) add({"--no-points"});
+  if (!request.legend) add({"--no-legend"});
+  if (request.arcs && request.show == Show::field) add({"--arcs"});
+  if (request.scale.limits)
+    add({"--range=" + core::shortest(request.scale.limits->first) + "/" +
+             core::shortest(request.scale.limits->second),
+         "--colormap", request.scale.colormap});
+  if (request.frame) add({"--frame", region_text(model, *figure.region)});
+  if (request.close_up) add({"--close-up", region_text(model, *figure.region)});
+  if (options.camera.view.starts_with('-'))
+    add({"--view=" + options.camera.view});
+  else
+    add({"--view", options.camera.view});
+  if (options.camera.up != render::UpAxis::y) add({"--up", name_of(options.camera.up)});
+  add({"--size", std::to_string(request.size.width) + "x" + std::to_string(request.size.height), "--samples",
+       std::to_string(request.samples), "-o", panel.file});
+  return words;
+}
+
+std::string caption_of(const PanelOutcome& panel, const FigureOutcome& figure) {
+  const morse::CriticalPoints& points = panel.run->measurement.critical_points;
+  std::string text = std::string(panel.recipe->title) + "\n" + panel.method + "\n";
+  if (panel.recipe->region == Region::close_up && figure.region) {
+    const bool is_first = panel.run == figure.panels[(*figure.recipe->compared)[0]].run;
+    const std::size_t count = is_first ? figure.region->first : figure.region->second;
+    return text + grouped(count) + (count == 1 ? " critical point" : " critical points") + " within " +
+           core::to_string(figure.region->radius) + " of the middle";
+  }
+  if (!panel.recipe->points)
+    return text + "from " + core::shortest(rounded_out(panel.run->made.field().min())) + " to " +
+           core::shortest(rounded_out(panel.run->made.field().max()));
+  text += render::counts_line(points.minima, points.saddles, points.maxima);
+  if (!panel.recipe->paper.empty()) text += "\nthe paper: " + std::string(panel.recipe->paper);
+  return text;
+}
+
+/// Counts what became of the points from level to level.
+class LinkCounter : public HierarchySink {
+ public:
+  void begin(const HierarchyBasis&) override {}
+  void level(const Level& level) override {
+    levels.push_back({level.points.total(), level.cells(CellKind::morse_smale).count,
+                      level.count(PointStatus::kept), level.count(PointStatus::moved),
+                      level.count(PointStatus::fresh)});
+  }
+  std::vector<LevelLinks> levels;
+};
+
+std::vector<LevelLinks> count_links(const FigureRecipe& recipe, const Model& model,
+                                    const core::Progress& progress) {
+  HierarchyRequest request;
+  request.field = {std::string(kField), std::string(recipe.hierarchy_method), {}};
+  request.levels = recipe.hierarchy_levels;
+  LinkCounter counter;
+  run_hierarchy(model.loaded(), prepare(request), {&counter}, progress);
+  return std::move(counter.levels);
+}
+
+void write(const std::filesystem::path& path, const std::string& bytes) {
+  core::FileWriter file(path, core::Sync::never);
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace
+
+FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
+                          const std::filesystem::path& folder, const core::Progress& progress) {
+  const std::string name = "figure" + std::to_string(recipe.number);
+  FigureOutcome figure{&recipe, &model, name + ".png", {}, {}, {}, {}};
+  SharedScales scales;
+  for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
+    PanelOutcome panel;
+    panel.recipe = &recipe.panels[i];
+    panel.method = resolved(recipe.panels[i].method, recipe, model, progress);
+    panel.run = &model.run(panel.method, progress);
+    panel.file = name + letter(i) + ".png";
+    scales.add(*panel.recipe, panel.run->made.field());
+    figure.panels.push_back(std::move(panel));
+  }
+  const render::View view = model.studio().view(options.camera.view, options.camera.up, progress);
+  if (recipe.compared) {
+    const auto points = [&](std::size_t i) -> const morse::CriticalPoints& {
+      return figure.panels[(*recipe.compared)[i]].run->measurement.critical_points;
+    };
+    const ComparedRegion region = most_different_region(model.mesh(), points(0), points(1),
+                                                        model.studio().shown(view, kFacing), kRegion);
+    if (region.vertex != core::kNone) figure.region = region;
+  }
+  if (!recipe.hierarchy_levels.empty()) figure.levels = count_links(recipe, model, progress);
+
+  std::vector<render::Panel> sheet;
+  for (PanelOutcome& panel : figure.panels) {
+    render::PictureRequest request;
+    request.size = options.size;
+    request.samples = options.samples;
+    request.show = panel.recipe->show;
+    request.points = panel.recipe->points;
+    request.arcs = panel.recipe->arcs;
+    request.legend = panel.recipe->region != Region::close_up;  // that of the whole picture serves
+    request.scale = scales.of(*panel.recipe);
+    if (figure.region && panel.recipe->region != Region::none)
+      (panel.recipe->region == Region::framed ? request.frame : request.close_up) =
+          render::Inset{figure.region->vertex, figure.region->radius};
+    panel.command = command_of(panel, figure, options, request);
+    panel.caption = caption_of(panel, figure);
+    const render::Subject subject{
+        panel.run->made.field(), &panel.run->measurement,
+        render::quantity_of(std::string(kField), panel.run->recipe.chain.steps.back().name), ""};
+    render::Image image = model.studio().take(view, subject, request, progress);
+    panel.png = render::encode_png(image);
+    write(folder / panel.file, panel.png);
+    sheet.push_back({std::move(image), panel.caption});
+  }
+  figure.finding = recipe.finding(figure);
+  const std::string title = "Figure " + std::to_string(recipe.number) + ". " + std::string(recipe.title) +
+                            ": " + model.file().path.filename().string();
+  write(folder / figure.file, render::encode_png(render::make_sheet(sheet, title)));
+  return figure;
+}
+
+}  // namespace morsel::tools::reproduce

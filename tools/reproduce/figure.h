@@ -1,0 +1,25 @@
+#pragma once
+/// Makes one figure: its panels, each as `morsel render` would, and the sheet that shows them side by side.
+
+#include <filesystem>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/render/request_text.h"
+#include "morsel/tools/reproduce/outcome.h"
+
+namespace morsel::tools::reproduce {
+
+/// What all panels of a figure have in common.
+struct PictureOptions {
+  render::Size size{800, 680};  ///< of a panel
+  int samples = 16;             ///< a pixel
+  render::CameraText camera;    ///< its inset is not used
+  bool repair = false;          ///< told in the commands
+};
+
+/// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods, pictures and
+/// files throw.
+FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
+                          const std::filesystem::path& folder, const core::Progress& progress = {});
+
+}  // namespace morsel::tools::reproduce

@@ -1,0 +1,106 @@
+#pragma once
+/// What came out of the recipes.
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/render/picture.h"
+#include "morsel/tools/reproduce/meshes.h"
+#include "morsel/tools/reproduce/recipe.h"
+
+namespace morsel::tools::reproduce {
+
+/// A method on the field of one model, measured.
+struct MethodRun {
+  FieldRecipe recipe;
+  MadeField made;
+  Measurement measurement;
+  double seconds = 0;  ///< of the method and of finding the critical points, as the paper counts
+
+  std::size_t total() const { return measurement.critical_points.total(); }
+};
+
+/// A model: the mesh that stands in for it, and what methods made of its field, each run once.
+class Model {
+ public:
+  /// Reads the mesh; throws what core::read_mesh() throws.
+  static Model read(const ModelRecipe& recipe, const MeshFile& file, bool repair,
+                    const core::Progress& progress = {});
+
+  const ModelRecipe& recipe() const { return recipe_; }
+  const MeshFile& file() const { return file_; }
+  const std::string& sha256() const { return sha256_; }
+  const core::LoadedMesh& loaded() const { return loaded_; }
+  const core::TriangleMesh& mesh() const { return loaded_.mesh; }
+  const render::Studio& studio() const { return studio_; }
+
+  /// Throws what make_field() and measure() throw.
+  const MethodRun& run(const std::string& method, const core::Progress& progress = {});
+
+ private:
+  Model(const ModelRecipe& recipe, MeshFile file, core::LoadedMesh loaded, std::string sha256);
+
+  const ModelRecipe& recipe_;
+  MeshFile file_;
+  core::LoadedMesh loaded_;
+  std::string sha256_;
+  render::Studio studio_;
+  std::map<std::string, std::unique_ptr<const MethodRun>> runs_;
+};
+
+/// Where two panels differ most.
+struct ComparedRegion {
+  core::Index vertex = core::kNone;  ///< the mesh's number
+  core::Length radius;
+  std::size_t first = 0;  ///< critical points of the first panel within the radius
+  std::size_t second = 0;
+};
+
+struct PanelOutcome {
+  const PanelRecipe* recipe = nullptr;
+  std::string method;  ///< without placeholders
+  const MethodRun* run = nullptr;
+  std::string file;                  ///< name
+  std::vector<std::string> command;  ///< the words of the command line that makes the file
+  std::string caption;               ///< lines: title; method; counts; the paper's number
+  std::string png;
+};
+
+/// What the links of a hierarchy say of one level.
+struct LevelLinks {
+  std::size_t points = 0;
+  std::size_t cells = 0;  ///< Morse-Smale segments
+  std::size_t kept = 0;   ///< of the points, those at the vertex of their parent; 0 at the first level
+  std::size_t moved = 0;
+  std::size_t fresh = 0;
+};
+
+struct FigureOutcome {
+  const FigureRecipe* recipe = nullptr;
+  Model* model = nullptr;
+  std::string file;  ///< name of the sheet
+  std::vector<PanelOutcome> panels;
+  std::optional<ComparedRegion> region;
+  std::vector<LevelLinks> levels;
+  std::string finding;
+};
+
+struct TableCell {
+  const TableSetting* setting = nullptr;  ///< null of a conventional row
+  const MethodRun* run = nullptr;
+};
+struct TableRowOutcome {
+  const TableRow* recipe = nullptr;
+  Model* model = nullptr;
+  std::vector<TableCell> cells;  ///< one of a conventional row, else one a setting
+};
+
+}  // namespace morsel::tools::reproduce

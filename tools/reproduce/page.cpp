@@ -1,0 +1,183 @@
+#include "morsel/tools/reproduce/page.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/base64.h"
+#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/report/version.h"
+
+namespace morsel::tools::reproduce {
+namespace {
+
+/// Text as it stands in markup and in quoted attributes.
+std::string html(std::string_view text) {
+  std::string safe;
+  for (const char c : text) switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  return safe;
+}
+
+/// Keys of a method, with a place to break the line after each.
+std::string breakable(std::string_view keys) {
+  std::string text = html(keys);
+  for (std::size_t at = 0; (at = text.find(',', at)) != std::string::npos; at += 6)
+    text.insert(at + 1, "<wbr>");
+  return text;
+}
+
+std::string seconds_text(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text,
+                seconds < 0.0995  ? "%.3f s"
+                : seconds < 0.995 ? "%.2f s"
+                                  : "%.1f s",
+                seconds);
+  return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) c == '\n' ? lines.emplace_back() : lines.back() += c;
+  return lines;
+}
+
+/// The command line of it all.
+std::string command_of(const Request& request) {
+  std::vector<std::string> words = {"morsel", "reproduce", request.folder.string()};
+  if (!request.data.empty()) words.insert(words.end(), {"--data", request.data.string()});
+  words.insert(words.end(), {"--meshes", request.samples.string(), "--size", request.size, "--samples",
+                             std::to_string(request.pixel_samples)});
+  for (const std::string& view : request.views) words.insert(words.end(), {"--view", view});
+  for (const std::string& up : request.ups) words.insert(words.end(), {"--up", up});
+  if (request.repair) words.emplace_back("--repair");
+  return command_line(words);
+}
+
+std::string models_table(const Reproduction& reproduction) {
+  std::string text =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Models\"><table class=\"models\">"
+      "<thead><tr><th>Model</th><th>In the "
+      "paper</th><th>Here</th><th>Vertices</th><th>From</th></tr></thead><tbody>\n";
+  for (const auto& model : reproduction.models) {
+    const bool sample = model->file().is_sample;
+    text += "<tr><th>" + html(model->recipe().name) + "</th><td>" + html(model->recipe().paper) +
+            "</td><td>" + html(model->file().path.filename().string()) +
+            (sample ? ": " + html(model->recipe().sample_is) : std::string()) + "</td><td>" +
+            grouped(model->mesh().vertex_count()) + "</td><td>" +
+            (sample ? "the sample meshes, in its place" : "the data folder") + "</td></tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string number_cell(std::size_t points, double seconds) {
+  return "<td>" + grouped(points) + "<small>" + seconds_text(seconds) + "</small></td>";
+}
+
+std::string table_section(const Reproduction& reproduction) {
+  std::string text =
+      "<section aria-labelledby=\"table1\"><h2 id=\"table1\">Table 1. Critical points and seconds</h2>\n"
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"table1\"><table "
+      "class=\"table\"><thead><tr>"
+      "<th>Model</th><th>Vertices</th><th>Figure</th><th>Iterations</th><th>The paper</th>";
+  for (const TableSetting& setting : table_settings())
+    text += "<th>" + breakable(setting.keys) + "<small>" + html(setting.note) + "</small></th>";
+  text += "</tr></thead><tbody>\n";
+  const Model* before = nullptr;
+  for (const TableRowOutcome& row : reproduction.table) {
+    const bool conventional = row.recipe->iterations == 0;
+    const bool first = row.model != before;
+    text +=
+        std::string("<tr") + (first ? " class=\"first\"" : "") + "><th>" +
+        (first ? html(row.model->recipe().name) : std::string()) + "</th><td>" +
+        (first ? grouped(row.model->mesh().vertex_count()) : std::string()) + "</td><td>" +
+        html(row.recipe->figure) + "</td><td>" +
+        (conventional ? std::string("conventional") : std::to_string(row.recipe->iterations)) +
+        "</td><td class=\"paper\">" +
+        (row.recipe->paper_points ? grouped(static_cast<std::uint64_t>(*row.recipe->paper_points)) : "–") +
+        (row.recipe->paper_seconds ? "<small>" + seconds_text(*row.recipe->paper_seconds) + "</small>"
+                                   : std::string()) +
+        "</td>";
+    for (std::size_t i = 0; i < table_settings().size(); ++i) {
+      const MethodRun& run = *row.cells[conventional ? 0 : i].run;
+      text += conventional && i > 0 ? "<td></td>" : number_cell(run.total(), run.seconds);
+    }
+    text += "</tr>\n";
+    before = row.model;
+  }
+  return text +
+         "</tbody></table></div>\n<p class=\"hint said\">σ = 8ε. Seconds of smoothing and of finding the "
+         "critical points; "
+         "the paper's are those of a Pentium IV of 1.7 GHz. Figures count panels as below; the paper's table "
+         "calls 3(a) "
+         "and 3(c) 3(b) and 3(d). The pictures are made with the first setting.</p></section>\n";
+}
+
+std::string panel_markup(const PanelOutcome& panel, std::size_t number) {
+  const std::vector<std::string> lines = lines_of(panel.caption);
+  const std::string name = std::string("(") + static_cast<char>('a' + number) + ") ";
+  std::string text = "<figure><img alt=\"" + html(name + lines[0] + ", " + lines.back()) +
+                     "\" src=\"data:image/png;base64," + base64(panel.png) + "\">\n<figcaption>" +
+                     html(name + lines[0]);
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    text += std::string("<span") + (i == 1 ? " class=\"soft\">" : ">") + html(lines[i]) + "</span>";
+  return text + "</figcaption>\n<details><summary>Command</summary><pre class=\"copy\">" +
+         html(command_line(panel.command)) + "</pre></details></figure>\n";
+}
+
+std::string figure_section(const FigureOutcome& figure) {
+  const std::string id = "figure" + std::to_string(figure.recipe->number);
+  std::string text = "<section aria-labelledby=\"" + id + "\"><h2 id=\"" + id + "\">Figure " +
+                     std::to_string(figure.recipe->number) + ". " + html(figure.recipe->title) +
+                     "</h2>\n<p class=\"said\"><b>In the paper:</b> " + html(figure.recipe->paper) +
+                     "</p>\n<p class=\"said\"><b>Here:</b> " + html(figure.finding) +
+                     "</p>\n<div class=\"panels\">\n";
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) text += panel_markup(figure.panels[i], i);
+  return text + "</div></section>\n";
+}
+
+}  // namespace
+
+std::string make_page(const Prepared& prepared, const Reproduction& reproduction) {
+  std::string text =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
+      "img-src "
+      "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>Salient Critical Points for Meshes, made "
+      "again</title>\n"
+      "<style>\n" +
+      std::string(kStyle) +
+      "</style>\n</head>\n<body>\n<header><h1>Salient Critical Points for Meshes, made again</h1>\n"
+      "<p class=\"hint\">The figures and the table of the paper, by morsel " +
+      html(kVersion) +
+      ". Minima are blue, saddles green, maxima red; descending arcs are dark blue, ascending ones dark "
+      "red.</p></header>\n"
+      "<main>\n<section aria-labelledby=\"models\"><h2 id=\"models\">Models</h2>\n"
+      "<p class=\"said\">The paper's models are not public. Other meshes stand in for them, so that numbers "
+      "agree in kind, "
+      "not in size.</p>\n" +
+      models_table(reproduction) + "</section>\n" + table_section(reproduction);
+  for (const FigureOutcome& figure : reproduction.figures) text += figure_section(figure);
+  return text + "</main>\n<footer><p>All of this again:</p><pre class=\"copy\">" +
+         html(command_of(prepared.request)) + "</pre></footer>\n</body>\n</html>\n";
+}
+
+}  // namespace morsel::tools::reproduce

@@ -1,0 +1,83 @@
+#pragma once
+/// What `morsel reproduce` makes again, as data: the paper's models, figures and table. Another figure is another entry.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morsel/tools/render/picture.h"
+
+namespace morsel::tools::reproduce {
+
+/// The Morse function of everything in the paper.
+inline constexpr std::string_view kField = "mean-curvature";
+
+/// A model of the paper. They are not public: other meshes stand in for them.
+struct ModelRecipe {
+  std::string_view name;   ///< "lion": of the option, and of the file that is looked for first
+  std::string_view paper;  ///< what the paper shows
+  /// Other words by which a file's name tells that it is this model.
+  std::vector<std::string_view> words;
+  std::string_view sample;     ///< file name of the sample mesh that stands in
+  std::string_view sample_is;  ///< what it shows
+};
+
+/// The region in which two panels of a figure are compared, in a panel.
+enum class Region : std::uint8_t { none, framed, close_up };
+
+struct PanelRecipe {
+  std::string_view title = {};
+  /// A method as the command line words it; "{c}" in it stands for the number of critical points of panel (c).
+  std::string_view method = {};
+  render::Show show = render::Show::field;
+  bool points = true;
+  bool arcs = false;
+  /// Panels of a figure with the same word share the range of their colours; empty: its own.
+  std::string_view scale = {};
+  Region region = Region::none;
+  std::string_view paper = {};  ///< the paper's number
+};
+
+struct FigureOutcome;
+
+struct FigureRecipe {
+  int number = 0;
+  std::size_t model = 0;  ///< in models()
+  std::string_view title;
+  std::string_view paper;  ///< what the paper says should be seen
+  std::vector<PanelRecipe> panels;
+  /// Two panels (by number): their region is where the first keeps most points and the second fewest.
+  std::optional<std::array<std::size_t, 2>> compared = {};
+  /// Panels that are levels of a hierarchy: the method without its iterations, and these.
+  std::string_view hierarchy_method = {};
+  std::string_view hierarchy_levels = {};
+  /// Says in a sentence or two what is seen here, from the numbers.
+  std::string (*finding)(const FigureOutcome& figure) = nullptr;
+};
+
+/// A row of the paper's Table 1.
+struct TableRow {
+  std::size_t model = 0;
+  std::string_view figure;  ///< "1(d)"
+  int iterations = 0;       ///< 0: conventional
+  std::optional<int> paper_points = {};
+  std::optional<double> paper_seconds = {};
+};
+
+/// A column of ours: what the paper leaves open, decided.
+struct TableSetting {
+  std::string_view keys;  ///< of method salient, besides the iterations
+  std::string_view note;
+};
+
+std::span<const ModelRecipe> models();
+std::span<const FigureRecipe> figures();
+std::span<const TableRow> table_rows();
+std::span<const TableSetting> table_settings();
+
+}  // namespace morsel::tools::reproduce

@@ -1,0 +1,102 @@
+#include "morsel/tools/reproduce/reproduction.h"
+
+#include <string_view>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/export/folder.h"
+#include "morsel/tools/reproduce/document.h"
+#include "morsel/tools/reproduce/page.h"
+#include "morsel/tools/reproduce/table.h"
+
+namespace morsel::tools::reproduce {
+namespace {
+
+std::string model_names() {
+  std::string text;
+  for (const ModelRecipe& model : models()) text += (text.empty() ? "" : ", ") + std::string(model.name);
+  return text;
+}
+
+/// Hands "VALUE" to every model and "MODEL=VALUE" to one.
+template <class Take>
+void for_models(const std::string& text, const Take& take) {
+  const std::size_t equals = text.find('=');
+  const std::string value = equals == std::string::npos ? text : text.substr(equals + 1);
+  bool known = equals == std::string::npos;
+  for (std::size_t i = 0; i < models().size(); ++i) {
+    if (equals != std::string::npos && models()[i].name != std::string_view(text).substr(0, equals)) continue;
+    known = true;
+    take(i, value);
+  }
+  if (!known)
+    throw core::InvalidArgument("there is no model \"" + text.substr(0, equals) +
+                                "\"; there are: " + model_names());
+}
+
+render::UpAxis up_axis(const std::string& text) {
+  if (text == "x") return render::UpAxis::x;
+  if (text == "y") return render::UpAxis::y;
+  if (text == "z") return render::UpAxis::z;
+  throw core::InvalidArgument("the axis that points up is x, y or z, not \"" + text + "\"");
+}
+
+}  // namespace
+
+Prepared prepare(const Request& request) {
+  PictureOptions pictures;
+  pictures.size = render::parse_size(request.size);
+  pictures.samples = request.pixel_samples;
+  pictures.repair = request.repair;
+  Prepared prepared{request, {}, std::vector<PictureOptions>(models().size(), pictures)};
+  for (const std::string& view : request.views)
+    for_models(view, [&](std::size_t i, const std::string& value) {
+      prepared.pictures[i].camera.view = value;
+      prepared.pictures[i].camera.check();
+    });
+  for (const std::string& up : request.ups)
+    for_models(up, [&](std::size_t i, const std::string& value) {
+      prepared.pictures[i].camera.up = up_axis(value);
+    });
+  prepared.files = find_meshes(request.data, request.samples);
+  return prepared;
+}
+
+Reproduction run(const Prepared& prepared, const core::Progress& progress) {
+  const std::filesystem::path& folder = prepared.request.folder;
+  make_folder(folder);
+  core::FileWriter csv(folder / "table1.csv"), json_file(folder / "reproduction.json"),
+      page(folder / "index.html");
+
+  Reproduction reproduction;
+  const Stopwatch total;
+  const auto timed = [&](const std::string& step, const auto& work) {
+    const Stopwatch watch;
+    work();
+    reproduction.timings.emplace_back(step, watch.seconds());
+  };
+  timed("load", [&] {
+    for (std::size_t i = 0; i < models().size(); ++i)
+      reproduction.models.push_back(std::make_unique<Model>(
+          Model::read(models()[i], prepared.files[i], prepared.request.repair, progress)));
+  });
+  timed("methods", [&] { reproduction.table = make_table(reproduction.models, progress); });
+  for (const FigureRecipe& figure : figures())
+    timed("figure" + std::to_string(figure.number), [&] {
+      reproduction.figures.push_back(make_figure(figure, *reproduction.models[figure.model],
+                                                 prepared.pictures[figure.model], folder, progress));
+    });
+  reproduction.timings.emplace_back("total", total.seconds());
+
+  csv.write(table_csv(reproduction.table));
+  JsonStream json(json_file.stream());
+  write_document(json, prepared, reproduction);
+  page.write(make_page(prepared, reproduction));
+  csv.commit();
+  json_file.commit();
+  page.commit();
+  return reproduction;
+}
+
+}  // namespace morsel::tools::reproduce

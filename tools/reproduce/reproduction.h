@@ -1,0 +1,52 @@
+#pragma once
+/// All of it: figures, table, numbers and page in one folder.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/reproduce/figure.h"
+
+namespace morsel::tools::reproduce {
+
+/// In the words of the command line.
+struct Request {
+  std::filesystem::path folder;
+  std::filesystem::path data;  ///< meshes of the paper's models; none if empty
+  std::filesystem::path samples = "build/samples";
+  std::string size = "800x680";  ///< of a panel
+  int pixel_samples = 16;
+  std::vector<std::string> views;  ///< "VIEW" for all models or "MODEL=VIEW" for one
+  std::vector<std::string> ups;    ///< "AXIS" or "MODEL=AXIS"
+  bool repair = false;
+};
+
+/// A request whose words have been looked up.
+struct Prepared {
+  Request request;
+  std::vector<MeshFile> files;           ///< one a model
+  std::vector<PictureOptions> pictures;  ///< one a model
+};
+
+/// Throws InvalidArgument on wrong words, and what find_meshes() throws. Reads no mesh.
+Prepared prepare(const Request& request);
+
+struct Reproduction {
+  std::vector<std::unique_ptr<Model>> models;
+  std::vector<FigureOutcome> figures;
+  std::vector<TableRowOutcome> table;
+  Timings timings;
+};
+
+/// Writes into the request's folder (made if it is not there) the figures (make_figure()), table1.csv,
+/// reproduction.json ("morsel.reproduction/1") and index.html, which holds all pictures. Everything but seconds is the same
+/// at any number of threads. Throws what meshes, methods, pictures and files throw; a folder that cannot be written to is
+/// told before the work.
+Reproduction run(const Prepared& prepared, const core::Progress& progress = {});
+
+/// The table as text for a terminal.
+std::string table_text(const Reproduction& reproduction);
+
+}  // namespace morsel::tools::reproduce

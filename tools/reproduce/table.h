@@ -1,0 +1,22 @@
+#pragma once
+/// The paper's Table 1 beside ours.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/reproduce/reproduction.h"
+
+namespace morsel::tools::reproduce {
+
+/// Runs every row with every setting (a conventional row once).
+std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>>& models,
+                                        const core::Progress& progress = {});
+
+/// The method of a row: conventional, or salient with its iterations and the setting's keys.
+std::string method_of(const TableRow& row, const TableSetting& setting);
+
+/// A line for each row and setting: model, mesh, vertices, figure, iterations, method, points, paper_points, seconds,
+/// paper_seconds; empty where the paper has no number. RFC 4180.
+std::string table_csv(const std::vector<TableRowOutcome>& table);
+
+}  // namespace morsel::tools::reproduce
