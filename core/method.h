@@ -68,8 +68,9 @@ struct MethodContext {
   Progress progress = {};
   /// Whether an iterative method is to count the critical points of all its iterations.
   bool count_iterations = false;
-  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method there. A
-  /// method that has to begin again begins again with 1. Empty: nobody listens.
+  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method there. One that
+  /// iterates on another field than it was given tells that first, as 0. A method that has to begin again begins
+  /// again with its first number. Empty: nobody listens.
   std::function<bool(int iteration, const ScalarField& field)> on_iteration = {};
   /// The vertices of a field's extrema by falling persistence, the essential ones first, `count` of them or all there
   /// are; empty if nobody computes it.

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "morsel/core/error.h"
 
@@ -39,7 +40,10 @@ std::string shortest(double value) {
 }
 
 std::string to_string(const Length& length) {
-  return shortest(length.value) + (length.in_epsilon ? "eps" : "");
+  const char* unit = length.unit == LengthUnit::epsilon ? "eps"
+                     : length.unit == LengthUnit::edge  ? "edges"
+                                                        : "";
+  return shortest(length.value) + unit;
 }
 
 double parse_number(std::string_view text, std::string_view what) {
@@ -57,13 +61,21 @@ std::int64_t parse_integer(std::string_view text, std::string_view what) {
 }
 
 Length parse_length(std::string_view text, std::string_view what) {
-  const bool in_epsilon = text.ends_with("eps");
-  if (in_epsilon) text.remove_suffix(3);
+  const std::string_view given = text;
+  LengthUnit unit = LengthUnit::mesh;
+  for (const auto& [name, named] : {std::pair<std::string_view, LengthUnit>("eps", LengthUnit::epsilon),
+                                    {"edges", LengthUnit::edge},
+                                    {"edge", LengthUnit::edge}})
+    if (unit == LengthUnit::mesh && text.ends_with(name)) {
+      text.remove_suffix(name.size());
+      unit = named;
+    }
   double value = 0;
   if (!parse_whole(text, value) || !std::isfinite(value))
     throw InvalidArgument(std::string(what) +
-                          " must be a length such as 0.25 (in the mesh's unit) or 8eps, not " + quoted(text));
-  return {value, in_epsilon};
+                          " must be a length such as 0.25 (in the mesh's unit), 8eps or 3edges, not " +
+                          quoted(given));
+  return {value, unit};
 }
 
 ParameterReader::ParameterReader(Specification specification) : specification_(std::move(specification)) {}

@@ -11,6 +11,7 @@
 #include "morsel/core/parallel.h"
 #include "morsel/morse/functions/discrete_curvature.h"
 #include "morsel/morse/functions/quadric_curvature.h"
+#include "morsel/morse/operators/low_pass.h"
 
 namespace morsel::morse {
 namespace {
@@ -43,10 +44,11 @@ std::vector<double> product(const PrincipalCurvatures& k) {
 class Curvature final : public core::MorseFunction {
  public:
   /// Without `direct`, an estimator other than quadric is Taubin's.
-  Curvature(Combination combination, Direct direct, core::Length radius, core::Parameters parameters,
-            bool quadric)
+  Curvature(Combination combination, Direct direct, core::Length scale, core::Length radius,
+            core::Parameters parameters, bool quadric)
       : combination_(combination),
         direct_(direct),
+        scale_(scale),
         radius_(radius),
         parameters_(std::move(parameters)),
         quadric_(quadric) {}
@@ -54,24 +56,38 @@ class Curvature final : public core::MorseFunction {
   core::FunctionResult evaluate(const TriangleMesh& mesh,
                                 const core::FunctionContext& context) const override {
     core::Parameters parameters = parameters_;
+    if (!(scale_.value > 0)) {
+      ScalarField field = on_surface(mesh, mesh, context, parameters);
+      return {std::move(field), std::move(parameters)};
+    }
+    parameters.emplace_back("scale", scale_.on(mesh));
+    const TriangleMesh smoothed = low_pass(mesh, scale_, context.progress);
+    const ScalarField field = on_surface(smoothed, mesh, context, parameters);
+    return {{mesh, {field.values().begin(), field.values().end()}}, std::move(parameters)};
+  }
+
+ private:
+  /// Of `surface`; a radius in other units is that on `mesh`. Adds to the parameters.
+  ScalarField on_surface(const TriangleMesh& surface, const TriangleMesh& mesh,
+                         const core::FunctionContext& context, core::Parameters& parameters) const {
     if (!quadric_) {
-      if (direct_ != nullptr) return {direct_(mesh, context.progress), std::move(parameters)};
-      return {{mesh, combination_(principal_curvatures(mesh, context.progress))}, std::move(parameters)};
+      if (direct_ != nullptr) return direct_(surface, context.progress);
+      return {surface, combination_(principal_curvatures(surface, context.progress))};
     }
     const double radius = radius_.on(mesh);
     if (!(radius > 0))
       throw core::BadInput("radius = " + core::to_string(radius_) + " comes to " + core::shortest(radius) +
                            " on this mesh, whose vertices all coincide");
-    const QuadricCurvatures fitted = quadric_curvatures(mesh, radius, context.progress);
+    const QuadricCurvatures fitted = quadric_curvatures(surface, radius, context.progress);
     parameters.emplace_back("radius", radius);
     parameters.emplace_back("widened_vertices", static_cast<std::int64_t>(fitted.widened));
     parameters.emplace_back("unfitted_vertices", static_cast<std::int64_t>(fitted.unfitted));
-    return {{mesh, combination_(fitted.curvatures)}, std::move(parameters)};
+    return {surface, combination_(fitted.curvatures)};
   }
 
- private:
   Combination combination_;
   Direct direct_;
+  core::Length scale_;
   core::Length radius_;
   core::Parameters parameters_;
   bool quadric_;
@@ -93,6 +109,7 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
   std::string listed;
   for (const std::string_view name : names)
     listed += std::string(listed.empty() ? "" : " or ") + std::string(name);
+  const core::Length scale = read_scale(reader, core::Length::absolute(0));
   const std::string chosen = reader.choice("estimator", names.front(), names,
                                            listed + " (fitted within a radius, for noisy surfaces)");
   const core::Length radius = reader.length("radius", core::Length::epsilons(5), core::kPositive,
@@ -105,7 +122,7 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
   for (const Estimator& estimator : estimators)
     if (estimator.name == chosen) direct = estimator.direct;
   parameters.emplace_back("estimator", chosen);
-  return std::make_unique<Curvature>(combination, direct, radius, std::move(parameters), quadric);
+  return std::make_unique<Curvature>(combination, direct, scale, radius, std::move(parameters), quadric);
 }
 
 }  // namespace

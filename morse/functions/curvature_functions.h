@@ -17,20 +17,23 @@ std::vector<double> curvedness(const PrincipalCurvatures& curvatures);
 /// where both curvatures are 0, where the paper has none. O(n).
 std::vector<double> shape_index(const PrincipalCurvatures& curvatures);
 
+// All have the key scale=8eps, scale=1.5edges or scale=0.25 (default 0): then they are those of low_pass(mesh, scale), as
+// fields on the mesh, and the resolved parameters hold the scale.
+//
 // Where a key estimator=quadric is named, radius=8eps or radius=0.25 says how far the fitted quadrics reach
 // (quadric_curvatures(); default 5eps); only quadrics have it. The resolved parameters then also hold how many
 // vertices took rings in place of too small a ball (widened_vertices), and how many could not be fitted
 // (unfitted_vertices).
 
-/// Keys: estimator=taubin|cotangent|quadric, radius.
+/// Keys: scale, estimator=taubin|cotangent|quadric, radius.
 std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& reader);
-/// Keys: estimator=defect|quadric, radius.
+/// Keys: scale, estimator=defect|quadric, radius.
 std::unique_ptr<core::MorseFunction> make_gaussian_curvature(core::ParameterReader& reader);
-/// Keys: which=max|min, estimator=taubin|quadric, radius.
+/// Keys: which=max|min, scale, estimator=taubin|quadric, radius.
 std::unique_ptr<core::MorseFunction> make_principal_curvature(core::ParameterReader& reader);
-/// Keys: estimator=taubin|quadric, radius.
+/// Keys: scale, estimator=taubin|quadric, radius.
 std::unique_ptr<core::MorseFunction> make_curvedness(core::ParameterReader& reader);
-/// Keys: estimator=taubin|quadric, radius.
+/// Keys: scale, estimator=taubin|quadric, radius.
 std::unique_ptr<core::MorseFunction> make_shape_index(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

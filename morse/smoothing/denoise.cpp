@@ -21,21 +21,6 @@ using core::TriangleMesh;
 
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
-double mean_edge_length(const TriangleMesh& mesh) {
-  const double sum = core::parallel_reduce(
-      0, mesh.edge_count(), core::kGrain, 0.0,
-      [&](std::size_t first, std::size_t last) {
-        double part = 0;
-        for (std::size_t e = first; e < last; ++e) {
-          const auto [a, b] = mesh.edge_vertices(static_cast<Index>(e));
-          part += (mesh.position(a) - mesh.position(b)).norm();
-        }
-        return part;
-      },
-      [](double a, double b) { return a + b; });
-  return sum / static_cast<double>(mesh.edge_count());
-}
-
 /// Calls visit(v, ball) for every vertex, in parallel.
 template <class Visit>
 void for_each_ball(const TriangleMesh& mesh, double radius, const Visit& visit) {
@@ -78,7 +63,7 @@ SurfaceSmoothing::SurfaceSmoothing(TriangleMesh mesh, const BilateralDenoising& 
       throw core::InvalidArgument(std::string(name) + " must be finite and above 0, not " +
                                   core::to_string(*length));
   const UnitSized unit = unit_sized(surface_);
-  const double edge = mean_edge_length(unit.mesh);
+  const double edge = core::mean_edge_length(unit.mesh);
   const double scaled_sigma_c =
       options.sigma_c ? std::ldexp(options.sigma_c->on(surface_), -unit.exponent) : edge;
   if (!(scaled_sigma_c > 0))

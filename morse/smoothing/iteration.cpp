@@ -101,8 +101,8 @@ core::Parameters to_parameters(const StopCriteria& criteria) {
 }
 
 IterationControl::IterationControl(const core::ScalarField& input, const StopCriteria& criteria,
-                                   const core::MethodContext& context)
-    : input_(input), criteria_(criteria), context_(context), field_(input) {
+                                   const core::MethodContext& context, Start start)
+    : input_(input), criteria_(criteria), context_(context), start_(start), field_(input) {
   check(criteria);
   restart();
 }
@@ -123,6 +123,7 @@ void IterationControl::restart() {
   records_.clear();
   count(0);
   decide(0);
+  if (start_ == Start::made) tell();
 }
 
 void IterationControl::record(std::vector<double> values) {
@@ -132,6 +133,10 @@ void IterationControl::record(std::vector<double> values) {
   ++iteration_;
   count(change);
   decide(change);
+  tell();
+}
+
+void IterationControl::tell() {
   const bool go_on = !context_.on_iteration || context_.on_iteration(iteration_, field_);
   if (!go_on && stopped_by_.empty()) stopped_by_ = "caller";
 }

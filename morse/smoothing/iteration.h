@@ -2,6 +2,7 @@
 /// When an iterative method ends, and what is known of each of its iterations.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -29,6 +30,10 @@ StopCriteria read_stop_criteria(core::ParameterReader& reader, int iterations);
 /// As a report shows them; conditions that were not set are left out.
 core::Parameters to_parameters(const StopCriteria& criteria);
 
+/// Where an iterative method begins: at the field that it was given, or at one that it made of it, which listeners are
+/// then told as iteration 0.
+enum class Start : std::uint8_t { given, made };
+
 /// Counts and compares the fields that a method passes through, and says when to stop:
 ///
 ///   IterationControl control(input, criteria, context);
@@ -40,7 +45,7 @@ class IterationControl {
  public:
   /// Refers to `context`. Throws InvalidArgument on criteria out of range.
   IterationControl(const core::ScalarField& input, const StopCriteria& criteria,
-                   const core::MethodContext& context);
+                   const core::MethodContext& context, Start start = Start::given);
 
   /// Whether another iteration is to be run.
   bool more() const { return stopped_by_.empty(); }
@@ -69,10 +74,12 @@ class IterationControl {
   bool counted() const;
   void count(double change);
   void decide(double change);
+  void tell();
 
   core::ScalarField input_;
   StopCriteria criteria_;
   const core::MethodContext& context_;
+  Start start_;
   core::ScalarField field_;
   int iteration_ = 0;
   std::string_view stopped_by_;

@@ -105,7 +105,7 @@ SaliencyResult saliency(const ScalarField& input, const SaliencyOptions& options
   std::map<double, Length> sigmas;  // scales share some: 2 · 2ε is 4ε, to the last digit
   for (const Length& scale : options.scales)
     for (const double factor : {1.0, 2.0}) {
-      const Length length{factor * scale.value, scale.in_epsilon};
+      const Length length{factor * scale.value, scale.unit};
       sigmas.emplace(length.on(input.mesh()), length);
     }
   std::map<double, ScalarField> averages;

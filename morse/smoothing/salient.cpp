@@ -180,7 +180,7 @@ double sigma_on(const core::TriangleMesh& mesh, const SalientOptions& options) {
                                 core::shortest(sigma) +
                                 " on this mesh, whose bounding box has the diagonal " +
                                 core::shortest(mesh.bounding_box().diagonal());
-    if (options.sigma.in_epsilon) throw core::BadInput(message);
+    if (options.sigma.unit != core::LengthUnit::mesh) throw core::BadInput(message);
     throw InvalidArgument(message);
   }
   return sigma;

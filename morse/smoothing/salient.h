@@ -116,7 +116,9 @@ SalientResult salient(const core::ScalarField& input, const SalientOptions& opti
                       const core::Progress& progress = {});
 
 /// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single,
-/// accuracy, weights=none|area, ball=euclidean|connected.
+/// accuracy, weights=none|area, ball=euclidean|connected; scale (0): above 0 the field is not the one that is given, but the
+/// Morse function of low_pass(mesh, scale), iteration 0 for whoever listens; needs context.morse_function, throws
+/// InvalidArgument without, and can then only begin a chain; preset=paper|robust: what the keys that are not given have.
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

@@ -2,23 +2,41 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/morse/operators/low_pass.h"
+#include "morsel/morse/smoothing/keep_order.h"
 
 namespace morsel::morse {
 namespace {
 
 std::string to_string(Precision precision) { return precision == Precision::float64 ? "double" : "single"; }
 
+/// The keys' defaults, under a name.
+struct Preset {
+  std::string_view name;
+  int iterations;
+  core::Length sigma;
+  const char* range;
+  core::Length scale;
+};
+
+constexpr Preset kPaper = {"paper", 10, core::Length::epsilons(8), "1std", core::Length::absolute(0)};
+constexpr Preset kRobust = {"robust", 1, core::Length::edges(1), "0.2std", core::Length::edges(1.8)};
+
 class Salient final : public core::Method {
  public:
-  Salient(SalientOptions options, const StopCriteria& criteria)
-      : options_(std::move(options)), criteria_(criteria) {}
+  Salient(SalientOptions options, const StopCriteria& criteria, core::Length scale, std::string_view preset)
+      : options_(std::move(options)), criteria_(criteria), scale_(scale), preset_(preset) {}
 
-  core::MethodResult apply(const core::ScalarField& input,
+  bool retakes() const { return scale_.value > 0; }
+
+  core::MethodResult apply(const core::ScalarField& given,
                            const core::MethodContext& context) const override {
-    IterationControl control(input, criteria_, context);
+    const core::ScalarField input = retakes() ? at_scale(given, context) : given;
+    IterationControl control(input, criteria_, context, retakes() ? Start::made : Start::given);
     SalientResult salient = run_salient(input, options_, criteria_, control, context.progress);
     core::Parameters parameters = {{"sigma", salient.sigma},
                                    {"range", to_string(options_.range)},
@@ -28,6 +46,8 @@ class Salient final : public core::Method {
                                    {"accuracy", options_.accuracy},
                                    {"weights", std::string(to_string(options_.weights))},
                                    {"ball", std::string(to_string(options_.ball))}};
+    if (preset_ != kPaper.name) parameters.emplace_back("preset", std::string(preset_));
+    if (retakes()) parameters.emplace_back("scale", scale_.on(given.mesh()));
     if (salient.sigma_s) parameters.emplace_back("sigma_s", *salient.sigma_s);
     core::Parameters details = {
         {"pairs_per_iteration", static_cast<std::int64_t>(salient.pairs)},
@@ -42,8 +62,27 @@ class Salient final : public core::Method {
   }
 
  private:
+  /// The Morse function of the smoothed surface, as a field on the original one.
+  core::ScalarField at_scale(const core::ScalarField& given, const core::MethodContext& context) const {
+    if (!context.morse_function)
+      throw core::InvalidArgument(
+          "salient with a scale takes the Morse function again on the smoothed surface, and there is none "
+          "for this "
+          "field");
+    const core::TriangleMesh surface = low_pass(given.mesh(), scale_, context.progress);
+    try {
+      const core::ScalarField field = context.morse_function(surface);
+      return keep_order(given, {field.values().begin(), field.values().end()});
+    } catch (const core::BadInput& error) {
+      throw core::BadInput("on the surface smoothed to a scale of " + core::to_string(scale_) + ": " +
+                           error.what());
+    }
+  }
+
   SalientOptions options_;
   StopCriteria criteria_;
+  core::Length scale_;
+  std::string_view preset_;
 };
 
 }  // namespace
@@ -67,6 +106,8 @@ void read_neighbors(core::ParameterReader& reader, SalientOptions& options) {
     options.ball = Ball::connected;
 }
 
+bool salient_retakes(const core::Method& method) { return dynamic_cast<const Salient&>(method).retakes(); }
+
 SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
                           const StopCriteria& criteria, IterationControl& control,
                           const core::Progress& progress) {
@@ -84,12 +125,19 @@ SalientResult run_salient(const core::ScalarField& input, SalientOptions options
 }
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
+  const bool robust =
+      reader.choice(
+          "preset", kPaper.name, {kPaper.name, kRobust.name},
+          "what keys that are not given have: robust ones by measurement (README), for noisy surfaces") ==
+      kRobust.name;
+  const Preset& preset = robust ? kRobust : kPaper;
   SalientOptions options;
-  const StopCriteria criteria = read_stop_criteria(reader, options.iterations);
+  options.sigma = preset.sigma;
+  const StopCriteria criteria = read_stop_criteria(reader, preset.iterations);
   options.iterations = criteria.iterations;
   read_sigma(reader, options);
   options.range = parse_value_range(
-      reader.text("range", "1std",
+      reader.text("range", preset.range,
                   "standard deviation of the weight of values: a multiple of "
                   "the field's (1std), local, literal (sigma), none (no limit), or a number"),
       reader.owner() + ":range");
@@ -106,8 +154,9 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
                     "share of the field's extent by which the "
                     "result may be off, so that large meshes take less time; 0 for an exact result");
   read_neighbors(reader, options);
+  const core::Length scale = read_scale(reader, preset.scale);
   check(options);
-  return std::make_unique<Salient>(std::move(options), criteria);
+  return std::make_unique<Salient>(std::move(options), criteria, scale, preset.name);
 }
 
 }  // namespace morsel::morse

@@ -35,6 +35,24 @@ class Compare(ProgramTest):
                           [self.file("damaged.off", DAMAGED), "--repair"]):
             jsonschema.validate(self.report(*arguments), schema)
 
+    def test_curvature_at_a_scale_and_the_robust_preset(self):
+        report = self.report(SAMPLES / "lion-head.off", "--method", "salient", "--method", "salient:preset=robust",
+                             "--method", "salient:preset=robust,iterations=2,scale=1.5edges", "--target", "101")
+        paper, robust, own = (m["parameters"] for m in report["methods"])
+        self.assertNotIn("scale", paper)
+        self.assertEqual((robust["preset"], robust["iterations"], robust["range"]), ("robust", 1, "0.2std"))
+        self.assertGreater(robust["scale"], own["scale"])
+        self.assertEqual(own["iterations"], 2)
+        for method in report["methods"]:
+            self.assertEqual(method["critical_points"]["total"], 101)
+        scaled = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1.8edges", "--method",
+                             "salient:sigma=1edges,iterations=1,range=0.2std", name="scaled.json")
+        alone = self.report(SAMPLES / "lion-head.off", "--method", "salient:preset=robust", name="alone.json")
+        self.assertAlmostEqual(scaled["field"]["parameters"]["scale"], robust["scale"], delta=1e-12)
+        # The same curvature smoothed alike; σ and its unit, edges, are those of the given surface.
+        self.assertEqual(scaled["methods"][0]["critical_points"], alone["methods"][0]["critical_points"])
+        self.morsel("compare", SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1e6edges", code=3)
+
     def test_items_can_be_left_out(self):
         schema = json.loads(SCHEMA.read_text())
         full = self.report(SAMPLES / "lion-head.off")

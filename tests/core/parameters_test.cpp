@@ -30,8 +30,8 @@ TEST_CASE("parameters are read by kind and default where not given") {
   CHECK(r.count("b2", 5, 0, 12, "") == 5);
   const Length c = r.length("c", Length::absolute(1), core::kPositive, "");
   CHECK(c.value == 8);
-  CHECK(c.in_epsilon);
-  CHECK_FALSE(r.length("c2", Length::absolute(1), core::kPositive, "").in_epsilon);
+  CHECK(c.unit == core::LengthUnit::epsilon);
+  CHECK(r.length("c2", Length::absolute(1), core::kPositive, "").unit == core::LengthUnit::mesh);
   CHECK_FALSE(r.flag("d", true, ""));
   CHECK(r.flag("d2", true, ""));
   CHECK(r.choice("e", "1std", {"1std", "local"}, "") == "local");
@@ -70,7 +70,8 @@ TEST_CASE("bad values are refused with owner and key and what is allowed") {
   const auto length = [](const char* text) {
     return reader({{"k", text}}).length("k", Length::epsilons(8), core::kPositive, "");
   };
-  for (const char* text : {"", "eps", "8 eps", "8EPS", "8epsilon", "nan", "infeps", "0", "-1eps"})
+  for (const char* text : {"", "eps", "8 eps", "8EPS", "8epsilon", "nan", "infeps", "0", "-1eps", "edges",
+                           "3 edges", "3edgess", "3epsedges", "0edges", "nanedge"})
     CHECK_THROWS_AS(length(text), InvalidArgument);
 
   CHECK_THROWS_AS(reader({{"k", "true"}}).flag("k", true, ""), InvalidArgument);
@@ -96,14 +97,22 @@ TEST_CASE("unknown and doubled keys are refused with the known ones listed") {
   CHECK_THROWS_WITH(twice.finish(), "salient:k is given twice");
 }
 
-TEST_CASE("lengths are in the unit of the mesh or in epsilon") {
+TEST_CASE("lengths are in the unit of the mesh, in epsilon or in edges") {
   const TriangleMesh mesh = grid(4, 5).mesh();  // 3 by 4: a diagonal of 5
   CHECK(Length::absolute(0.25).on(mesh) == 0.25);
+  CHECK(core::parse_length("3edge", "length").on(mesh) == Length::edges(3).on(mesh));
+  // 4 rows of 4 edges, 5 columns of 3 edges, or the other way round, and 12 diagonals.
+  CHECK(Length::edges(2).on(mesh) == Approx(2 * (31 + 12 * std::sqrt(2)) / 43).epsilon(1e-14));
+  std::vector<core::Point> tiny(mesh.positions().begin(), mesh.positions().end());
+  for (core::Point& p : tiny) p = p * 0x1p-900;
+  CHECK(core::mean_edge_length(mesh.with_positions(std::move(tiny))) ==
+        0x1p-900 * core::mean_edge_length(mesh));
   CHECK(Length::epsilons(8).on(mesh) == Approx(8 * 0.003 * 5).epsilon(1e-15));
-  for (const Length length : {Length::absolute(0.1), Length::epsilons(8), Length::epsilons(1.0 / 3)}) {
+  for (const Length length : {Length::absolute(0.1), Length::epsilons(8), Length::epsilons(1.0 / 3),
+                              Length::edges(3), Length::edges(1e-7)}) {
     const Length back = core::parse_length(core::to_string(length), "length");
     CHECK(back.value == length.value);
-    CHECK(back.in_epsilon == length.in_epsilon);
+    CHECK(back.unit == length.unit);
   }
 }
 

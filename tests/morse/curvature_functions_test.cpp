@@ -116,7 +116,7 @@ TEST_CASE("curvature functions refuse what they do not know") {
     CHECK_THROWS_AS(evaluate(mesh, name, {{"estimator", "quadric"}, {"radius", "-2eps"}}),
                     core::InvalidArgument);
     CHECK_THROWS_WITH(evaluate(mesh, name, {{"radius", "3"}}), Catch::Contains("estimator=quadric"));
-    CHECK_THROWS_AS(evaluate(mesh, name, {{"scale", "2"}}), core::InvalidArgument);
+    CHECK_THROWS_AS(evaluate(mesh, name, {{"width", "2"}}), core::InvalidArgument);
     const TriangleMesh point = mesh.with_positions(std::vector<Point>(mesh.vertex_count(), Point(1, 2, 3)));
     CHECK_THROWS_AS(evaluate(point, name, {{"estimator", "quadric"}}), core::BadInput);
     CHECK(evaluate(point, name).field.extent() == 0);

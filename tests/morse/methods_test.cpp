@@ -99,7 +99,8 @@ TEST_CASE("salient keys are checked when the method is made") {
       {"range", "0"},        {"support", "0"},      {"support", "nan"},
       {"classify", "both"},  {"sigmas", "3"},       {"accuracy", "-1e-4"},
       {"accuracy", "2"},     {"accuracy", "exact"}, {"weights", "mass"},
-      {"ball", "round"}};
+      {"ball", "round"},     {"preset", "best"},    {"scale", "-1edges"},
+      {"scale", "wide"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
     CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
@@ -108,10 +109,11 @@ TEST_CASE("salient keys are checked when the method is made") {
   CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
-  REQUIRE(help.declared().size() == 12);
+  REQUIRE(help.declared().size() == 14);
   const std::vector<std::pair<std::string, std::string>> defaults = {
-      {"iterations", "10"}, {"until-count", "none"}, {"until-stable", "none"}, {"until-change", "none"},
-      {"sigma", "8eps"},    {"range", "1std"},       {"support", "2"},         {"classify", "smoothed"}};
+      {"preset", "paper"},      {"iterations", "10"},     {"until-count", "none"},
+      {"until-stable", "none"}, {"until-change", "none"}, {"sigma", "8eps"},
+      {"range", "1std"},        {"support", "2"},         {"classify", "smoothed"}};
   for (std::size_t i = 0; i < defaults.size(); ++i) {
     CHECK(help.declared()[i].key == defaults[i].first);
     CHECK(help.declared()[i].default_value == defaults[i].second);

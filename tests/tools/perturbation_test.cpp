@@ -6,6 +6,7 @@
 #include <set>
 
 #include "morsel/core/error.h"
+#include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/tools/stability/random_stream.h"
@@ -96,7 +97,7 @@ TEST_CASE("estimates have the intervals of the textbook") {
 
 TEST_CASE("noise has the standard deviation that it is given, in mean edge lengths") {
   const TriangleMesh mesh = sphere(5).mesh();
-  const double edge = tools::mean_edge_length(mesh);
+  const double edge = core::mean_edge_length(mesh);
   const std::vector<Point> normals = morse::vertex_normals(mesh);
   double sum = 0;
   for (Index e = 0; e < mesh.edge_count(); ++e)
@@ -188,7 +189,7 @@ TEST_CASE("decimation keeps the shape and spreads vertices evenly, differently i
     lengths.push_back(
         (fewer.position(fewer.edge_vertices(e)[0]) - fewer.position(fewer.edge_vertices(e)[1])).norm());
   const tools::Estimate length = tools::estimate(lengths);
-  CHECK(length.mean > 1.7 * tools::mean_edge_length(mesh));
+  CHECK(length.mean > 1.7 * core::mean_edge_length(mesh));
   CHECK(length.deviation < 0.4 * length.mean);
   CHECK(positions(at(0)) == positions(fewer));
   CHECK(positions(at(1)) != positions(fewer));

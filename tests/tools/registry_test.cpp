@@ -35,6 +35,13 @@ TEST_CASE("a method that starts anew can only begin a chain") {
   CHECK(tools::make_method("denoise:iterations=2+salient+tps").steps.size() == 3);
   CHECK_THROWS_WITH(tools::make_method("salient+denoise"), Contains("first step") && Contains("salient"));
   CHECK_THROWS_AS(tools::make_method("denoise+denoise"), core::InvalidArgument);
+  // Of salient it depends on the scale.
+  CHECK_THROWS_WITH(tools::make_method("tps+salient:scale=2edges"),
+                    Contains("salient with a scale") && Contains("first step") && Contains("tps"));
+  CHECK_THROWS_WITH(tools::make_method("salient+salient:preset=robust"), Contains("first step"));
+  CHECK(tools::make_method("salient+salient:preset=robust,scale=0").steps.size() == 2);
+  CHECK(tools::make_method("salient:preset=robust+tps").steps[0].role == tools::MethodRole::retakes);
+  CHECK(tools::make_method("salient").steps[0].role == tools::MethodRole::smooths);
 }
 
 TEST_CASE("unknown names and keys list the valid ones") {

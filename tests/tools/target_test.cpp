@@ -1,5 +1,6 @@
 #include "morsel/tools/comparison/target.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "morsel/core/error.h"
@@ -8,7 +9,7 @@
 #include "morsel/persistence/cancellation.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "support/fields.h"
-#include "support/meshes.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -139,4 +140,28 @@ TEST_CASE("a target of nothing is refused") {
   request.target = 0;
   CHECK_THROWS_AS(tools::prepare(request), core::InvalidArgument);
   CHECK_THROWS_WITH(tools::prepare(request), Catch::Contains("target of 0"));
+}
+
+TEST_CASE("a method that takes the function again gives the target the field that it begins with") {
+  const TriangleMesh mesh = jittered(sphere(4).mesh(), 0.02, 5);
+  const core::LoadedMesh loaded{mesh, {}};
+  const ScalarField input = tools::make_function("mean-curvature").function->evaluate(mesh, {}).field;
+  const ScalarField at_scale =
+      tools::make_function("mean-curvature:scale=1edges").function->evaluate(mesh, {}).field;
+  REQUIRE(total(at_scale) < total(input));
+  const auto reach = [&](std::size_t wanted) {
+    return tools::apply_chain(tools::make_method("salient:scale=1edges,iterations=3"), loaded,
+                              tools::make_function("mean-curvature"), input, {wanted, false, nullptr});
+  };
+  const tools::ChainOutcome begin = reach(total(at_scale));
+  CHECK(std::ranges::equal(begin.field.values(), at_scale.values()));
+  CHECK(begin.target->iterations == 1);
+  CHECK(begin.target->cancelled.empty());
+  const tools::ChainOutcome less = reach(total(at_scale) - 2);
+  CHECK(less.target->reached == total(at_scale) - 2);
+  CHECK(less.target->iterations >= 1);
+  const tools::ChainOutcome more = reach(total(at_scale) + 2);  // between the two surfaces
+  CHECK(more.target->reached == total(at_scale) + 2);
+  CHECK(more.target->iterations == 0);
+  CHECK(more.target->blend > 0);
 }

@@ -1,6 +1,7 @@
 #include "morsel/tools/comparison/chain.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "morsel/persistence/cancellation.h"
@@ -39,7 +40,8 @@ class StepWatcher {
   bool wanted() const { return tracker_ != nullptr || search_ != nullptr; }
 
   bool iteration(int number, const core::ScalarField& field) {
-    if (number == 1) restart();
+    if (number <= last_) restart();
+    last_ = number;
     return pass(field);
   }
 
@@ -75,6 +77,7 @@ class StepWatcher {
   morse::CriticalPointTracker* tracker_;
   TargetSearch* search_;
   std::optional<morse::CriticalPointTracker> at_start_;  // once the first iteration is seen
+  int last_ = std::numeric_limits<int>::max();           // the number told; a first one begins
   bool passed_ = false;                                  // a field that counts
   bool ended_ = false;
 };

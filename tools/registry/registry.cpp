@@ -18,6 +18,7 @@
 #include "morsel/morse/smoothing/gaussian.h"
 #include "morsel/morse/smoothing/saliency.h"
 #include "morsel/morse/smoothing/salient.h"
+#include "morsel/morse/smoothing/salient_method.h"
 #include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
 
@@ -57,7 +58,7 @@ constexpr std::array kMethods = {
     MethodEntry{"saliency", "mesh saliency over several scales (Lee, Varshney, Jacobs 2005)",
                 morse::make_saliency},
     MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
-                morse::make_salient},
+                morse::make_salient, MethodRole::smooths, morse::salient_retakes},
     MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
     MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
                 persistence::make_tps, MethodRole::cancels},
@@ -113,11 +114,14 @@ MethodChain make_method(std::string_view specification) {
   MethodChain chain{std::string(specification), "", {}};
   for (core::Specification& link : core::parse_chain(specification, "--method")) {
     const MethodEntry& entry = find_entry(kMethods, link.name, "method");
-    if (entry.role == MethodRole::retakes && !chain.steps.empty())
-      throw core::InvalidArgument(std::string(entry.name) + " does not use the field that " + chain.name +
+    MethodStep step{std::string(entry.name), make_entry(entry, std::move(link)), entry.role};
+    if (entry.retakes != nullptr && entry.retakes(*step.method)) step.role = MethodRole::retakes;
+    if (step.role == MethodRole::retakes && !chain.steps.empty())
+      throw core::InvalidArgument(step.name + (entry.retakes != nullptr ? " with a scale" : "") +
+                                  " does not use the field that " + chain.name +
                                   " would hand to it, so it can only be the first step of a chain");
-    chain.name += (chain.name.empty() ? "" : "+") + link.name;
-    chain.steps.push_back({std::string(entry.name), make_entry(entry, std::move(link)), entry.role});
+    chain.name += (chain.name.empty() ? "" : "+") + step.name;
+    chain.steps.push_back(std::move(step));
   }
   return chain;
 }

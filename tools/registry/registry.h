@@ -32,6 +32,7 @@ struct MethodEntry {
   std::string_view summary;
   std::unique_ptr<core::Method> (*make)(core::ParameterReader&);
   MethodRole role = MethodRole::smooths;
+  bool (*retakes)(const core::Method&) = nullptr;  ///< asked if parameters decide whether the role is that
 };
 
 std::span<const FunctionEntry> morse_functions();

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
 #include "morsel/core/parameters.h"
 #include "morsel/core/subdivision.h"
-#include "morsel/morse/operators/edge_lengths.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/unit_size.h"
 #include "morsel/tools/stability/decimation.h"
@@ -103,18 +103,13 @@ void check(const Perturbation& perturbation) {
   }
 }
 
-double mean_edge_length(const TriangleMesh& mesh) {
-  const morse::EdgeLengths lengths = morse::edge_lengths(mesh);
-  return (lengths.mean - lengths.added) * lengths.unit;
-}
-
 PerturbedMesh perturb(const core::LoadedMesh& clean, const Perturbation& perturbation, std::uint64_t seed,
                       std::uint64_t trial) {
   check(perturbation);
   switch (perturbation.kind) {
     case PerturbationKind::noise:
-      return with_noise(clean, perturbation.amount * mean_edge_length(clean.mesh), perturbation.direction,
-                        seed, trial);
+      return with_noise(clean, perturbation.amount * core::mean_edge_length(clean.mesh),
+                        perturbation.direction, seed, trial);
     case PerturbationKind::decimation: {
       core::LoadedMesh mesh = decimated(clean, perturbation.amount, seed, trial);
       std::vector<Point> places = positions_of(mesh.mesh);

@@ -48,12 +48,9 @@ struct PerturbedMesh {
   std::vector<core::Point> places;  ///< where each vertex lies on the surface that was not perturbed
 };
 
-/// The mean over the edges, in the mesh's unit. Throws BadInput if all vertices coincide.
-double mean_edge_length(const core::TriangleMesh& mesh);
-
 /// The perturbed surface of one trial: it depends on mesh, perturbation, seed and trial alone, and trial t moves each
 /// vertex by multiples of the same random numbers at all amounts of noise. O(n), decimation O(n log n). Throws what
-/// mean_edge_length() and check() throw.
+/// check() throws.
 PerturbedMesh perturb(const core::LoadedMesh& clean, const Perturbation& perturbation, std::uint64_t seed,
                       std::uint64_t trial);
 

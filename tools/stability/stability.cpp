@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
 #include "morsel/tools/stability/point_matching.h"
 #include "morsel/tools/stability/random_stream.h"
@@ -314,7 +315,9 @@ StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStabi
                               const core::Progress& progress) {
   StabilityResult result;
   result.radius = prepared.radius.on(clean.mesh);
-  result.mean_edge_length = mean_edge_length(clean.mesh);
+  result.mean_edge_length = core::mean_edge_length(clean.mesh);
+  if (!(result.mean_edge_length > 0))
+    throw core::BadInput("there is no noise in units of the mean edge length: all vertices coincide");
   const Stopwatch clean_watch;
   std::vector<CleanPoints> points = run_clean(clean, prepared, result, progress);
   result.clean_seconds = clean_watch.seconds();
