@@ -78,7 +78,8 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   const std::vector<batch::CollectionMesh> meshes = batch::chosen(all, options.only);
   const batch::OutFolder out(options.out);
   make_folder(out.root());
-  const core::FileWriter probe(out.root() / "summary.json");  // told before the work
+  static_cast<void>(
+      core::FileWriter(out.root() / "summary.json"));  // what cannot be written is told before the work
 
   const auto tell = [&](const batch::MeshOutcome& outcome) {
     console.message(outcome.mesh.name + ": " +
