@@ -124,8 +124,8 @@ class Results(BatchTest):
             self.assertEqual(contents(self.out / folder), contents(self.folder / "listed" / folder))
 
     def test_jobs_and_threads_change_nothing(self):
-        self.batch("--jobs", "1", pictures=True)
-        self.batch("--jobs", "3", "--threads", "2", out="other", pictures=True)
+        self.batch("--jobs", "1")
+        self.batch("--jobs", "3", "--threads", "2", out="other")
         self.assertEqual(contents(self.out), contents(self.folder / "other"))
 
     def test_timings_come_when_asked_for(self):

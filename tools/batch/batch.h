@@ -27,7 +27,7 @@ struct RunOptions {
 enum class Status { done, failed, not_run };
 
 /// Where a mesh stands after a run.
-struct MeshOutcome {
+struct MeshOutcome {  // NOLINT(bugprone-exception-escape): of the JSON library
   CollectionMesh mesh;
   Status status = Status::not_run;
   bool was_settled = false;  ///< by an earlier run

@@ -20,9 +20,10 @@ a { color: var(--accent); }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: 5px 12px; text-align: right; border-bottom: 1px solid var(--line); }
-thead th { color: var(--soft); vertical-align: bottom; max-width: 240px; overflow-wrap: anywhere; }
+thead th { color: var(--soft); vertical-align: bottom; max-width: 240px; overflow-wrap: break-word; }
 tbody th, thead th:first-child, .text { text-align: left; overflow-wrap: anywhere; }
-.text { max-width: 320px; }
+tbody th { min-width: 8em; }
+.text { min-width: 8em; max-width: 320px; }
 .failed .text { color: var(--bad); }
 img { display: block; background: #fff; border-radius: 4px; }
 button { font: inherit; color: inherit; background: none; border: 0; padding: 2px; cursor: pointer; text-align: inherit; }

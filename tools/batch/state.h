@@ -44,7 +44,7 @@ struct MeshError {
   bool may_pass() const;
 };
 
-struct MeshState {
+struct MeshState {                 // NOLINT(bugprone-exception-escape): of the JSON library
   Json key;                        ///< what it was made from (request.h)
   std::optional<MeshError> error;  ///< none: done
   ChildLimits limits;              ///< under which it failed
