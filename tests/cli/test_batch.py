@@ -289,6 +289,15 @@ class Interruptions(BatchTest):
             self.assertLess(time.monotonic(), end, "nothing happened")
             time.sleep(0.005)
 
+    def test_nobody_works_on_when_the_run_has_ended(self):
+        self.arguments = LONG
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            with self.started() as process:
+                self.until(self.children)
+                process.send_signal(how)
+                process.communicate(timeout=60)
+            self.until(lambda: not self.children(), 10)
+
     def test_a_run_that_is_ended_in_any_way_can_be_completed(self):
         whole = None
         for how, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)):

@@ -26,6 +26,7 @@ std::string valid_text(const std::string& text) {
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {
   std::vector<MethodTotals> methods;
+  methods.reserve(names.size());
   for (const std::string& name : names) methods.push_back({valid_text(name), {}, {}});
   for (const MeshOutcome& outcome : outcomes) {
     if (outcome.status != Status::done) continue;
