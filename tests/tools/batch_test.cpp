@@ -111,6 +111,9 @@ TEST_CASE("children end in their own ways", "[batch]") {
   CHECK(batch::error_of(list[0], {}) == std::nullopt);
   CHECK(batch::error_of(list[1], {})->message == "bad; worse");
   CHECK_FALSE(batch::error_of(list[1], {})->may_pass());
+  batch::ChildEnd odd = list[1];
+  odd.message = "caf\xe9";
+  CHECK(batch::error_of(odd, {})->message == "caf\xef\xbf\xbd");  // what its state has
   CHECK(batch::error_of(list[2], {})->kind == "signal");
   CHECK_FALSE(batch::error_of(list[2], {})->may_pass());
   CHECK(batch::error_of(list[3], {})->may_pass());

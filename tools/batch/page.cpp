@@ -8,6 +8,7 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/distributions.h"
 #include "morsel/tools/batch/page_parts.h"
+#include "morsel/tools/batch/request.h"
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/html/command_line.h"
 #include "morsel/tools/report/text_table.h"
@@ -17,11 +18,6 @@ namespace morsel::tools::batch {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Valid UTF-8 of any bytes, as the JSON documents have it.
-std::string valid_text(const std::string& text) {
-  return Json::parse(json_text(Json(text))).get<std::string>();
-}
 
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {

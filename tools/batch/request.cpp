@@ -20,6 +20,10 @@ void add_files(std::string_view specification, std::map<std::string, std::string
 
 }  // namespace
 
+std::string valid_text(const std::string& text) {
+  return Json::parse(json_text(Json(text))).get<std::string>();
+}
+
 Json common_key(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
   std::map<std::string, std::string> hashes;
@@ -27,16 +31,17 @@ Json common_key(const BatchRequest& request) {
   for (const std::string& method : asked.methods) add_files(method, hashes);
   Json files = Json::array();
   for (const auto& [path, hash] : hashes) files.push_back({{"path", path}, {"sha256", hash}});
-  return {{"tool", tool_section()},
-          {"request",
-           {{"field", asked.field},
-            {"methods", asked.methods},
-            {"target", asked.target ? Json(*asked.target) : Json()},
-            {"snap", asked.snap},
-            {"repair", request.repair},
-            {"items", request.items},
-            {"thumbnails", request.thumbnails}}},
-          {"files", std::move(files)}};
+  const Json key = {{"tool", tool_section()},
+                    {"request",
+                     {{"field", asked.field},
+                      {"methods", asked.methods},
+                      {"target", asked.target ? Json(*asked.target) : Json()},
+                      {"snap", asked.snap},
+                      {"repair", request.repair},
+                      {"items", request.items},
+                      {"thumbnails", request.thumbnails}}},
+                    {"files", std::move(files)}};
+  return Json::parse(json_text(key));  // as it is read back from a state
 }
 
 Json mesh_key(const Json& common, const std::filesystem::path& mesh) {

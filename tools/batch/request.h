@@ -20,6 +20,9 @@ struct BatchRequest {
   bool thumbnails = true;  ///< whether there is a picture of the first and of the last method
 };
 
+/// Valid UTF-8 of any bytes (a path, an error), as JSON documents have it: what is read back from one is the same text.
+std::string valid_text(const std::string& text);
+
 /// {"tool", "request", "files"}: all that reports follow from, except the mesh. "files" has name and hash of each file that a
 /// value in --field or --method names. Throws BadInput on one that cannot be read.
 Json common_key(const BatchRequest& request);

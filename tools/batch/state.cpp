@@ -9,6 +9,7 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
+#include "morsel/tools/batch/request.h"
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/report/report_reader.h"
 
@@ -56,7 +57,7 @@ bool MeshError::may_pass() const {
 
 std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits) {
   if (end.exit_code == 0) return std::nullopt;
-  MeshError error{"exit-code", end.exit_code, end.signal, end.message};
+  MeshError error{"exit-code", end.exit_code, end.signal, valid_text(end.message)};
   if (end.timed_out) {
     error.kind = "time-limit";
     error.message = "longer than the time limit of " + core::shortest(limits.seconds) + " s";
@@ -68,7 +69,7 @@ std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits
     const char* name = ::sigabbrev_np(end.signal);
     error.message = "ended by signal " + std::to_string(end.signal) +
                     (name != nullptr ? std::string(" (SIG") + name + ")" : "") +
-                    (end.message.empty() ? "" : ": " + end.message);
+                    (end.message.empty() ? "" : ": " + valid_text(end.message));
   }
   return error;
 }
