@@ -41,10 +41,12 @@ int run(int argc, char** argv, std::stop_token stop) {
   app.set_version_flag("--version", std::string("morsel ") + kVersion);
   app.require_subcommand(1);
   app.footer(
-      "morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences,\n"
-      "2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and 143 interrupted.");
+      "morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences\n"
+      "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and "
+      "143 interrupted.");
   Invocation invocation;
   add_compare(app, invocation);
+  add_batch(app, invocation);
   add_field(app, invocation);
   add_hierarchy(app, invocation);
   add_info(app, invocation);

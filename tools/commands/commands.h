@@ -18,7 +18,7 @@ namespace morsel::tools {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kDifferences = 1,
+  kDifferences = 1,  // or a mesh of a batch failed
   kWrongUsage = 2,
   kBadInput = 3,
   kWriteFailed = 4,
@@ -54,6 +54,7 @@ void add_camera_options(CLI::App& command, render::CameraText& camera);
 /// Says why a wanted number of critical points was not reached.
 void tell_target(const MadeField& made, Console& console);
 
+void add_batch(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_field(CLI::App& app, Invocation& invocation);
 void add_hierarchy(CLI::App& app, Invocation& invocation);

@@ -16,6 +16,7 @@
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
+#include "morsel/tools/render/thumbnail_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
@@ -33,6 +34,7 @@ struct Options {
   std::string figure_size = "1200x840";
   render::CameraText camera;
   std::string page;
+  std::string thumbnails;
 };
 
 /// Shows on the console which method is running.
@@ -103,6 +105,8 @@ class Outputs {
     if (!options_.figure_folder.empty())
       sinks.push_back(
           &figures_.emplace(options_.figure_folder, loaded, options_.camera, figure_size_, progress));
+    if (!options_.thumbnails.empty())
+      sinks.push_back(&thumbnails_.emplace(options_.thumbnails, comparison.chains.size(), progress));
     run_comparison(loaded, comparison, sinks, progress);
     if (figures_) figures_->finish();
     if (plots_) plots_->finish();
@@ -133,6 +137,7 @@ class Outputs {
   std::optional<ExportSink> exports_;
   std::optional<PlotSink> plots_;
   std::optional<render::FigureSink> figures_;
+  std::optional<render::ThumbnailSink> thumbnails_;
   SideBySide files_;
 };
 
@@ -194,6 +199,11 @@ void add_compare(CLI::App& app, Invocation& invocation) {
       ->type_name("WxH")
       ->capture_default_str();
   add_camera_options(command, options->camera);
+  command
+      .add_option("--thumbnails", options->thumbnails,
+                  "Write a small picture of the first and one of the last method: PREFIX.first.png and\n"
+                  "PREFIX.last.png")
+      ->type_name("PREFIX");
   command
       .add_option(
           "--html", options->page,

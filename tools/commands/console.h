@@ -20,6 +20,7 @@ class Console {
 
   /// A hook that draws the bar and carries the stop token; refers to this console.
   core::Progress progress();
+  const std::stop_token& stop_token() const { return stop_; }
   void message(std::string_view text);
   /// Names what the steps are part of ("salient"), shown before the step.
   void enter(std::string_view context) { context_ = context; }

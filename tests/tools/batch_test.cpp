@@ -1,0 +1,297 @@
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "morsel/core/error.h"
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/batch/collection.h"
+#include "morsel/tools/batch/distributions.h"
+#include "morsel/tools/batch/page.h"
+#include "morsel/tools/batch/request.h"
+#include "morsel/tools/batch/scheduler.h"
+#include "morsel/tools/batch/state.h"
+#include "morsel/tools/batch/summary.h"
+
+using namespace morsel;
+using namespace morsel::tools;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that is gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "morsel-batch-XXXXXX").string();
+    REQUIRE(::mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~Folder() { fs::remove_all(path_); }
+  fs::path file(const fs::path& name, const std::string& text = "") const {
+    fs::create_directories((path_ / name).parent_path());
+    core::write_file(path_ / name, text);
+    return path_ / name;
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::vector<std::string> names(const std::vector<batch::CollectionMesh>& meshes) {
+  std::vector<std::string> list;
+  for (const auto& mesh : meshes) list.push_back(mesh.name);
+  return list;
+}
+
+std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "sh", "-c", script}; }
+
+/// How each script ends.
+std::vector<batch::ChildEnd> ends(const std::vector<std::string>& scripts, std::size_t jobs,
+                                  const batch::ChildLimits& limits = {}) {
+  std::vector<batch::ChildEnd> list(scripts.size());
+  batch::run_children({scripts.size(), [&](std::size_t i) { return shell(scripts[i]); },
+                       [&](std::size_t i, const batch::ChildEnd& end) { list[i] = end; }},
+                      jobs, limits);
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("meshes are called by their paths within the collection", "[batch]") {
+  CHECK(batch::mesh_name("a.off") == "a.off");
+  CHECK(batch::mesh_name("./sub/../other//b.ply") == "other/b.ply");
+  CHECK(batch::mesh_name("../up/c.off") == "up/c.off");
+  CHECK(batch::mesh_name("/data/d.off") == "data/d.off");
+  CHECK(batch::mesh_name("..").empty());
+  CHECK(batch::mesh_name("folder/").empty());
+}
+
+TEST_CASE("a folder's meshes are found in all folders of it, by name", "[batch]") {
+  const Folder folder;
+  for (const char* name : {"b.off", "a/z.STL", "a/y.obj", "c.ply", "note.txt", "a.off.json"})
+    folder.file(name);
+  const auto meshes = batch::read_collection(folder.path());
+  CHECK(names(meshes) == std::vector<std::string>{"a/y.obj", "a/z.STL", "b.off", "c.ply"});
+  CHECK(meshes[0].path == folder.path() / "a/y.obj");
+  CHECK(names(batch::chosen(meshes, {"c.ply", "b.off"})) == std::vector<std::string>{"b.off", "c.ply"});
+  CHECK(batch::chosen(meshes, {}) == meshes);
+  CHECK_THROWS_AS(batch::chosen(meshes, {"b.off", "z.off"}), core::InvalidArgument);
+}
+
+TEST_CASE("a list's meshes are those of its lines", "[batch]") {
+  const Folder folder;
+  const auto meshes =
+      batch::read_collection(folder.file("list", "#comment\r\nb.off\r\n\n../x/a b.off\n/abs/c.off"));
+  CHECK(names(meshes) == std::vector<std::string>{"b.off", "x/a b.off", "abs/c.off"});
+  CHECK(meshes[0].path == folder.path() / "b.off");
+  CHECK(meshes[2].path == "/abs/c.off");
+  CHECK_THROWS_AS(batch::read_collection(folder.file("twice", "a.off\n../a.off\n")), core::BadInput);
+  CHECK_THROWS_AS(batch::read_collection(folder.file("up", "a.off\n..\n")), core::BadInput);
+  CHECK_THROWS_AS(batch::read_collection(folder.file("empty")), core::BadInput);
+  CHECK_THROWS_AS(batch::read_collection(folder.file("mesh.off", "OFF")), core::BadInput);
+  CHECK_THROWS_AS(batch::read_collection(folder.path() / "absent"), core::BadInput);
+}
+
+TEST_CASE("children end in their own ways", "[batch]") {
+  const auto list = ends(
+      {"exit 0", "echo out; printf 'morsel: bad\\nworse\\n' >&2; exit 3", "kill -SEGV $$", "kill -9 $$"}, 2);
+  CHECK(list[0].exit_code == 0);
+  CHECK(list[1].exit_code == 3);
+  CHECK(list[1].message == "bad; worse");
+  CHECK(list[2].signal == SIGSEGV);
+  CHECK(list[3].signal == SIGKILL);
+  CHECK_FALSE(list[3].timed_out);
+  CHECK(batch::error_of(list[0], {}) == std::nullopt);
+  CHECK(batch::error_of(list[1], {})->message == "bad; worse");
+  CHECK_FALSE(batch::error_of(list[1], {})->may_pass());
+  batch::ChildEnd odd = list[1];
+  odd.message = "caf\xe9";
+  CHECK(batch::error_of(odd, {})->message == "caf\xef\xbf\xbd");  // what its state has
+  CHECK(batch::error_of(list[2], {})->kind == "signal");
+  CHECK_FALSE(batch::error_of(list[2], {})->may_pass());
+  CHECK(batch::error_of(list[3], {})->may_pass());
+}
+
+TEST_CASE("of a long error the end is kept", "[batch]") {
+  const auto list = ends({"i=0; while [ $i -lt 3000 ]; do echo line $i >&2; i=$((i+1)); done; exit 1"}, 1);
+  CHECK(list[0].message.ends_with("line 2998; line 2999"));
+  CHECK(list[0].message.size() < 3000);
+}
+
+TEST_CASE("a program that is not there is an end, too", "[batch]") {
+  batch::ChildEnd end;
+  batch::run_children({1,
+                       [](std::size_t) {
+                         return std::vector<std::string>{"/nowhere/x", "x"};
+                       },
+                       [&](std::size_t, const batch::ChildEnd& e) { end = e; }},
+                      1, {});
+  CHECK(end.exit_code == 127);
+  CHECK(end.message == "the program cannot be run");
+}
+
+TEST_CASE("the time limit ends a child with all that it started", "[batch]") {
+  const Folder folder;
+  const std::string late = (folder.path() / "late").string();
+  const batch::Child::Clock::time_point begin = batch::Child::Clock::now();
+  const auto list = ends({"(sleep 2; echo late > " + late + ") & sleep 30", "exit 0"}, 1, {0.2, 0});
+  CHECK(list[0].timed_out);
+  CHECK(batch::error_of(list[0], {0.2, 0})->kind == "time-limit");
+  CHECK(batch::error_of(list[0], {0.2, 0})->message == "longer than the time limit of 0.2 s");
+  CHECK(list[1].exit_code == 0);
+  CHECK(std::chrono::duration<double>(batch::Child::Clock::now() - begin).count() < 2);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2200));
+  CHECK_FALSE(fs::exists(late));
+}
+
+TEST_CASE("the memory limit is the child's", "[batch]") {
+  CHECK(ends({"test $(ulimit -v) = 102400"}, 1, {0, 100})[0].exit_code == 0);
+  CHECK(ends({"test $(ulimit -v) != 102400"}, 1)[0].exit_code == 0);
+  batch::ChildEnd end;
+  end.exit_code = 5;
+  CHECK(batch::error_of(end, {0, 100})->kind == "memory-limit");
+  CHECK_FALSE(batch::error_of(end, {0, 100})->may_pass());
+  CHECK(batch::error_of(end, {})->may_pass());
+}
+
+TEST_CASE("no more children run than there are jobs, and all of them do", "[batch]") {
+  const Folder folder;
+  std::size_t now = 0;
+  std::size_t most = 0;
+  std::set<std::size_t> ended;
+  batch::run_children({20,
+                       [&](std::size_t) {
+                         most = std::max(most, ++now);
+                         return shell("sleep 0.02");
+                       },
+                       [&](std::size_t i, const batch::ChildEnd&) {
+                         --now;
+                         ended.insert(i);
+                       }},
+                      3, {});
+  CHECK(most == 3);
+  CHECK(ended.size() == 20);
+}
+
+TEST_CASE("a stop ends the children at once", "[batch]") {
+  std::stop_source stop;
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop.request_stop();
+  });
+  const auto begin = batch::Child::Clock::now();
+  CHECK_THROWS_AS(
+      batch::run_children({2, [](std::size_t) { return shell("sleep 30"); },
+                           [](std::size_t, const batch::ChildEnd&) { FAIL("it did not end by itself"); }},
+                          2, {}, stop.get_token()),
+      core::Cancelled);
+  later.join();
+  CHECK(std::chrono::duration<double>(batch::Child::Clock::now() - begin).count() < 10);
+}
+
+TEST_CASE("a state is read back as it was written; anything else is none", "[batch]") {
+  const Folder folder;
+  const batch::OutFolder out(folder.path());
+  const Json key = {{"request", {{"thumbnails", true}}}, {"sha256", "ab"}};
+  batch::MeshState state;
+  state.key = key;
+  state.seconds = 1.5;
+  state.result = {{"mesh", {{"vertices", 3}}}};
+  state.timings = {{"load", 0.5}};
+  batch::write_state(out.state("sub/a.off"), state);
+  auto read = batch::read_state(folder.path() / "state/sub/a.off.json");
+  REQUIRE(read);
+  CHECK(read->key == key);
+  CHECK(read->result == state.result);
+  CHECK(read->seconds == 1.5);
+  CHECK_FALSE(read->error);
+
+  // done is what has its files
+  CHECK_FALSE(batch::is_settled(*read, key, {}, out, "sub/a.off"));
+  folder.file("reports/sub/a.off.json");
+  CHECK_FALSE(batch::is_settled(*read, key, {}, out, "sub/a.off"));
+  folder.file("thumbnails/sub/a.off.first.png");
+  folder.file("thumbnails/sub/a.off.last.png");
+  CHECK(batch::is_settled(*read, key, {}, out, "sub/a.off"));
+  CHECK(batch::is_settled(*read, key, {1, 1}, out, "sub/a.off"));
+  Json other = key;
+  other["sha256"] = "cd";
+  CHECK_FALSE(batch::is_settled(*read, other, {}, out, "sub/a.off"));
+
+  // failed is what failed within the same limits
+  state.error = batch::MeshError{"time-limit", -1, 9, "late"};
+  state.limits = {2.5, 0};
+  batch::write_state(out.state("sub/a.off"), state);
+  read = batch::read_state(out.state("sub/a.off"));
+  REQUIRE(read);
+  REQUIRE(read->error);
+  CHECK(batch::to_json(*read->error) == batch::to_json(*state.error));
+  CHECK(read->limits == state.limits);
+  CHECK(batch::is_settled(*read, key, {2.5, 0}, out, "sub/a.off"));
+  CHECK_FALSE(batch::is_settled(*read, key, {3, 0}, out, "sub/a.off"));
+
+  CHECK_FALSE(batch::read_state(folder.path() / "absent"));
+  CHECK_FALSE(batch::read_state(folder.file("damaged", "{\"schema\": \"morsel.batch-state/1\"")));
+  CHECK_FALSE(batch::read_state(folder.file("other", "{\"schema\": \"other\"}")));
+}
+
+TEST_CASE("the key has all that a report follows from", "[batch]") {
+  const Folder folder;
+  const std::string values = folder.file("values", "1\n").string();
+  batch::BatchRequest request;
+  request.comparison.field = "vertex-scalar:file=" + core::escape(values);
+  const Json key = batch::common_key(request);
+  REQUIRE(key["files"].size() == 1);
+  CHECK(key["files"][0]["path"] == values);
+  CHECK(batch::mesh_key(key, folder.path() / "absent")["sha256"].is_null());
+  std::vector<batch::BatchRequest> changed(7, request);
+  changed[0].comparison.field = "height";
+  changed[1].comparison.methods.pop_back();
+  changed[2].comparison.target = 10;
+  changed[3].comparison.snap = true;
+  changed[4].repair = true;
+  changed[5].items = false;
+  changed[6].thumbnails = false;
+  for (const batch::BatchRequest& other : changed) CHECK(batch::common_key(other) != key);
+  folder.file("values", "2\n");
+  CHECK(batch::common_key(request) != key);
+}
+
+TEST_CASE("texts are written as tables and pages need them", "[batch]") {
+  CHECK(batch::csv_field("plain text") == "plain text");
+  CHECK(batch::csv_field("a,\"b\"") == "\"a,\"\"b\"\"\"");
+  CHECK(batch::html_text("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
+  CHECK(batch::link_text("a b/\xc3\xa9#?%.off") == "a%20b/%C3%A9%23%3F%25.off");
+}
+
+TEST_CASE("histograms count every mesh once", "[batch]") {
+  const std::vector<double> totals = {1, 2, 9.99, 10, 10.01, 1000, 999.9, 5};
+  const std::vector<double> edges = batch::logarithmic_bins(totals);
+  CHECK(edges.front() == 1);
+  CHECK(edges.back() > 1000);
+  CHECK(std::is_sorted(edges.begin(), edges.end()));
+  const plot::Plot plot = batch::histogram({{"m", totals, totals}, {"n", {3}, {3}}});
+  const auto& series = plot.panels.front().series;
+  REQUIRE(series.size() == 2);
+  CHECK(std::accumulate(series[0].y.begin(), series[0].y.end(), 0.) == 8);
+  CHECK(std::accumulate(series[1].y.begin(), series[1].y.end(), 0.) == 1);
+  CHECK(series[0].y.back() == 0);
+  for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin)
+    CHECK(series[0].y[bin] == std::count_if(totals.begin(), totals.end(), [&](double total) {
+            return edges[bin] <= total && total < edges[bin + 1];
+          }));
+}
+
+TEST_CASE("the cumulative distribution ends at all meshes", "[batch]") {
+  const plot::Plot plot = batch::cumulative({{"m", {1, 1, 1, 1}, {7, 3, 7, 20}}});
+  const plot::Series& series = plot.panels.front().series.front();
+  CHECK(series.x == std::vector<double>{3, 3, 7, 7, 20});
+  CHECK(series.y == std::vector<double>{0, 25, 50, 75, 100});
+}

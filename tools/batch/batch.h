@@ -1,0 +1,51 @@
+#pragma once
+/// A comparison of every mesh of a collection: each in a process of its own, each done once.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/batch/collection.h"
+#include "morsel/tools/batch/request.h"
+#include "morsel/tools/batch/state.h"
+
+namespace morsel::tools::batch {
+
+struct RunOptions {
+  ChildLimits limits;    ///< of each mesh
+  std::size_t jobs = 1;  ///< meshes at the same time
+  int threads = 1;       ///< of each
+  bool run = true;       ///< false: only look what is done
+  std::stop_token stop;  ///< wakes the run at once; what works in this process listens to its Progress
+  bool retry = false;    ///< whether what failed before is run again
+};
+
+enum class Status { done, failed, not_run };
+
+/// Where a mesh stands after a run.
+struct MeshOutcome {  // NOLINT(bugprone-exception-escape): of the JSON library
+  CollectionMesh mesh;
+  Status status = Status::not_run;
+  bool was_settled = false;  ///< by an earlier run
+  Json sha256;               ///< of its file; null if it cannot be read
+  MeshState state;           ///< unless it was not run
+};
+
+/// Told of each mesh that ends, in the order in which they do.
+using TellOutcome = std::function<void(const MeshOutcome&)>;
+
+/// Runs `compare` (the program's own file, again) on the meshes that are not settled (state.h), and writes what comes of them into `out`:
+/// reports/NAME.json, thumbnails/NAME.first.png and .last.png, state/NAME.json, in this order and each whole or not at all, so that a run that is
+/// ended in any way loses the meshes in work and nothing else. One mesh's failure, crash or excess is that mesh's outcome.
+///
+/// In the meshes' order. Two runs may share a folder if no mesh is in both at the same time. Throws InvalidArgument on a request with unknown
+/// names, WriteFailed where `out` cannot be written, Cancelled when told to stop (the children have ended and their half-made files are gone).
+std::vector<MeshOutcome> run_batch(const std::vector<CollectionMesh>& meshes, const BatchRequest& request,
+                                   const RunOptions& options, const OutFolder& out,
+                                   const core::Progress& progress = {}, const TellOutcome& tell = {});
+
+}  // namespace morsel::tools::batch

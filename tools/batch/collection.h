@@ -1,0 +1,31 @@
+#pragma once
+/// The meshes of a collection: those of a folder or of a list, with the names that their results go by.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace morsel::tools::batch {
+
+struct CollectionMesh {
+  std::string name;            ///< the path within the collection, extension included: "scans/lion.off"
+  std::filesystem::path path;  ///< to be opened from the working folder
+
+  friend bool operator==(const CollectionMesh&, const CollectionMesh&) = default;
+};
+
+/// Of a folder: all .off, .obj, .ply and .stl files in it and the folders in it, by name. Of any other file: a mesh on each line, in the
+/// order of the lines; relative paths begin at the list's folder; empty lines and those that begin with # are passed over.
+///
+/// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws BadInput where the
+/// folder or list cannot be read or has no mesh, and where two meshes have one name.
+std::vector<CollectionMesh> read_collection(const std::filesystem::path& folder_or_list);
+
+/// What a mesh of this path within a collection is called. Empty for a path that names no file.
+std::string mesh_name(const std::filesystem::path& path);
+
+/// Those with these names, in the collection's order; all, if there are no names. Throws InvalidArgument on a name that is not there.
+std::vector<CollectionMesh> chosen(const std::vector<CollectionMesh>& meshes,
+                                   const std::vector<std::string>& names);
+
+}  // namespace morsel::tools::batch

@@ -1,0 +1,201 @@
+#include "morsel/tools/batch/page.h"
+
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/batch/distributions.h"
+#include "morsel/tools/batch/page_parts.h"
+#include "morsel/tools/batch/request.h"
+#include "morsel/tools/export/folder.h"
+#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/report/version.h"
+
+namespace morsel::tools::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
+                                    const std::vector<std::string>& names) {
+  std::vector<MethodTotals> methods;
+  methods.reserve(names.size());
+  for (const std::string& name : names) methods.push_back({valid_text(name), {}, {}});
+  for (const MeshOutcome& outcome : outcomes) {
+    if (outcome.status != Status::done) continue;
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      methods[i].vertices.push_back(outcome.state.result.at("mesh").at("vertices").get<double>());
+      methods[i].totals.push_back(
+          outcome.state.result.at("methods").at(i).at("critical_points").at("total").get<double>());
+    }
+  }
+  return methods;
+}
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.starts_with("<?xml") ? text.substr(text.find("?>") + 2) : text;
+}
+
+/// Writes the plots; their drawings, to be put into the page.
+std::string write_plots(const std::vector<MethodTotals>& methods, const fs::path& folder) {
+  make_folder(folder);
+  const std::vector<std::pair<std::string, plot::Plot>> plots = {{"histogram.svg", histogram(methods)},
+                                                                 {"cumulative.svg", cumulative(methods)},
+                                                                 {"against-size.svg", against_size(methods)}};
+  std::string figures;
+  for (const auto& [name, plot] : plots) {
+    plot::write_svg(folder / name, plot);
+    figures += "<figure>" + contents(folder / name) + "</figure>\n";
+  }
+  return "<section class=\"plots\">\n" + figures + "</section>\n";
+}
+
+std::string number_cell(std::uint64_t number) {
+  return "<td data-v=\"" + std::to_string(number) + "\">" + grouped(number) + "</td>";
+}
+
+std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request, const char* which) {
+  if (outcome.status != Status::done) return "<td></td>";
+  const std::string& name = outcome.mesh.name;
+  return "<td><img loading=\"lazy\" width=\"240\" height=\"180\" alt=\"" +
+         html_text(valid_text(name) + ", " +
+                   (std::string_view(which) == "first" ? request.comparison.methods.front()
+                                                       : request.comparison.methods.back())) +
+         "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\"></td>";
+}
+
+std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
+  const std::string& name = outcome.mesh.name;
+  const std::string shown = html_text(valid_text(name));
+  const bool done = outcome.status == Status::done;
+  std::string row =
+      "<tr class=\"" + to_string(outcome.status) + "\"><th scope=\"row\" data-v=\"" + shown + "\">";
+  row += done ? "<a href=\"" + link_text(OutFolder("").report(name).generic_string()) + "\">" + shown + "</a>"
+              : shown;
+  row += "</th>";
+  if (request.thumbnails)
+    for (const char* which : {"first", "last"}) row += picture_cell(outcome, request, which);
+  row += "<td class=\"text\" data-v=\"" + to_string(outcome.status) + "\">" + to_string(outcome.status);
+  if (outcome.status == Status::failed)
+    row += "<br><small>" + html_text(valid_text(outcome.state.error->message)) + "</small>";
+  row += "</td>";
+  const std::size_t methods = request.comparison.methods.size();
+  if (!done) {
+    for (std::size_t i = 0; i < 1 + 2 * methods; ++i) row += "<td></td>";
+    return row + "</tr>\n";
+  }
+  const Json& result = outcome.state.result;
+  row += number_cell(result.at("mesh").at("vertices").get<std::uint64_t>());
+  for (const Json& method : result.at("methods")) {
+    row += number_cell(method.at("critical_points").at("total").get<std::uint64_t>());
+    row += number_cell(pairs_over_one_percent(method));
+  }
+  return row + "</tr>\n";
+}
+
+std::string sort_head(const std::string& label) {
+  return "<th scope=\"col\"><button type=\"button\">" + label + "</button></th>";
+}
+
+std::string table_head(const BatchRequest& request) {
+  std::string head = "<tr>" + sort_head("mesh");
+  const std::vector<std::string>& methods = request.comparison.methods;
+  if (request.thumbnails)
+    for (const std::string& method : {methods.front(), methods.back()})
+      head += "<th scope=\"col\">" + html_text(valid_text(method)) + "</th>";
+  head += sort_head("status") + sort_head("vertices");
+  for (const std::string& method : methods)
+    head += sort_head(html_text(valid_text(method)) + "<br>total") +
+            sort_head(html_text(valid_text(method)) + "<br>pairs &gt; 1&nbsp;%");
+  return head + "</tr>\n";
+}
+
+/// What was asked for, as words of the command line.
+std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
+  const ComparisonRequest& asked = request.comparison;
+  std::vector<std::string> words = {"morsel", "batch", options.collection, "--field", asked.field};
+  for (const std::string& method : asked.methods) words.insert(words.end(), {"--method", method});
+  if (asked.target) words.insert(words.end(), {"--target", std::to_string(*asked.target)});
+  if (asked.snap) words.emplace_back("--snap");
+  if (request.repair) words.emplace_back("--repair");
+  if (!request.items) words.emplace_back("--no-items");
+  if (!request.thumbnails) words.emplace_back("--no-thumbnails");
+  return command_line(words);
+}
+
+std::string counts_line(const Tally& sums) {
+  const std::size_t all = sums.done + sums.failed + sums.not_run;
+  return grouped(all) + (all == 1 ? " mesh: " : " meshes: ") + grouped(sums.done) + " done, " +
+         grouped(sums.failed) + " failed, " + grouped(sums.not_run) + " not run";
+}
+
+}  // namespace
+
+std::string html_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string link_text(const std::string& path) {
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string link;
+  for (const char c : path) {
+    if (kPlain.find(c) != std::string_view::npos) {
+      link += c;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    link += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return link;
+}
+
+void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
+                const SummaryOptions& options, const OutFolder& out) {
+  const Tally sums = tally(outcomes);
+  std::string plots;
+  if (sums.done > 0)
+    plots = write_plots(totals_of(outcomes, request.comparison.methods), out.root() / "plots");
+  const std::string title = html_text(valid_text("morsel batch: " + options.collection));
+  core::FileWriter file(out.root() / "index.html");
+  file.write("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title +
+             "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<style>");
+  file.write(kPageStyle);
+  file.write("</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n<p>" + counts_line(sums) +
+             ". The numbers are in <a href=\"summary.csv\">summary.csv</a> and "
+             "<a href=\"summary.json\">summary.json</a>.</p>\n");
+  file.write(plots);
+  file.write("<div class=\"scroll\"><table>\n<thead>" + table_head(request) + "</thead>\n<tbody>\n");
+  for (const MeshOutcome& outcome : outcomes) file.write(mesh_row(outcome, request));
+  file.write("</tbody>\n</table></div>\n<footer>morsel " + std::string(kVersion) + ": <code>" +
+             html_text(valid_text(request_line(request, options))) + "</code></footer>\n<script>");
+  file.write(kPageScript);
+  file.write("</script>\n</body>\n</html>\n");
+  file.commit();
+}
+
+}  // namespace morsel::tools::batch

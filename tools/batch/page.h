@@ -1,0 +1,22 @@
+#pragma once
+/// The page that shows a collection.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/batch/batch.h"
+#include "morsel/tools/batch/summary.h"
+
+namespace morsel::tools::batch {
+
+/// Writes plots/histogram.svg, cumulative.svg and against-size.svg (unless no mesh is done) and index.html: the plots, and a table of the meshes
+/// with their pictures, sorted by a click on a column's head, that needs nothing but the folder. Throws WriteFailed.
+void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
+                const SummaryOptions& options, const OutFolder& out);
+
+/// Text for HTML, also within quotes.
+std::string html_text(const std::string& text);
+/// A relative path as a link: bytes that a URL does not hold as they are become %XX.
+std::string link_text(const std::string& path);
+
+}  // namespace morsel::tools::batch

@@ -1,0 +1,105 @@
+#include "morsel/tools/batch/scheduler.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <list>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <system_error>
+
+#include "morsel/core/error.h"
+
+namespace morsel::tools::batch {
+namespace {
+
+/// A descriptor that becomes readable when a stop is requested.
+class StopAlarm {
+ public:
+  explicit StopAlarm(std::stop_token token) : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+    callback_.emplace(std::move(token), Ring{descriptor_});
+  }
+  ~StopAlarm() {
+    callback_.reset();  // nobody rings any more
+    ::close(descriptor_);
+  }
+  StopAlarm(const StopAlarm&) = delete;
+  StopAlarm& operator=(const StopAlarm&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  struct Ring {
+    int descriptor;
+    void operator()() const {
+      const std::uint64_t one = 1;
+      static_cast<void>(!::write(descriptor, &one, sizeof(one)));
+    }
+  };
+  int descriptor_;
+  std::optional<std::stop_callback<Ring>> callback_;
+};
+
+struct Running {
+  std::size_t task;
+  Child child;
+};
+
+/// Milliseconds for poll(), rounded up so that nobody wakes just before the time.
+int wait_time(const std::list<Running>& running) {
+  std::optional<Child::Clock::time_point> first;
+  for (const Running& one : running)
+    if (one.child.deadline() && (!first || *one.child.deadline() < *first)) first = one.child.deadline();
+  if (!first) return -1;
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(*first - Child::Clock::now()).count();
+  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
+}
+
+void sleep_until_something_happens(const std::list<Running>& running, const StopAlarm& alarm) {
+  std::vector<pollfd> descriptors = {{alarm.descriptor(), POLLIN, 0}};
+  for (const Running& one : running) descriptors.push_back({one.child.descriptor(), POLLIN, 0});
+  if (::poll(descriptors.data(), descriptors.size(), wait_time(running)) < 0 && errno != EINTR)
+    throw std::system_error(errno, std::generic_category(), "poll");
+}
+
+}  // namespace
+
+void run_children(const ChildTasks& tasks, std::size_t jobs, const ChildLimits& limits,
+                  const std::stop_token& stop, const core::Progress& progress) {
+  if (jobs < 1) throw std::logic_error("run_children: no jobs");
+  const StopAlarm alarm(stop);
+  std::list<Running> running;  // destroyed first: nobody is left when this is left
+  std::size_t next = 0;
+  std::size_t ended = 0;
+  while (ended < tasks.count) {
+    if (stop.stop_requested()) throw core::Cancelled();
+    progress.update("meshes", static_cast<double>(ended) / static_cast<double>(tasks.count));
+    while (next < tasks.count && running.size() < jobs) {
+      running.push_back({next, Child(tasks.begin(next), limits)});
+      ++next;
+    }
+    sleep_until_something_happens(running, alarm);
+    for (auto one = running.begin(); one != running.end();) {
+      one->child.kill_late();
+      const std::optional<ChildEnd> end = one->child.read();
+      if (!end) {
+        ++one;
+        continue;
+      }
+      if (stop.stop_requested())
+        throw core::Cancelled();  // what ended because all of us are told to stop has not failed
+      const std::size_t task = one->task;
+      one = running.erase(one);
+      ++ended;
+      tasks.end(task, *end);
+    }
+  }
+}
+
+}  // namespace morsel::tools::batch

@@ -1,0 +1,178 @@
+// morsel batch: a comparison of every mesh of a collection.
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/batch/batch.h"
+#include "morsel/tools/batch/summary.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/export/folder.h"
+#include "morsel/tools/report/text_table.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string collection;
+  std::string out;
+  batch::BatchRequest request;
+  batch::RunOptions run;
+  std::size_t jobs = 0;  // 0: as many as the machine has cores for
+  std::vector<std::string> only;
+  bool no_items = false;
+  bool no_thumbnails = false;
+  bool no_summary = false;
+  bool summary_only = false;
+  bool with_timings = false;
+};
+
+/// The meshes of `all` that were chosen are as they came out of the run, the others as they are found.
+std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::CollectionMesh>& all,
+                                                 std::vector<batch::MeshOutcome> ran, const Options& options,
+                                                 const batch::OutFolder& out,
+                                                 const core::Progress& progress) {
+  if (ran.size() == all.size()) return ran;
+  std::vector<batch::CollectionMesh> others;
+  for (const batch::CollectionMesh& mesh : all)
+    if (std::none_of(ran.begin(), ran.end(), [&](const auto& one) { return one.mesh == mesh; }))
+      others.push_back(mesh);
+  batch::RunOptions look = options.run;
+  look.run = false;
+  std::vector<batch::MeshOutcome> found = run_batch(others, options.request, look, out, progress);
+  std::vector<batch::MeshOutcome> whole;
+  auto one = ran.begin();
+  auto other = found.begin();
+  for (const batch::CollectionMesh& mesh : all)
+    whole.push_back(std::move(one != ran.end() && one->mesh == mesh ? *one++ : *other++));
+  return whole;
+}
+
+std::string last_line(const batch::Tally& sums, const Options& options) {
+  const std::size_t all = sums.done + sums.failed + sums.not_run;
+  return grouped(all) + (all == 1 ? " mesh: " : " meshes: ") + grouped(sums.done) + " done, " +
+         grouped(sums.failed) + " failed" +
+         (sums.not_run > 0 ? ", " + grouped(sums.not_run) + " not run" : "") +
+         (sums.settled > 0 ? " (" + grouped(sums.settled) + " by earlier runs)" : "") +
+         (options.no_summary ? "" : "; " + (std::filesystem::path(options.out) / "index.html").string());
+}
+
+int run(Options& options, const CommonOptions& common, Console& console) {
+  options.request.repair = common.repair;
+  options.request.items = !options.no_items;
+  options.request.thumbnails = !options.no_thumbnails;
+  options.run.threads = std::max(common.threads, 1);
+  options.run.stop = console.stop_token();
+  options.run.run = !options.summary_only;
+  const unsigned cores = std::max(std::thread::hardware_concurrency(), 1U);
+  options.run.jobs = options.jobs > 0
+                         ? options.jobs
+                         : std::max<std::size_t>(cores / static_cast<unsigned>(options.run.threads), 1);
+  static_cast<void>(prepare(options.request.comparison));
+  const std::vector<batch::CollectionMesh> all = batch::read_collection(options.collection);
+  const std::vector<batch::CollectionMesh> meshes = batch::chosen(all, options.only);
+  const batch::OutFolder out(options.out);
+  make_folder(out.root());
+  static_cast<void>(
+      core::FileWriter(out.root() / "summary.json"));  // what cannot be written is told before the work
+
+  const auto tell = [&](const batch::MeshOutcome& outcome) {
+    console.message(outcome.mesh.name + ": " +
+                    (outcome.state.error ? "failed: " + outcome.state.error->message : "done"));
+  };
+  std::vector<batch::MeshOutcome> outcomes =
+      run_batch(meshes, options.request, options.run, out, console.progress(), tell);
+  const batch::Tally sums = tally(outcomes);
+  if (!options.no_summary)
+    write_summary(whole_collection(all, std::move(outcomes), options, out, console.progress()),
+                  options.request, {options.collection, options.with_timings}, out);
+  std::cout << last_line(sums, options) << '\n';
+  return sums.failed + sums.not_run > 0 ? kDifferences : kDone;
+}
+
+void add_what_is_compared(CLI::App& command, Options& options) {
+  ComparisonRequest& asked = options.request.comparison;
+  command.add_option("--field", asked.field, "Morse function (below)")->type_name("F")->capture_default_str();
+  command
+      .add_option("--method", asked.methods,
+                  "A method or chain of methods (below); may be given several times\n"
+                  "(default: conventional, salient and tps)")
+      ->type_name("M")
+      ->allow_extra_args(false);
+  add_target_option(command, asked.target);
+  command.add_flag("--snap", asked.snap,
+                   "Report each critical point at the position of the one of the input field that it came\n"
+                   "from (its origin)");
+  command.add_flag("--no-items", options.no_items,
+                   "Leave what is listed point by point out of the reports; counts stay");
+  command.add_flag("--no-thumbnails", options.no_thumbnails, "Take no pictures");
+}
+
+void add_how_it_is_run(CLI::App& command, Options& options) {
+  command.add_option("--jobs", options.jobs, "Meshes at the same time (default: the cores over --threads)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  command
+      .add_option("--time-limit", options.run.limits.seconds,
+                  "A mesh that takes longer fails (default: none)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
+  command
+      .add_option("--memory-limit", options.run.limits.memory_mib,
+                  "A mesh that needs more address space fails; a few hundred MiB are needed for\n"
+                  "the smallest (default: none)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      ->type_name("MIB");
+  command.add_flag("--retry", options.run.retry, "Run what failed before again");
+  command
+      .add_option("--only", options.only,
+                  "Run this mesh only, by its path within the collection; may be given several times")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  auto* without = command.add_flag("--no-summary", options.no_summary, "Leave the summary to a later call");
+  command.add_flag("--summary-only", options.summary_only, "Run nothing: write the summary of what is there")
+      ->excludes(without);
+  command.add_flag("--with-timings", options.with_timings,
+                   "Give summary.csv a column of seconds, which differ from run to run");
+}
+
+}  // namespace
+
+void add_batch(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "batch",
+      "Compare methods on every mesh of a collection, each once and in a process of its own, and sum up");
+  command
+      .add_option("COLLECTION", options->collection,
+                  "A folder, whose meshes and those of the folders in it are taken, or a list: a file with\n"
+                  "the path of a mesh on each line, relative to the list's folder")
+      ->required();
+  command.add_option("--out", options->out, "Where results go")->type_name("OUT")->required();
+  add_what_is_compared(command, *options);
+  add_how_it_is_run(command, *options);
+  add_common_options(command, invocation.common);
+  command.get_option("--threads")
+      ->description("Number of threads of each mesh (default: 1); never changes a result");
+  command.footer(
+      "OUT gets reports/NAME.json, thumbnails/NAME.first.png and .last.png (the first and the last method),\n"
+      "state/NAME.json, and the summary: summary.csv, summary.json, plots/ and index.html. NAME is the "
+      "mesh's\n"
+      "path within the collection. What is done is not done again unless the mesh, the options, a file that "
+      "they\n"
+      "name or the program's version changed; what failed, unless these or the limits did, or with --retry.\n"
+      "Exit code: 0 if all meshes are done, 1 if any failed.\n" +
+      specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return run(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,36 @@
+#pragma once
+/// Small pictures of a comparison's first and last method, for pages that show many meshes.
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/render/picture.h"
+
+namespace morsel::tools::render {
+
+/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface from its best side, coloured by the method's field, with its
+/// critical points. Of a single method both are there, and equal.
+class ThumbnailSink : public ComparisonSink {
+ public:
+  /// `methods`: how many there will be. Throws WriteFailed if the files cannot be written.
+  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, core::Progress progress = {});
+  void field(const FieldOutcome& outcome) override;
+  void method(const MethodOutcome& outcome) override;
+
+ private:
+  std::filesystem::path path(const char* which) const;
+
+  std::filesystem::path prefix_;
+  std::size_t methods_;
+  std::size_t seen_ = 0;
+  core::Progress progress_;
+  std::optional<Studio> studio_;
+  View view_;
+  std::string field_name_;
+};
+
+}  // namespace morsel::tools::render
