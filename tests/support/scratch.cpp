@@ -24,6 +24,7 @@ Scratch::~Scratch() {
 
 fs::path Scratch::file(std::string_view name, std::string_view bytes) const {
   const fs::path result = path_ / name;
+  fs::create_directories(result.parent_path());
   std::ofstream file(result, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file) throw std::runtime_error("cannot write " + result.string());

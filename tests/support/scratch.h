@@ -18,8 +18,8 @@ class Scratch {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
 
-  /// Makes a file of these bytes in the folder.
-  std::filesystem::path file(std::string_view name, std::string_view bytes) const;
+  /// Makes a file of these bytes in the folder, or in one in it.
+  std::filesystem::path file(std::string_view name, std::string_view bytes = {}) const;
 
  private:
   std::filesystem::path path_;

@@ -2,14 +2,12 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
 #include <set>
 #include <string>
 #include <thread>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/collection.h"
 #include "morsel/tools/batch/distributions.h"
 #include "morsel/tools/batch/page.h"
@@ -17,32 +15,13 @@
 #include "morsel/tools/batch/scheduler.h"
 #include "morsel/tools/batch/state.h"
 #include "morsel/tools/batch/summary.h"
+#include "support/scratch.h"
 
 using namespace morsel;
 using namespace morsel::tools;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder that is gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "morsel-batch-XXXXXX").string();
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  fs::path file(const fs::path& name, const std::string& text = "") const {
-    fs::create_directories((path_ / name).parent_path());
-    core::write_file(path_ / name, text);
-    return path_ / name;
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 std::vector<std::string> names(const std::vector<batch::CollectionMesh>& meshes) {
   std::vector<std::string> list;
@@ -74,7 +53,7 @@ TEST_CASE("meshes are called by their paths within the collection", "[batch]") {
 }
 
 TEST_CASE("a folder's meshes are found in all folders of it, by name", "[batch]") {
-  const Folder folder;
+  const test::Scratch folder;
   for (const char* name : {"b.off", "a/z.STL", "a/y.obj", "c.ply", "note.txt", "a.off.json"})
     folder.file(name);
   const auto meshes = batch::read_collection(folder.path());
@@ -86,7 +65,7 @@ TEST_CASE("a folder's meshes are found in all folders of it, by name", "[batch]"
 }
 
 TEST_CASE("a list's meshes are those of its lines", "[batch]") {
-  const Folder folder;
+  const test::Scratch folder;
   const auto meshes =
       batch::read_collection(folder.file("list", "#comment\r\nb.off\r\n\n../x/a b.off\n/abs/c.off"));
   CHECK(names(meshes) == std::vector<std::string>{"b.off", "x/a b.off", "abs/c.off"});
@@ -138,7 +117,7 @@ TEST_CASE("a program that is not there is an end, too", "[batch]") {
 }
 
 TEST_CASE("the time limit ends a child with all that it started", "[batch]") {
-  const Folder folder;
+  const test::Scratch folder;
   const std::string late = (folder.path() / "late").string();
   const batch::Child::Clock::time_point begin = batch::Child::Clock::now();
   const auto list = ends({"(sleep 2; echo late > " + late + ") & sleep 30", "exit 0"}, 1, {0.2, 0});
@@ -162,7 +141,7 @@ TEST_CASE("the memory limit is the child's", "[batch]") {
 }
 
 TEST_CASE("no more children run than there are jobs, and all of them do", "[batch]") {
-  const Folder folder;
+  const test::Scratch folder;
   std::size_t now = 0;
   std::size_t most = 0;
   std::set<std::size_t> ended;
@@ -197,7 +176,7 @@ TEST_CASE("a stop ends the children at once", "[batch]") {
 }
 
 TEST_CASE("a state is read back as it was written; anything else is none", "[batch]") {
-  const Folder folder;
+  const test::Scratch folder;
   const batch::OutFolder out(folder.path());
   const Json key = {{"request", {{"thumbnails", true}}}, {"sha256", "ab"}};
   batch::MeshState state;
@@ -243,7 +222,7 @@ TEST_CASE("a state is read back as it was written; anything else is none", "[bat
 }
 
 TEST_CASE("the key has all that a report follows from", "[batch]") {
-  const Folder folder;
+  const test::Scratch folder;
   const std::string values = folder.file("values", "1\n").string();
   batch::BatchRequest request;
   request.comparison.field = "vertex-scalar:file=" + core::escape(values);
