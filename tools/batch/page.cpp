@@ -11,6 +11,7 @@
 #include "morsel/tools/batch/request.h"
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/html/command_line.h"
+#include "morsel/tools/html/markup.h"
 #include "morsel/tools/report/text_table.h"
 #include "morsel/tools/report/version.h"
 
@@ -63,15 +64,15 @@ std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request
   if (outcome.status != Status::done) return "<td></td>";
   const std::string& name = outcome.mesh.name;
   return "<td><img loading=\"lazy\" width=\"240\" height=\"180\" alt=\"" +
-         html_text(valid_text(name) + ", " +
-                   (std::string_view(which) == "first" ? request.comparison.methods.front()
-                                                       : request.comparison.methods.back())) +
+         markup_text(valid_text(name) + ", " +
+                     (std::string_view(which) == "first" ? request.comparison.methods.front()
+                                                         : request.comparison.methods.back())) +
          "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\"></td>";
 }
 
 std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
   const std::string& name = outcome.mesh.name;
-  const std::string shown = html_text(valid_text(name));
+  const std::string shown = markup_text(valid_text(name));
   const bool done = outcome.status == Status::done;
   std::string row =
       "<tr class=\"" + to_string(outcome.status) + "\"><th scope=\"row\" data-v=\"" + shown + "\">";
@@ -82,7 +83,7 @@ std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
     for (const char* which : {"first", "last"}) row += picture_cell(outcome, request, which);
   row += "<td class=\"text\" data-v=\"" + to_string(outcome.status) + "\">" + to_string(outcome.status);
   if (outcome.status == Status::failed)
-    row += "<br><small>" + html_text(valid_text(outcome.state.error->message)) + "</small>";
+    row += "<br><small>" + markup_text(valid_text(outcome.state.error->message)) + "</small>";
   row += "</td>";
   const std::size_t methods = request.comparison.methods.size();
   if (!done) {
@@ -107,11 +108,11 @@ std::string table_head(const BatchRequest& request) {
   const std::vector<std::string>& methods = request.comparison.methods;
   if (request.thumbnails)
     for (const std::string& method : {methods.front(), methods.back()})
-      head += "<th scope=\"col\">" + html_text(valid_text(method)) + "</th>";
+      head += "<th scope=\"col\">" + markup_text(valid_text(method)) + "</th>";
   head += sort_head("status") + sort_head("vertices");
   for (const std::string& method : methods)
-    head += sort_head(html_text(valid_text(method)) + "<br>total") +
-            sort_head(html_text(valid_text(method)) + "<br>pairs &gt; 1&nbsp;%");
+    head += sort_head(markup_text(valid_text(method)) + "<br>total") +
+            sort_head(markup_text(valid_text(method)) + "<br>pairs &gt; 1&nbsp;%");
   return head + "</tr>\n";
 }
 
@@ -136,29 +137,6 @@ std::string counts_line(const Tally& sums) {
 
 }  // namespace
 
-std::string html_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
-
 std::string link_text(const std::string& path) {
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
   constexpr const char* kDigits = "0123456789ABCDEF";
@@ -180,7 +158,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
   std::string plots;
   if (sums.done > 0)
     plots = write_plots(totals_of(outcomes, request.comparison.methods), out.root() / "plots");
-  const std::string title = html_text(valid_text("morsel batch: " + options.collection));
+  const std::string title = markup_text(valid_text("morsel batch: " + options.collection));
   core::FileWriter file(out.root() / "index.html");
   file.write("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title +
              "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<style>");
@@ -192,7 +170,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
   file.write("<div class=\"scroll\"><table>\n<thead>" + table_head(request) + "</thead>\n<tbody>\n");
   for (const MeshOutcome& outcome : outcomes) file.write(mesh_row(outcome, request));
   file.write("</tbody>\n</table></div>\n<footer>morsel " + std::string(kVersion) + ": <code>" +
-             html_text(valid_text(request_line(request, options))) + "</code></footer>\n<script>");
+             markup_text(valid_text(request_line(request, options))) + "</code></footer>\n<script>");
   file.write(kPageScript);
   file.write("</script>\n</body>\n</html>\n");
   file.commit();

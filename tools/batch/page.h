@@ -14,8 +14,6 @@ namespace morsel::tools::batch {
 void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                 const SummaryOptions& options, const OutFolder& out);
 
-/// Text for HTML, also within quotes.
-std::string html_text(const std::string& text);
 /// A relative path as a link: bytes that a URL does not hold as they are become %XX.
 std::string link_text(const std::string& path);
 

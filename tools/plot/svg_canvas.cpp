@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "morsel/tools/html/markup.h"
+
 namespace morsel::tools::plot {
 namespace {
 
@@ -29,21 +31,6 @@ std::string hex(Color color) {
   return text;
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string stroke(const Pen& pen) {
   std::string text =
       R"( fill="none" stroke=")" + hex(pen.color) + R"(" stroke-width=")" + number(pen.width) + "\"";
@@ -65,7 +52,7 @@ SvgCanvas::SvgCanvas(double width, double height, std::string_view title, drawin
       w + "pt\" height=\"" + h + "pt\" viewBox=\"0 0 " + w + " " + h +
       R"(" font-family="'DejaVu Sans', 'Bitstream Vera Sans', Verdana, sans-serif" stroke-linejoin="round">)"
       "\n";
-  if (!title.empty()) document_ += "<title>" + escaped(title) + "</title>\n";
+  if (!title.empty()) document_ += "<title>" + markup_text(title) + "</title>\n";
   document_ += "<rect width=\"" + w + "\" height=\"" + h + "\" fill=\"#ffffff\"/>\n";
 }
 
@@ -111,12 +98,12 @@ void SvgCanvas::text(Spot spot, std::string_view text, const Letters& letters) {
   if (letters.align != Align::left)
     document_ += letters.align == Align::center ? R"( text-anchor="middle")" : R"( text-anchor="end")";
   if (letters.upwards) document_ += " transform=\"rotate(-90 " + x + " " + y + ")\"";
-  document_ += ">" + escaped(text) + "</text>\n";
+  document_ += ">" + markup_text(text) + "</text>\n";
 }
 
 void SvgCanvas::open(std::string_view name) {
   document_ += "<g>\n";
-  if (!name.empty()) document_ += "<title>" + escaped(name) + "</title>\n";
+  if (!name.empty()) document_ += "<title>" + markup_text(name) + "</title>\n";
 }
 
 void SvgCanvas::close() { document_ += "</g>\n"; }

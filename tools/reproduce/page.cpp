@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "morsel/tools/html/command_line.h"
+#include "morsel/tools/html/markup.h"
 #include "morsel/tools/report/base64.h"
 #include "morsel/tools/report/text_table.h"
 #include "morsel/tools/report/version.h"
@@ -12,31 +13,9 @@
 namespace morsel::tools::reproduce {
 namespace {
 
-/// Text as it stands in markup and in quoted attributes.
-std::string html(std::string_view text) {
-  std::string safe;
-  for (const char c : text) switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  return safe;
-}
-
 /// Keys of a method, with a place to break the line after each.
 std::string breakable(std::string_view keys) {
-  std::string text = html(keys);
+  std::string text = markup_text(keys);
   for (std::size_t at = 0; (at = text.find(',', at)) != std::string::npos; at += 6)
     text.insert(at + 1, "<wbr>");
   return text;
@@ -77,9 +56,10 @@ std::string models_table(const Reproduction& reproduction) {
       "paper</th><th>Here</th><th>Vertices</th><th>From</th></tr></thead><tbody>\n";
   for (const auto& model : reproduction.models) {
     const bool sample = model->file().is_sample;
-    text += "<tr><th>" + html(model->recipe().name) + "</th><td>" + html(model->recipe().paper) +
-            "</td><td>" + html(model->file().path.filename().string()) +
-            (sample ? ": " + html(model->recipe().sample_is) : std::string()) + "</td><td>" +
+    text += "<tr><th>" + markup_text(model->recipe().name) + "</th><td>" +
+            markup_text(model->recipe().paper) + "</td><td>" +
+            markup_text(model->file().path.filename().string()) +
+            (sample ? ": " + markup_text(model->recipe().sample_is) : std::string()) + "</td><td>" +
             grouped(model->mesh().vertex_count()) + "</td><td>" +
             (sample ? "the sample meshes, in its place" : "the data folder") + "</td></tr>\n";
   }
@@ -97,7 +77,7 @@ std::string table_section(const Reproduction& reproduction) {
       "class=\"table\"><thead><tr>"
       "<th>Model</th><th>Vertices</th><th>Figure</th><th>Iterations</th><th>The paper</th>";
   for (const TableSetting& setting : table_settings())
-    text += "<th>" + breakable(setting.keys) + "<small>" + html(setting.note) + "</small></th>";
+    text += "<th>" + breakable(setting.keys) + "<small>" + markup_text(setting.note) + "</small></th>";
   text += "</tr></thead><tbody>\n";
   const Model* before = nullptr;
   for (const TableRowOutcome& row : reproduction.table) {
@@ -105,9 +85,9 @@ std::string table_section(const Reproduction& reproduction) {
     const bool first = row.model != before;
     text +=
         std::string("<tr") + (first ? " class=\"first\"" : "") + "><th>" +
-        (first ? html(row.model->recipe().name) : std::string()) + "</th><td>" +
+        (first ? markup_text(row.model->recipe().name) : std::string()) + "</th><td>" +
         (first ? grouped(row.model->mesh().vertex_count()) : std::string()) + "</td><td>" +
-        html(row.recipe->figure) + "</td><td>" +
+        markup_text(row.recipe->figure) + "</td><td>" +
         (conventional ? std::string("conventional") : std::to_string(row.recipe->iterations)) +
         "</td><td class=\"paper\">" +
         (row.recipe->paper_points ? grouped(static_cast<std::uint64_t>(*row.recipe->paper_points)) : "–") +
@@ -132,21 +112,21 @@ std::string table_section(const Reproduction& reproduction) {
 std::string panel_markup(const PanelOutcome& panel, std::size_t number) {
   const std::vector<std::string> lines = lines_of(panel.caption);
   const std::string name = std::string("(") + static_cast<char>('a' + number) + ") ";
-  std::string text = "<figure><img alt=\"" + html(name + lines[0] + ", " + lines.back()) +
+  std::string text = "<figure><img alt=\"" + markup_text(name + lines[0] + ", " + lines.back()) +
                      "\" src=\"data:image/png;base64," + base64(panel.png) + "\">\n<figcaption>" +
-                     html(name + lines[0]);
+                     markup_text(name + lines[0]);
   for (std::size_t i = 1; i < lines.size(); ++i)
-    text += std::string("<span") + (i == 1 ? " class=\"soft\">" : ">") + html(lines[i]) + "</span>";
+    text += std::string("<span") + (i == 1 ? " class=\"soft\">" : ">") + markup_text(lines[i]) + "</span>";
   return text + "</figcaption>\n<details><summary>Command</summary><pre class=\"copy\">" +
-         html(command_line(panel.command)) + "</pre></details></figure>\n";
+         markup_text(command_line(panel.command)) + "</pre></details></figure>\n";
 }
 
 std::string figure_section(const FigureOutcome& figure) {
   const std::string id = "figure" + std::to_string(figure.recipe->number);
   std::string text = "<section aria-labelledby=\"" + id + "\"><h2 id=\"" + id + "\">Figure " +
-                     std::to_string(figure.recipe->number) + ". " + html(figure.recipe->title) +
-                     "</h2>\n<p class=\"said\"><b>In the paper:</b> " + html(figure.recipe->paper) +
-                     "</p>\n<p class=\"said\"><b>Here:</b> " + html(figure.finding) +
+                     std::to_string(figure.recipe->number) + ". " + markup_text(figure.recipe->title) +
+                     "</h2>\n<p class=\"said\"><b>In the paper:</b> " + markup_text(figure.recipe->paper) +
+                     "</p>\n<p class=\"said\"><b>Here:</b> " + markup_text(figure.finding) +
                      "</p>\n<div class=\"panels\">\n";
   for (std::size_t i = 0; i < figure.panels.size(); ++i) text += panel_markup(figure.panels[i], i);
   return text + "</div></section>\n";
@@ -167,7 +147,7 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       std::string(kStyle) +
       "</style>\n</head>\n<body>\n<header><h1>Salient Critical Points for Meshes, made again</h1>\n"
       "<p class=\"hint\">The figures and the table of the paper, by morsel " +
-      html(kVersion) +
+      markup_text(kVersion) +
       ". Minima are blue, saddles green, maxima red; descending arcs are dark blue, ascending ones dark "
       "red.</p></header>\n"
       "<main>\n<section aria-labelledby=\"models\"><h2 id=\"models\">Models</h2>\n"
@@ -177,7 +157,7 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       models_table(reproduction) + "</section>\n" + table_section(reproduction);
   for (const FigureOutcome& figure : reproduction.figures) text += figure_section(figure);
   return text + "</main>\n<footer><p>All of this again:</p><pre class=\"copy\">" +
-         html(command_of(prepared.request)) + "</pre></footer>\n</body>\n</html>\n";
+         markup_text(command_of(prepared.request)) + "</pre></footer>\n</body>\n</html>\n";
 }
 
 }  // namespace morsel::tools::reproduce
