@@ -13,7 +13,7 @@
 namespace morsel::tools::html {
 namespace {
 
-constexpr std::size_t kBlock = 3 * 16384;  // whole groups of three bytes
+constexpr std::size_t kBlock = 3 * std::size_t{16384};  // whole groups of three bytes
 
 }  // namespace
 

@@ -12,6 +12,7 @@ using core::Point;
 
 std::vector<Point> positions_of(const core::TriangleMesh& mesh, const morse::CriticalPoints& points) {
   std::vector<Point> positions;
+  positions.reserve(points.points.size());
   for (const morse::CriticalPoint& point : points.points) positions.push_back(mesh.position(point.vertex));
   return positions;
 }
