@@ -42,7 +42,7 @@ struct MethodRows {
 };
 
 /// A report. Of each method's items and diagram `head` keeps empty arrays; `methods` has what is in them.
-struct ReportDocument {
+struct ReportDocument {  // NOLINT(bugprone-exception-escape): of the JSON library
   Json head;
   std::vector<MethodRows> methods;
 };
