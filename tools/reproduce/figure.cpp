@@ -29,11 +29,11 @@ std::string resolved(std::string_view method, const FigureRecipe& recipe, Model&
                      const core::Progress& progress) {
   std::string text(method);
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
-    const std::string placeholder = "{" + letter(i) + "}";
-    const std::size_t at = text.find(placeholder);
+    const std::string reference = "{" + letter(i) + "}";
+    const std::size_t at = text.find(reference);
     if (at == std::string::npos) continue;
     const std::string other = resolved(recipe.panels[i].method, recipe, model, progress);
-    text.replace(at, placeholder.size(), std::to_string(model.run(other, progress).total()));
+    text.replace(at, reference.size(), std::to_string(model.run(other, progress).total()));
   }
   return text;
 }
