@@ -85,6 +85,9 @@ class Method {
  public:
   virtual ~Method() = default;
   virtual MethodResult apply(const ScalarField& input, const MethodContext& context) const = 0;
+  /// Whether the field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this method with
+  /// `iterations=i` returns: then one run gives the results of all smaller numbers.
+  virtual bool tells_results() const { return false; }
 };
 
 }  // namespace morsel::core

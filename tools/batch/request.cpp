@@ -1,36 +1,19 @@
 #include "morsel/tools/batch/request.h"
 
-#include <map>
-
 #include "morsel/core/error.h"
-#include "morsel/core/specification.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools::batch {
-namespace {
-
-/// A value that is the name of a file is taken for one: at worst a report is made again without need.
-void add_files(std::string_view specification, std::map<std::string, std::string>& hashes) {
-  for (const core::Specification& step : core::parse_chain(specification, "--method"))
-    for (const auto& [key, raw] : step.given)
-      if (const std::string value = core::unescape(raw); std::filesystem::is_regular_file(value))
-        hashes[value] = sha256_of_file(value);
-}
-
-}  // namespace
-
 std::string valid_text(const std::string& text) {
   return Json::parse(json_text(Json(text))).get<std::string>();
 }
 
 Json common_key(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
-  std::map<std::string, std::string> hashes;
-  add_files(asked.field, hashes);
-  for (const std::string& method : asked.methods) add_files(method, hashes);
-  Json files = Json::array();
-  for (const auto& [path, hash] : hashes) files.push_back({{"path", path}, {"sha256", hash}});
+  std::vector<std::string> specifications = asked.methods;
+  specifications.push_back(asked.field);
   const Json key = {{"tool", tool_section()},
                     {"request",
                      {{"field", asked.field},
@@ -40,7 +23,7 @@ Json common_key(const BatchRequest& request) {
                       {"repair", request.repair},
                       {"items", request.items},
                       {"thumbnails", request.thumbnails}}},
-                    {"files", std::move(files)}};
+                    {"files", input_files(specifications)}};
   return Json::parse(json_text(key));  // as it is read back from a state
 }
 

@@ -67,6 +67,7 @@ void add_quads(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);
 void add_stability(CLI::App& app, Invocation& invocation);
+void add_sweep(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.
 std::string specification_help();
