@@ -151,16 +151,15 @@ class SweepRun {
     const MethodChain chain = make_method(to_string(specification(longest)));
     HeldWatch watch;
     std::map<int, double> seconds;
-    int told = -1;
     const auto read = [&](int iterations, const ScalarField& field) {
       seconds[iterations] = watch.seconds();
       watch.hold([&] { descend(field, by_iterations.at(iterations), step + 1); });
     };
     ++open_runs_;
     core::MethodContext context = method_context(loaded_, *function_, progress_);
+    context.tells_iteration = [&](int iteration) { return by_iterations.contains(iteration); };
     context.on_iteration = [&](int iteration, const ScalarField& field) {
-      told = iteration;
-      if (by_iterations.contains(iteration)) read(iteration, field);
+      read(iteration, field);
       return true;
     };
     core::MethodResult result =
@@ -169,8 +168,7 @@ class SweepRun {
     const int run = iterations_run(outcome).value_or(0);
     for (const auto& [iterations, group] : by_iterations) {
       // Of the input a method tells only if it is not the one it was given; and it may have ended by itself.
-      if (iterations > told || !seconds.contains(iterations))
-        read(iterations, iterations == 0 && run > 0 ? input : result.field);
+      if (!seconds.contains(iterations)) read(iterations, iterations == 0 && run > 0 ? input : result.field);
       set(outcome.parameters, "iterations", iterations);
       set(outcome.details, "iterations_run", std::min(iterations, run));
       for (const std::size_t i : group) finish_step(i, step, outcome, seconds.at(iterations));
