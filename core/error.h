@@ -49,7 +49,4 @@ class Cancelled : public Error {
   Cancelled() : Error(ErrorKind::cancelled, "cancelled") {}
 };
 
-/// Throws the error again, of the same kind, with where it came up before its sentence: "WHERE: …".
-[[noreturn]] void rethrow_at(const Error& error, const std::string& where);
-
 }  // namespace morsel::core

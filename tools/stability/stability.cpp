@@ -13,6 +13,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
+#include "morsel/core/rethrow.h"
 #include "morsel/tools/stability/point_matching.h"
 #include "morsel/tools/stability/random_stream.h"
 

@@ -8,6 +8,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parameters.h"
+#include "morsel/core/rethrow.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
 #include "morsel/tools/comparison/chain.h"

@@ -1,4 +1,4 @@
-#include "morsel/core/error.h"
+#include "morsel/core/rethrow.h"
 
 namespace morsel::core {
 
