@@ -137,7 +137,7 @@ class Interruptions(WorkflowTest):
 
     def test_a_run_that_is_ended_in_any_way_can_be_completed(self):
         self.plain(options=SLOW)
-        for how in (signal.SIGINT, signal.SIGKILL):
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             shutil.rmtree(self.out, ignore_errors=True)
             with subprocess.Popen(self.command(options=SLOW, snakemake=("--cores", "1")), cwd=self.folder, text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True) as process:
@@ -149,8 +149,9 @@ class Interruptions(WorkflowTest):
                 process.communicate(timeout=60)
             self.assertNotEqual(process.returncode, 0)
             self.until(lambda: not self.workers(), 10)
+            self.assertFalse((self.out / "summary.csv").exists())
             before = self.times()
-            self.assertNotIn("sphere.off.json", before)
+            self.assertEqual("sphere.off.json" in before, how == signal.SIGTERM)  # which lets jobs end
             said = self.workflow(options=SLOW)
             self.assertIn("3 meshes: 3 done, 0 failed", said)
             self.assertEqual({name: time for name, time in self.times().items() if name in before}, before)
@@ -172,6 +173,7 @@ class WrongInput(WorkflowTest):
         for wrong, said in (("collection=absent", "absent"),
                             ("collection=empty", "there is no mesh (.off, .obj, .ply, .stl) in the folder empty"),
                             ("morsel=/bin/false", "/bin/false ended with 1"),
+                            ("morsel=absent", 'there is no program "absent"'),
                             ("options=--method nonsense", "nonsense"),
                             ("colection=meshes", 'there is no setting "colection"')):
             with self.subTest(wrong=wrong):
@@ -185,7 +187,6 @@ class WrongInput(WorkflowTest):
         planning.Settings(right)
         for wrong, said in (({"colection": "x"}, 'there is no setting "colection"; there are collection, out, '),
                             ({"out": None}, 'the setting "out" is missing'),
-                            ({"morsel": "/absent/morsel"}, 'there is no program "/absent/morsel"'),
                             ({"options": "'"}, '"options" must be words'),
                             ({"options": {"a": "b"}}, '"options" must be words'),
                             ({"cpus": "some"}, '"cpus" must be a whole number'),

@@ -20,7 +20,7 @@ from snakemake.exceptions import WorkflowError
 
 DEFAULTS = pathlib.Path(__file__).with_name("config.yaml")
 NUMBERS = ("meshes_per_job", "cpus", "threads", "memory_limit", "time_limit", "job_minutes")
-OWN_MEMORY = 100  # MiB, of what runs the meshes of a job
+OWN_MEMORY = 250  # MiB, of what runs the meshes of a job
 
 
 def lines(data):
@@ -51,10 +51,7 @@ class Settings:
                                 f" {values['job_minutes']} min, or it would never be known to have failed")
         if values["cpus"] % values["threads"] != 0:
             raise WorkflowError(f"cpus ({values['cpus']}) must be a multiple of threads ({values['threads']})")
-        self.program = shutil.which(str(values["morsel"]))
-        if self.program is None:
-            raise WorkflowError(f"there is no program \"{values['morsel']}\"; name it with its path: --config morsel=PATH/morsel")
-        self.program = os.path.abspath(self.program)
+        self.program = str(values["morsel"])
         self.collection = str(values["collection"])
         self.out = str(values["out"])
         self.options = self.words(values["options"])
@@ -83,6 +80,13 @@ class Settings:
         return self.command(f"--threads={self.threads}", f"--jobs={self.cpus // self.threads}", "--no-summary", "--quiet",
                             *self.retry, *(f"--only={name}" for name in names))
 
+    def find_program(self):
+        """From here on its whole path; nodes are not asked for it again."""
+        found = shutil.which(self.program)
+        if found is None:
+            raise WorkflowError(f"there is no program \"{self.program}\"; name it with its path: --config morsel=PATH/morsel")
+        self.program = os.path.abspath(found)
+
     def open_meshes(self):
         """The names of the meshes that are to be done, with the sizes of their files."""
         told = subprocess.run(self.command("--plan", "--quiet", *self.retry), capture_output=True, check=False)
@@ -104,6 +108,7 @@ class Plan:
 
     def __init__(self, settings, slots):
         self.settings = settings
+        settings.find_program()
         place = hashlib.sha256(os.fsencode(os.path.abspath(settings.out))).hexdigest()[:12]
         self.work = pathlib.Path(".snakemake", f"morsel-{place}")
         self.work.mkdir(parents=True, exist_ok=True)
