@@ -190,6 +190,24 @@ class Again(BatchTest):
         self.assertIn("(3 by earlier runs)", self.batch(out="pieces").stdout)
         self.assertEqual(contents(self.folder / "pieces"), contents(self.out))
 
+    def test_a_plan_names_what_a_run_would_work_on(self):
+        self.file("meshes/bad.off", "OFF\n")
+        sizes = {name: (self.meshes / name).stat().st_size for name in ("bad.off", *self.names)}
+
+        def plan(*arguments):
+            lines = self.batch("--plan", *arguments).stdout.splitlines()
+            return {name: int(size) for size, name in (line.split("\t") for line in lines)}
+        self.assertEqual(plan(), sizes)
+        self.assertEqual(contents(self.out), {})
+        self.batch("--only", "sphere.off", "--only", "bad.off", "--no-summary", code=1)
+        before = contents(self.out)
+        rest = {name: sizes[name] for name in self.names if name != "sphere.off"}
+        self.assertEqual(plan(), rest)
+        self.assertEqual(plan("--retry"), {**rest, "bad.off": sizes["bad.off"]})
+        self.assertEqual(plan("--snap"), sizes)
+        self.assertEqual(plan("--only", "sphere.off"), {})
+        self.assertEqual(contents(self.out), before)
+
     def test_the_summary_tells_what_was_not_run(self):
         self.batch("--only", "sphere.off")
         self.assertEqual(self.statuses(), {**dict.fromkeys(self.names, "not-run"), "sphere.off": "done"})
@@ -337,6 +355,7 @@ class WrongInput(BatchTest):
                                   (("meshes", "--time-limit", "0"), 2, "time-limit"),
                                   (("meshes", "--jobs", "0"), 2, "jobs"),
                                   (("meshes", "--no-summary", "--summary-only"), 2, "summary"),
+                                  (("meshes", "--plan", "--summary-only"), 2, "plan"),
                                   (("meshes", "--nonsense"), 2, "nonsense")):
             with self.subTest(wrong=wrong):
                 self.assertIn(said, self.morsel("batch", *wrong, "--out", "out", code=code).stderr)

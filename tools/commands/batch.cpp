@@ -1,10 +1,12 @@
 // morsel batch: a comparison of every mesh of a collection.
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -29,6 +31,7 @@ struct Options {
   bool no_thumbnails = false;
   bool no_summary = false;
   bool summary_only = false;
+  bool plan = false;
   bool with_timings = false;
 };
 
@@ -51,6 +54,21 @@ std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::Collec
   for (const batch::CollectionMesh& mesh : all)
     whole.push_back(std::move(one != ran.end() && one->mesh == mesh ? *one++ : *other++));
   return whole;
+}
+
+/// A line for each of the meshes that a run would work on.
+void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options& options,
+                const batch::OutFolder& out, const core::Progress& progress) {
+  batch::RunOptions look = options.run;
+  look.run = false;
+  for (const batch::MeshOutcome& outcome : run_batch(meshes, options.request, look, out, progress)) {
+    if (outcome.status != batch::Status::not_run &&
+        !(outcome.status == batch::Status::failed && options.run.retry))
+      continue;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(outcome.mesh.path, error);
+    std::cout << (error ? 0 : size) << '\t' << outcome.mesh.name << '\n';
+  }
 }
 
 std::string last_line(const batch::Tally& sums, const Options& options) {
@@ -77,6 +95,10 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   const std::vector<batch::CollectionMesh> all = batch::read_collection(options.collection);
   const std::vector<batch::CollectionMesh> meshes = batch::chosen(all, options.only);
   const batch::OutFolder out(options.out);
+  if (options.plan) {
+    print_plan(meshes, options, out, console.progress());
+    return kDone;
+  }
   make_folder(out.root());
   static_cast<void>(
       core::FileWriter(out.root() / "summary.json"));  // what cannot be written is told before the work
@@ -135,8 +157,15 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   auto* without = command.add_flag("--no-summary", options.no_summary, "Leave the summary to a later call");
-  command.add_flag("--summary-only", options.summary_only, "Run nothing: write the summary of what is there")
-      ->excludes(without);
+  auto* only = command.add_flag("--summary-only", options.summary_only,
+                                "Run nothing: write the summary of what is there");
+  only->excludes(without);
+  command
+      .add_flag("--plan", options.plan,
+                "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
+                "in bytes, a tab, NAME")
+      ->excludes(without)
+      ->excludes(only);
   command.add_flag("--with-timings", options.with_timings,
                    "Give summary.csv a column of seconds, which differ from run to run");
 }
