@@ -10,7 +10,6 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/report/report_reader.h"
 
 namespace morsel::tools::batch {
@@ -85,14 +84,12 @@ void take_result(const fs::path& report, MeshState& state) {
   }
 }
 
-bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits, const OutFolder& out,
-                const std::string& name) {
+bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits,
+                const std::vector<Product>& products) {
   if (state.key != key) return false;
   if (state.error) return state.limits == limits && !state.error->may_pass();
-  if (!fs::is_regular_file(out.report(name))) return false;
-  return !key.at("request").at("thumbnails").get<bool>() ||
-         (fs::is_regular_file(out.thumbnail(name, "first")) &&
-          fs::is_regular_file(out.thumbnail(name, "last")));
+  return std::all_of(state.files.begin(), state.files.end(),
+                     [&](const std::string& file) { return fs::is_regular_file(place_of(file, products)); });
 }
 
 Json to_json(const MeshError& error) {
@@ -113,11 +110,11 @@ void write_state(const fs::path& path, const MeshState& state) {
     json["error"] = to_json(*state.error);
     json["limits"] = to_json(state.limits);
   } else {
+    json["files"] = state.files;
     json["result"] = state.result;
     json["timings"] = state.timings;
   }
   json["seconds"] = state.seconds;
-  make_folder(path.parent_path());
   core::write_file(path, json_text(json, 2) + "\n");
 }
 
@@ -134,6 +131,7 @@ std::optional<MeshState> read_state(const fs::path& path) {
       state.error = error_from(json.at("error"));
       state.limits = limits_from(json.at("limits"));
     } else {
+      state.files = json.at("files").get<std::vector<std::string>>();
       state.result = json.at("result");
       state.timings = json.at("timings");
     }

@@ -48,4 +48,9 @@ void CameraText::check() const {
   if (!inset.empty()) parse_inset(inset);
 }
 
+void FigureText::check() const {
+  parse_size(size);
+  camera.check();
+}
+
 }  // namespace morsel::tools::render

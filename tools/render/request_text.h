@@ -31,4 +31,13 @@ struct CameraText {
   void check() const;
 };
 
+/// How the pictures of a comparison are taken.
+struct FigureText {
+  std::string size = "1200x840";
+  CameraText camera;
+
+  /// Throws InvalidArgument, too, on a size that parse_size() refuses.
+  void check() const;
+};
+
 }  // namespace morsel::tools::render

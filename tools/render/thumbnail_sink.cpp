@@ -7,15 +7,20 @@
 
 namespace morsel::tools::render {
 
-ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, core::Progress progress)
-    : prefix_(std::move(prefix)), methods_(methods), progress_(std::move(progress)) {
+ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
+                             core::Progress progress)
+    : prefix_(std::move(prefix)),
+      methods_(methods),
+      camera_(std::move(camera)),
+      progress_(std::move(progress)) {
+  camera_.check();
   const core::FileWriter probe(path("first"));
 }
 
 void ThumbnailSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
   studio_.emplace(outcome.field.mesh());
-  view_ = studio_->view("best", UpAxis::y, progress_);
+  view_ = studio_->view(camera_.view, camera_.up, progress_);
 }
 
 void ThumbnailSink::method(const MethodOutcome& outcome) {

@@ -8,16 +8,18 @@
 
 #include "morsel/core/progress.h"
 #include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/render/picture.h"
+#include "morsel/tools/render/request_text.h"
 
 namespace morsel::tools::render {
 
-/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface from its best side, coloured by the method's field, with its
-/// critical points. Of a single method both are there, and equal.
+/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface coloured by the method's field, with its critical points. Of a
+/// single method both are there, and equal.
 class ThumbnailSink : public ComparisonSink {
  public:
-  /// `methods`: how many there will be. Throws WriteFailed if the files cannot be written.
-  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, core::Progress progress = {});
+  /// `methods`: how many there will be. Of `camera` the inset is left out. Throws WriteFailed if the files cannot be written, InvalidArgument on
+  /// a wrong view.
+  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
+                core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
 
@@ -27,6 +29,7 @@ class ThumbnailSink : public ComparisonSink {
   std::filesystem::path prefix_;
   std::size_t methods_;
   std::size_t seen_ = 0;
+  CameraText camera_;
   core::Progress progress_;
   std::optional<Studio> studio_;
   View view_;

@@ -7,7 +7,7 @@
 
 namespace morsel::tools {
 
-/// Writes the document while the levels are made.
+/// Writes the document while the levels are made. Without ReportInput::items it leaves out what grows with the mesh: cancellations, points, arcs, cells.
 class HierarchyWriter : public HierarchySink {
  public:
   /// Refers to all but `input`, which must outlive the writer. `request` with its defaults.
@@ -21,6 +21,7 @@ class HierarchyWriter : public HierarchySink {
  private:
   void write_cancellations(const mscomplex::PersistenceHierarchy& hierarchy);
   void write_name(const Level& level);
+  void write_items(const Level& level);
   void write_points(const Level& level);
   void write_arcs(const Level& level);
   void write_cells(const Level& level, CellKind kind);
@@ -29,6 +30,7 @@ class HierarchyWriter : public HierarchySink {
   JsonSink& json_;
   const core::LoadedMesh& loaded_;
   const PreparedHierarchy& prepared_;
+  bool items_;
   Json timings_;
   Stopwatch watch_;
 };

@@ -94,10 +94,6 @@ std::string name_of(Show show) {
   return "plain";
 }
 
-std::string name_of(render::UpAxis up) {
-  return up == render::UpAxis::x ? "x" : up == render::UpAxis::y ? "y" : "z";
-}
-
 /// What `morsel render` is to be told to make the panel.
 std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutcome& figure,
                                     const PictureOptions& options, const render::PictureRequest& request) {
@@ -121,7 +117,7 @@ std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutco
     add({"--view=" + options.camera.view});
   else
     add({"--view", options.camera.view});
-  if (options.camera.up != render::UpAxis::y) add({"--up", name_of(options.camera.up)});
+  if (options.camera.up != render::UpAxis::y) add({"--up", to_string(options.camera.up)});
   add({"--size", std::to_string(request.size.width) + "x" + std::to_string(request.size.height), "--samples",
        std::to_string(request.samples), "-o", panel.file});
   return words;
