@@ -43,6 +43,11 @@ DAMAGED = """OFF
 """
 
 
+def data_lines(path):
+    """The lines of a text file without its comments."""
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
 class ProgramTest(unittest.TestCase):
     """A test in a folder of its own."""
 

@@ -55,7 +55,9 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   }
   std::optional<HierarchyExport> exports;
   if (!options.export_folder.empty()) {
-    exports.emplace(options.export_folder, loaded);
+    exports.emplace(
+        options.export_folder, loaded,
+        Provenance(common.command, request_section(request, common.repair), {{options.mesh, input.sha256}}));
     sinks.push_back(&*exports);
   }
   run_hierarchy(loaded, prepared, sinks, console.progress());

@@ -12,7 +12,8 @@ namespace {
 
 using NamedPlot = std::pair<std::filesystem::path, plot::Plot>;  // the path without its ending
 
-void write(const std::vector<NamedPlot>& plots) {
+void write(std::vector<NamedPlot> plots, const Provenance& provenance) {
+  for (NamedPlot& plot : plots) plot.second.metadata = provenance.json();
   core::parallel_for(0, 2 * plots.size(), 1, [&](std::size_t i, std::size_t) {
     const auto& [base, plot] = plots[i / 2];
     constexpr double kPixelsAPoint = 300. / 72;
@@ -26,20 +27,23 @@ void write(const std::vector<NamedPlot>& plots) {
 
 }  // namespace
 
-PlotSink::PlotSink(std::filesystem::path folder) : folder_(std::move(folder)) {
+PlotSink::PlotSink(std::filesystem::path folder, Provenance provenance)
+    : folder_(std::move(folder)), provenance_(std::move(provenance)) {
   make_folder(folder_);
-  const core::FileWriter probe(folder_ / "diagrams.svg");
 }
 
 void PlotSink::field(const FieldOutcome& outcome) {
   field_ = outcome.name;
   std::replace(field_.begin(), field_.end(), '-', ' ');
+  provenance_.set_field(outcome);
 }
 
 void PlotSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
   methods_.push_back(plot::curves_of(outcome));
-  write({{folder_ / (name + ".diagram"), plot::diagram_plot(methods_.back(), field_)}});
+  write({{folder_ / (name + ".diagram"), plot::diagram_plot(methods_.back(), field_)}},
+        provenance_.with_method(outcome.steps));
+  provenance_.add_method(outcome.steps);
 }
 
 void PlotSink::finish() {
@@ -48,7 +52,7 @@ void PlotSink::finish() {
   plots.emplace_back(folder_ / "persistence", plot::persistence_plot(methods_, field_));
   plots.emplace_back(folder_ / "iterations", plot::iteration_plot(methods_));
   std::erase_if(plots, [](const NamedPlot& plot) { return plot.second.panels.empty(); });
-  write(plots);
+  write(std::move(plots), provenance_);
 }
 
 }  // namespace morsel::tools

@@ -6,6 +6,7 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/render/picture.h"
+#include "morsel/tools/report/json_stream.h"
 
 namespace morsel::tools::render {
 
@@ -30,5 +31,14 @@ struct CameraText {
   /// Throws InvalidArgument on an unknown view and a malformed inset.
   void check() const;
 };
+
+/// "field", "descending", "ascending", "morse-smale", "plain"
+std::string to_string(Show show);
+/// "x", "y", "z"
+std::string to_string(UpAxis up);
+
+/// All that a picture's looks follow from besides the subject, vertices by their numbers in the input file. `caption`: as it is drawn.
+Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
+                     const core::VertexNumbering& numbering);
 
 }  // namespace morsel::tools::render

@@ -3,31 +3,42 @@
 #include <utility>
 
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/render/caption.h"
+#include "morsel/tools/drawing/png_comment.h"
 
 namespace morsel::tools::render {
+namespace {
 
-ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, core::Progress progress)
-    : prefix_(std::move(prefix)), methods_(methods), progress_(std::move(progress)) {
+const CameraText kCamera;  // the best view
+
+}  // namespace
+
+ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods,
+                             const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress)
+    : prefix_(std::move(prefix)),
+      methods_(methods),
+      loaded_(loaded),
+      provenance_(std::move(provenance)),
+      progress_(std::move(progress)) {
   const core::FileWriter probe(path("first"));
 }
 
 void ThumbnailSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
+  provenance_.set_field(outcome);
   studio_.emplace(outcome.field.mesh());
-  view_ = studio_->view("best", UpAxis::y, progress_);
+  view_ = studio_->view(kCamera.view, kCamera.up, progress_);
 }
 
 void ThumbnailSink::method(const MethodOutcome& outcome) {
   ++seen_;
   if (seen_ != 1 && seen_ != methods_) return;
-  const Subject subject{outcome.field, &outcome.measurement,
-                        quantity_of(field_name_, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
-                        outcome.places};
   PictureRequest request;
   request.size = {240, 180};
   request.legend = false;
-  const std::string bytes = encode_png(studio_->take(view_, subject, request, progress_));
+  Provenance provenance = provenance_.with_method(outcome.steps);
+  provenance.set("picture", picture_section(request, kCamera, "", loaded_.source.numbering));
+  const Image image = studio_->take(view_, subject_of(outcome, field_name_), request, progress_);
+  const std::string bytes = drawing::with_png_comment(encode_png(image), provenance.json());
   if (seen_ == 1) core::write_file(path("first"), bytes);
   if (seen_ == methods_) core::write_file(path("last"), bytes);
 }

@@ -8,7 +8,8 @@
 
 #include "morsel/core/progress.h"
 #include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/render/picture.h"
+#include "morsel/tools/render/request_text.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools::render {
 
@@ -16,8 +17,9 @@ namespace morsel::tools::render {
 /// critical points. Of a single method both are there, and equal.
 class ThumbnailSink : public ComparisonSink {
  public:
-  /// `methods`: how many there will be. Throws WriteFailed if the files cannot be written.
-  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, core::Progress progress = {});
+  /// `methods`: how many there will be. Throws WriteFailed if the files cannot be written. Refers to `loaded`.
+  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, const core::LoadedMesh& loaded,
+                Provenance provenance, core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
 
@@ -27,6 +29,8 @@ class ThumbnailSink : public ComparisonSink {
   std::filesystem::path prefix_;
   std::size_t methods_;
   std::size_t seen_ = 0;
+  const core::LoadedMesh& loaded_;
+  Provenance provenance_;
   core::Progress progress_;
   std::optional<Studio> studio_;
   View view_;

@@ -7,6 +7,9 @@
 
 namespace morsel::tools {
 
+/// What was asked for, `request` with its defaults.
+Json request_section(const HierarchyRequest& request, bool repair);
+
 /// Writes the document while the levels are made.
 class HierarchyWriter : public HierarchySink {
  public:

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "morsel/core/parameters.h"
+#include "morsel/tools/report/csv.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/version.h"
@@ -115,13 +116,7 @@ class CsvLine {
  public:
   void add(std::string_view text) {
     next();
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-      line_ += text;
-      return;
-    }
-    line_ += '"';
-    for (const char c : text) line_ += c == '"' ? std::string("\"\"") : std::string(1, c);
-    line_ += '"';
+    line_ += csv_field(text);
   }
   void add(double value) { add(core::shortest(value)); }
   void add(const std::optional<double>& value) { value ? add(*value) : next(); }
@@ -198,7 +193,7 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(report.prepared.functions[outcome.field].specification);
       line.add(json_text(to_json(result.fields[outcome.field].parameters)));
       line.add(report.prepared.chains[outcome.method].specification);
-      line.add(json_text(steps_section(outcome.clean.steps)["parameters"]));
+      line.add(json_text(parameters_section(outcome.clean.steps)));
       line.add(outcome.target ? std::to_string(*outcome.target) : "");
       line.add(std::uint64_t{outcome.with_reference.found});
       line.add(outcome.agreement());
