@@ -184,8 +184,8 @@ std::ostream& FileWriter::stream() { return output_->stream; }
 
 void FileWriter::commit() { output_->commit(); }
 
-void write_file(const fs::path& path, std::string_view contents) {
-  FileWriter writer(path);
+void write_file(const fs::path& path, std::string_view contents, Sync sync) {
+  FileWriter writer(path, sync);
   writer.write(contents);
   writer.commit();
 }

@@ -48,6 +48,7 @@ class FileWriter {
 };
 
 /// A whole file at once.
-void write_file(const std::filesystem::path& path, std::string_view contents);
+void write_file(const std::filesystem::path& path, std::string_view contents,
+                Sync sync = Sync::when_replacing);
 
 }  // namespace morsel::core

@@ -31,6 +31,19 @@ class LittleEndian {
   FileWriter& writer_;
 };
 
+void write_comments(FileWriter& writer, std::string_view mark, Comments comments) {
+  for (const std::string& line : comments) {
+    if (line.ends_with('\\') || std::any_of(line.begin(), line.end(), [](char c) {
+          return static_cast<unsigned char>(c) < ' ' || c == '\x7F';
+        }))
+      throw InvalidArgument(
+          "a comment of a mesh file is one line, without control characters and a backslash at its end");
+    writer.write(mark);
+    writer.write(line);
+    writer.write("\n");
+  }
+}
+
 std::size_t size_of(const PropertyView& property) {
   return std::visit([](const auto& values) { return values.size(); }, property.values);
 }
@@ -62,9 +75,11 @@ void declare(FileWriter& writer, std::span<const PropertyView> properties) {
 
 }  // namespace
 
-void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, const Progress& progress) {
+void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, Comments comments,
+               const Progress& progress) {
   FileWriter writer(path);
   writer.write("OFF\n");
+  write_comments(writer, "# ", comments);
   writer.write_number(std::uint64_t{mesh.vertex_count()});
   writer.write(" ");
   writer.write_number(std::uint64_t{mesh.triangle_count()});
@@ -91,19 +106,21 @@ void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, cons
 }
 
 void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh,
-               std::span<const VertexProperty> properties, const Progress& progress) {
+               std::span<const VertexProperty> properties, Comments comments, const Progress& progress) {
   std::vector<PropertyView> views;
   for (const VertexProperty& property : properties) views.emplace_back(property.name, property.values);
-  write_ply(path, mesh.positions(), mesh.triangles(), views, {}, progress);
+  write_ply(path, mesh.positions(), mesh.triangles(), views, {}, comments, progress);
 }
 
 void write_ply(const std::filesystem::path& path, std::span<const Point> positions,
                std::span<const Triangle> triangles, std::span<const PropertyView> vertex_properties,
-               std::span<const PropertyView> face_properties, const Progress& progress) {
+               std::span<const PropertyView> face_properties, Comments comments, const Progress& progress) {
   check_properties(vertex_properties, positions.size(), {"x", "y", "z"});
   check_properties(face_properties, triangles.size(), {"vertex_indices", "vertex_index"});
   FileWriter writer(path);
-  writer.write("ply\nformat binary_little_endian 1.0\nelement vertex ");
+  writer.write("ply\nformat binary_little_endian 1.0\n");
+  write_comments(writer, "comment ", comments);
+  writer.write("element vertex ");
   writer.write_number(std::uint64_t{positions.size()});
   writer.write("\nproperty double x\nproperty double y\nproperty double z\n");
   declare(writer, vertex_properties);
@@ -136,8 +153,9 @@ void write_ply(const std::filesystem::path& path, std::span<const Point> positio
 }
 
 void write_obj(const std::filesystem::path& path, std::span<const Point> positions,
-               std::span<const std::array<Index, 4>> quads, const Progress& progress) {
+               std::span<const std::array<Index, 4>> quads, Comments comments, const Progress& progress) {
   FileWriter writer(path);
+  write_comments(writer, "# ", comments);
   const double all = static_cast<double>(positions.size() + quads.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
     if ((v & kProgressStep) == kProgressStep)

@@ -4,10 +4,13 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/signals.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/version.h"
 
 namespace {
@@ -45,6 +48,9 @@ int run(int argc, char** argv, std::stop_token stop) {
       "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and "
       "143 interrupted.");
   Invocation invocation;
+  std::vector<std::string> words(argv, argv + argc);
+  if (!words.empty()) words.front() = "morsel";
+  invocation.common.command = shaping_command(words);
   add_compare(app, invocation);
   add_batch(app, invocation);
   add_field(app, invocation);

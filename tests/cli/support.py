@@ -59,6 +59,11 @@ def interrupted(folder, arguments, how, code, ready):
     return sum(path.read_bytes().count(b"\n") - 1 for path in folder.glob("*.journal"))
 
 
+def data_lines(path):
+    """The lines of a text file without its comments."""
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
 class ProgramTest(unittest.TestCase):
     """A test in a folder of its own."""
 

@@ -6,14 +6,14 @@ import struct
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines
 
 ELEPHANT = SAMPLES / "refined_elephant.off"
 
 
 def read_off(path):
     """Positions as texts, and faces."""
-    words = path.read_text().split()
+    words = " ".join(data_lines(path)).split()
     assert words[0] == "OFF"
     vertices, faces = int(words[1]), int(words[2])
     at = 4 + 3 * vertices

@@ -3,12 +3,12 @@
 import math
 import unittest
 
-from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest, data_lines
 
 
 class Field(ProgramTest):
     def values(self, name):
-        return [float(line) for line in (self.folder / name).read_text().split()]
+        return [float(line) for line in data_lines(self.folder / name)]
 
     def test_text_has_a_value_a_line(self):
         self.morsel("field", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "-o", "z.txt")
@@ -29,9 +29,9 @@ class Field(ProgramTest):
         self.morsel("field", lion, "-o", "h.txt")
         self.morsel("field", lion, "-o", "h.ply")
         self.morsel("field", lion, "--field", "vertex-scalar:file=h.txt", "-o", "again.txt")
-        self.assertEqual((self.folder / "h.txt").read_text(), (self.folder / "again.txt").read_text())
+        self.assertEqual(data_lines(self.folder / "h.txt"), data_lines(self.folder / "again.txt"))
         self.morsel("field", "h.ply", "--field", "vertex-scalar:property=mean-curvature", "-o", "from_ply.txt")
-        self.assertEqual((self.folder / "h.txt").read_text(), (self.folder / "from_ply.txt").read_text())
+        self.assertEqual(data_lines(self.folder / "h.txt"), data_lines(self.folder / "from_ply.txt"))
 
     def test_a_method_can_be_applied(self):
         self.morsel("field", SAMPLES / "lion-head.off", "--method", "salient:iterations=1", "-o", "s.txt")

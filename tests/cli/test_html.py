@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from page_data import PageData
-from support import DAMAGED, OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest
+from support import DAMAGED, OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest, data_lines
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 LION = SAMPLES / "lion-head.off"
@@ -80,7 +80,7 @@ class Html(ProgramTest):
         faces = [int(x) for x in numbers[4 + 3 * vertices:4 + 3 * vertices + 4 * triangles]]
         self.assertEqual(page.mesh["corners"], [x for i, x in enumerate(faces) if i % 4 != 0])
         self.morsel("field", LION, "-o", "f.txt")
-        field = [float(line) for line in (self.folder / "f.txt").read_text().split()]
+        field = [float(line) for line in data_lines(self.folder / "f.txt")]
         values = page.methods[0]["values"]
         low, high = values["low"], values["high"]
         self.assertEqual(sum(f < low for f in field), round(0.005 * (vertices - 1)))

@@ -3,7 +3,7 @@
 import math
 import unittest
 
-from support import OCTAHEDRON, ProgramTest
+from support import OCTAHEDRON, ProgramTest, data_lines
 
 
 def atom(serial, position, *, name="C", residue="GLY", chain="A", number=1, element="C", record="ATOM", alternate=" ",
@@ -33,7 +33,7 @@ class Molecule(ProgramTest):
     def surface(self, molecule, *options, name="surface.off"):
         """The surface's positions and triangles, and what was said."""
         result = self.morsel("molecule", molecule, "-o", name, *options)
-        lines = (self.folder / name).read_text().splitlines()
+        lines = data_lines(self.folder / name)
         self.assertEqual(lines[0], "OFF")
         vertices, triangles, _ = map(int, lines[1].split())
         numbers = [line.split() for line in lines[2:] if line]
@@ -70,7 +70,7 @@ class Molecule(ProgramTest):
         self.surface(self.file("two.cif", CIF))
         self.assertEqual(self.components(), 2)
         self.surface(self.file("two.pdb", atom(1, (0, 0, 0)) + atom(2, (20, 0, 0))), name="pdb.off")
-        self.assertEqual((self.folder / "surface.off").read_text(), (self.folder / "pdb.off").read_text())
+        self.assertEqual(data_lines(self.folder / "surface.off"), data_lines(self.folder / "pdb.off"))
         self.morsel("molecule", "two.cif", "-o", "surface.ply")
         self.assertEqual(self.components("surface.ply"), 2)
 
@@ -165,7 +165,7 @@ class Molecule(ProgramTest):
         mesh = self.file("o.off", OCTAHEDRON)
         self.file("two.pdb", atom(1, (0, 0, 2)) + atom(2, (0, 0, -3), element="N", name="N"))
         self.morsel("field", mesh, "--field", "atomic-density:structure=two.pdb,decay=1", "-o", "d.txt")
-        values = [float(line) for line in (self.folder / "d.txt").read_text().split()]
+        values = [float(line) for line in data_lines(self.folder / "d.txt")]
         squares = [(1, 16), (9, 4)] + [(5, 10)] * 4
         for value, (carbon, nitrogen) in zip(values, squares):
             self.assertAlmostEqual(value, math.exp(-carbon / 1.7**2) + math.exp(-nitrogen / 1.55**2), places=14)

@@ -6,7 +6,7 @@ import math
 import unittest
 
 import jsonschema
-from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines
 
 QUADS_SCHEMA = SCHEMA.parent / "quads.schema.json"
 SADDLES = "9\n8\n-2\n0\n-1\n1\n"  # on the octahedron: two minima, two saddles, two maxima
@@ -14,7 +14,7 @@ SADDLES = "9\n8\n-2\n0\n-1\n1\n"  # on the octahedron: two minima, two saddles, 
 
 def read_obj(path):
     vertices, quads = [], []
-    for line in path.read_text().splitlines():
+    for line in data_lines(path):
         kind, *values = line.split()
         if kind == "v":
             vertices.append([float(x) for x in values])

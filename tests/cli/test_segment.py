@@ -8,7 +8,7 @@ import unittest
 
 import jsonschema
 import vtk
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines
 from vtk.util.numpy_support import vtk_to_numpy
 
 SEGMENTS_SCHEMA = SCHEMA.parent / "segments.schema.json"
@@ -140,7 +140,7 @@ class Segment(ProgramTest):
                     self.assertEqual((n["length"], n["edges"]), (lengths[b, a]["length"], lengths[b, a]["edges"]))
 
                 self.morsel("segment", lion, "--by", kind, *more, "-o", "out.txt")
-                lines = {name: list(map(int, (self.folder / f"out.{name}.txt").read_text().split()))
+                lines = {name: list(map(int, data_lines(self.folder / f"out.{name}.txt")))
                          for name in ("vertices", "faces")}
                 self.assertEqual(lines, {"vertices": of_vertex, "faces": of_face})
                 self.morsel("segment", lion, "--by", kind, *more, "-o", "out.vtp")
@@ -157,7 +157,7 @@ class Segment(ProgramTest):
         self.morsel("segment", lion, "--segments", 25, "-o", "out.ply")
         self.morsel("segment", lion, "--segments", 25, "-o", "out.txt")
         self.morsel("field", "out.ply", "--field", "vertex-scalar:property=segment", "-o", "again.txt")
-        self.assertEqual((self.folder / "again.txt").read_text(), (self.folder / "out.vertices.txt").read_text())
+        self.assertEqual(data_lines(self.folder / "again.txt"), data_lines(self.folder / "out.vertices.txt"))
 
     def test_dropped_vertices_have_no_segment(self):
         mesh = self.file("damaged.off", DAMAGED)

@@ -307,3 +307,28 @@ TEST_CASE("quads written as OBJ read back to the same bits") {
   CHECK(loaded.soup.corners == std::vector<Index>{0, 1, 2, 3, 1, 4, 5, 2});
   CHECK_THROWS_AS(core::write_obj(scratch / "no" / "a.obj", positions, quads), core::WriteFailed);
 }
+
+TEST_CASE("comments stand at a file's head and are passed over") {
+  const Scratch scratch;
+  const core::TriangleMesh mesh = single_triangle().mesh();
+  const std::vector<std::string> comments = {"{\"a\": 1,", "end_header of \xc3\xa9l\xc3\xa9ments # 3 0 1 2"};
+  core::write_off(scratch / "a.off", mesh, comments);
+  core::write_ply(scratch / "a.ply", mesh, {}, comments);
+  core::write_obj(scratch / "a.obj", mesh.positions(), std::vector<std::array<Index, 4>>{}, comments);
+  CHECK(
+      contents(scratch / "a.off").starts_with("OFF\n# " + comments[0] + "\n# " + comments[1] + "\n3 1 0\n"));
+  CHECK(contents(scratch / "a.ply")
+            .starts_with("ply\nformat binary_little_endian 1.0\ncomment " + comments[0] + "\ncomment " +
+                         comments[1] + "\nelement vertex 3\n"));
+  CHECK(contents(scratch / "a.obj").starts_with("# " + comments[0] + "\n# " + comments[1] + "\nv "));
+  check_same(core::read_mesh(scratch / "a.off").mesh, mesh);
+  check_same(core::read_mesh(scratch / "a.ply").mesh, mesh);
+  CHECK(core::read_polygon_soup(scratch / "a.obj").soup.positions.size() == 3);
+  for (const std::string wrong : {"two\nlines", "two\rlines", "a\tb", "it goes on \\", "\x7f"}) {
+    CHECK_THROWS_AS(core::write_off(scratch / "b.off", mesh, {&wrong, 1}), core::InvalidArgument);
+    CHECK_THROWS_AS(core::write_ply(scratch / "b.ply", mesh, {}, {&wrong, 1}), core::InvalidArgument);
+    CHECK_THROWS_AS(core::write_obj(scratch / "b.obj", mesh.positions(), {}, {&wrong, 1}),
+                    core::InvalidArgument);
+  }
+  for (const char* name : {"b.off", "b.ply", "b.obj"}) CHECK_FALSE(std::filesystem::exists(scratch / name));
+}

@@ -17,6 +17,7 @@
 #include "morsel/tools/batch/state.h"
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/html/markup.h"
+#include "morsel/tools/report/csv.h"
 #include "support/scratch.h"
 
 using namespace morsel;
@@ -338,8 +339,8 @@ TEST_CASE("work folders are their makers' own and go with them", "[batch]") {
 }
 
 TEST_CASE("texts are written as tables and pages need them", "[batch]") {
-  CHECK(batch::csv_field("plain text") == "plain text");
-  CHECK(batch::csv_field("a,\"b\"") == "\"a,\"\"b\"\"\"");
+  CHECK(tools::csv_field("plain text") == "plain text");
+  CHECK(tools::csv_field("a,\"b\"") == "\"a,\"\"b\"\"\"");
   CHECK(markup_text("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
   CHECK(batch::link_text("a b/\xc3\xa9#?%.off") == "a%20b/%C3%A9%23%3F%25.off");
 }

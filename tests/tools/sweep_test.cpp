@@ -46,7 +46,7 @@ Json by_itself(const core::LoadedMesh& mesh, const tools::Combination& combinati
   tools::Timings timings;
   const tools::Measurement measured = tools::measure(made.field, timings);
   return {{"field", field_section(field)},
-          {"parameters", steps_section(made.steps)["parameters"]},
+          {"parameters", parameters_section(made.steps)},
           {"min", made.field.min()},
           {"max", made.field.max()},
           {"critical_points", counts_section(measured.critical_points)},

@@ -9,6 +9,7 @@
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/html/command_line.h"
 #include "morsel/tools/html/markup.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/text_table.h"
 #include "morsel/tools/report/version.h"
 
@@ -34,13 +35,15 @@ std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
 }
 
 /// Writes the plots; the section of the page that shows them.
-std::string write_plots(const std::vector<MethodTotals>& methods, const fs::path& folder) {
+std::string write_plots(const std::vector<MethodTotals>& methods, const fs::path& folder,
+                        const Provenance& provenance) {
   make_folder(folder);
-  const std::vector<std::pair<std::string, plot::Plot>> plots = {{"histogram.svg", histogram(methods)},
-                                                                 {"cumulative.svg", cumulative(methods)},
-                                                                 {"against-size.svg", against_size(methods)}};
+  std::vector<std::pair<std::string, plot::Plot>> plots = {{"histogram.svg", histogram(methods)},
+                                                           {"cumulative.svg", cumulative(methods)},
+                                                           {"against-size.svg", against_size(methods)}};
   std::string figures;
-  for (const auto& [name, plot] : plots) {
+  for (auto& [name, plot] : plots) {
+    plot.metadata = provenance.json();
     plot::write_svg(folder / name, plot);
     figures += "<figure><img alt=\"" + markup_text(plot.title) + "\" src=\"plots/" + name + "\"></figure>\n";
   }
@@ -141,6 +144,20 @@ std::string request_line(const BatchRequest& request, const SummaryOptions& opti
   return command_line(words);
 }
 
+/// Of what shows the whole collection: its hash is that of the lines that sha256sum prints for its meshes. Parameters are
+/// resolved mesh by mesh, in the summary's table and document.
+Provenance provenance_of(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
+                         const SummaryOptions& options) {
+  std::string sums;
+  for (const MeshOutcome& outcome : outcomes)
+    if (outcome.sha256.is_string())
+      sums += outcome.sha256.get<std::string>() + "  " + outcome.mesh.name + "\n";
+  std::vector<HashedFile> inputs = {{options.collection, sha256_of(sums)}};
+  const Json key = common_key(request);
+  for (const Json& file : key.at("files")) inputs.push_back({file.at("path"), file.at("sha256")});
+  return {request_line(request, options), key.at("request"), inputs};
+}
+
 std::string counts_line(const Tally& sums) {
   const std::size_t all = sums.done + sums.failed + sums.not_run;
   return grouped(all) + (all == 1 ? " mesh: " : " meshes: ") + grouped(sums.done) + " done, " +
@@ -167,9 +184,10 @@ std::string link_text(const std::string& path) {
 void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                 const SummaryOptions& options, const OutFolder& out) {
   const Tally sums = tally(outcomes);
+  const Provenance provenance = provenance_of(outcomes, request, options);
   std::string plots;
   if (sums.done > 0)
-    plots = write_plots(totals_of(outcomes, request.comparison.methods), out.root() / "plots");
+    plots = write_plots(totals_of(outcomes, request.comparison.methods), out.root() / "plots", provenance);
   const std::string title = markup_text(valid_text("morsel batch: " + options.collection));
   core::FileWriter file(out.root() / "index.html");
   file.write(
@@ -194,6 +212,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
              "</pre></footer>\n<script>\n");
   file.write(kPageScript);
   file.write("</script>\n</body>\n</html>\n");
+  file.write(provenance.html_comment());
   file.commit();
 }
 

@@ -76,7 +76,7 @@ Json common_key(const BatchRequest& request) {
         {"up", if_any(has_pictures(request), to_string(figure.camera.up))},
         {"size", if_any(request.figures, figure.size)},
         {"inset", if_any(request.figures && !figure.camera.inset.empty(), figure.camera.inset)}}},
-      {"files", input_files(specifications)}};
+      {"files", files_section(input_files(specifications))}};
   return Json::parse(json_text(key));  // as it is read back from a state
 }
 

@@ -6,6 +6,8 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/page.h"
 #include "morsel/tools/export/folder.h"
+#include "morsel/tools/report/csv.h"
+#include "morsel/tools/report/version.h"
 
 namespace morsel::tools::batch {
 namespace {
@@ -24,8 +26,9 @@ double method_seconds(const Json& timings, std::size_t i) {
   return sum;
 }
 
-/// The rows of a mesh, one a method: counts are empty where there are none.
-std::string csv_rows(const MeshOutcome& outcome, const std::vector<std::string>& methods, bool with_timings) {
+/// The rows of a mesh, one a method: counts and parameters are empty where there are none.
+std::string csv_rows(const MeshOutcome& outcome, const ComparisonRequest& request, bool with_timings) {
+  const std::vector<std::string>& methods = request.methods;
   const bool done = outcome.status == Status::done;
   std::string rows;
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -43,6 +46,9 @@ std::string csv_rows(const MeshOutcome& outcome, const std::vector<std::string>&
     fields.push_back(done ? std::to_string(pairs_over_one_percent(method)) : "");
     if (with_timings) fields.push_back(done ? Json(method_seconds(outcome.state.timings, i)).dump() : "");
     fields.push_back(outcome.status == Status::failed ? csv_field(outcome.state.error->message) : "");
+    fields.insert(fields.end(), {kVersion, csv_field(request.field)});
+    fields.push_back(done ? csv_field(json_text(result["field"].at("parameters"))) : "");
+    fields.push_back(done ? csv_field(json_text(method.at("parameters"))) : "");
     for (std::size_t k = 0; k < fields.size(); ++k) rows += (k == 0 ? "" : ",") + fields[k];
     rows += '\n';
   }
@@ -50,13 +56,14 @@ std::string csv_rows(const MeshOutcome& outcome, const std::vector<std::string>&
 }
 
 void write_table(const std::filesystem::path& path, const std::vector<MeshOutcome>& outcomes,
-                 const std::vector<std::string>& methods, bool with_timings) {
+                 const ComparisonRequest& request, bool with_timings) {
   core::FileWriter file(path);
   file.write(
       "mesh,sha256,status,vertices,edges,faces,components,boundary_loops,euler_characteristic,genus,method,"
       "minima,saddles,saddle_multiplicity,maxima,total,pairs,pairs_over_1_percent,");
-  file.write(with_timings ? "seconds,error\n" : "error\n");
-  for (const MeshOutcome& outcome : outcomes) file.write(csv_rows(outcome, methods, with_timings));
+  file.write(with_timings ? "seconds," : "");
+  file.write("error,version,field,field_parameters,method_parameters\n");
+  for (const MeshOutcome& outcome : outcomes) file.write(csv_rows(outcome, request, with_timings));
   file.commit();
 }
 
@@ -143,16 +150,6 @@ std::string to_string(Status status) {
   return "not-run";
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 std::size_t pairs_over_one_percent(const Json& method) {
   for (const Json& share : method.at("persistence").at("above"))
     if (share.at("percent") == 1.0) return share.at("pairs").get<std::size_t>();
@@ -162,7 +159,7 @@ std::size_t pairs_over_one_percent(const Json& method) {
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                    const SummaryOptions& options, const OutFolder& out) {
   make_folder(out.root());
-  write_table(out.root() / "summary.csv", outcomes, request.comparison.methods, options.with_timings);
+  write_table(out.root() / "summary.csv", outcomes, request.comparison, options.with_timings);
   write_document(out.root() / "summary.json", outcomes, request, options);
   write_page(outcomes, request, options, out);
 }

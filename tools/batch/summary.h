@@ -25,14 +25,11 @@ Tally tally(const std::vector<MeshOutcome>& outcomes);
 
 std::string to_string(Status status);
 
-/// Writes into the folder: summary.csv, a row for each mesh and method; summary.json ("morsel.batch/1", see batch.schema.json), whose
+/// Writes into the folder: summary.csv, a row for each mesh and method with all resolved parameters; summary.json ("morsel.batch/1", see batch.schema.json), whose
 /// "timings" is all that differs between two runs; plots/*.svg, distributions over the collection; and index.html, which shows it all. Throws
 /// WriteFailed.
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                    const SummaryOptions& options, const OutFolder& out);
-
-/// A field of a CSV file: in quotes where it has a comma, a quote or a line's end (RFC 4180).
-std::string csv_field(const std::string& text);
 
 /// A method's number of pairs with a persistence over 1 % of its field's extent, infinite ones included.
 std::size_t pairs_over_one_percent(const Json& method);

@@ -32,6 +32,7 @@ struct CommonOptions {
   int threads = 0;  ///< 0: as many as the machine has
   bool repair = false;
   bool quiet = false;
+  std::string command;  ///< the command line as a Provenance has it
 };
 
 /// What a chosen command runs; returns the exit code.

@@ -86,7 +86,10 @@ class Outputs {
         figure_size_(render::parse_size(options.figure.size)),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
-    if (!options.figure_folder.empty()) plots_.emplace(options.figure_folder);
+    if (!options.figure_folder.empty()) {
+      make_folder(options.figure_folder);
+      const core::FileWriter probe(std::filesystem::path(options.figure_folder) / "diagrams.svg");
+    }
   }
 
   /// `sinks` are told, too. Refers to `input`.
@@ -94,20 +97,23 @@ class Outputs {
            std::vector<ComparisonSink*> sinks, const core::Progress& progress) {
     const core::LoadedMesh& loaded = input.loaded;
     const ReportInput about{options_.mesh, input.sha256, common_.repair, !options_.no_items, load_seconds};
+    const Provenance provenance(common_.command, request_section(about, options_.request),
+                                {{options_.mesh, input.sha256}});
     if (report_target_.is_wanted())
       files_.add(report_.emplace(report_target_.json(), loaded, about, options_.request));
     if (page_file_)
-      files_.add(
-          page_.emplace(*page_file_, loaded, about, options_.request, page_command(options_, common_)));
-    if (!options_.export_folder.empty()) files_.add(exports_.emplace(options_.export_folder, loaded));
-    if (plots_) files_.add(*plots_);
+      files_.add(page_.emplace(*page_file_, loaded, about, options_.request, page_command(options_, common_),
+                               provenance));
+    if (!options_.export_folder.empty())
+      files_.add(exports_.emplace(options_.export_folder, loaded, provenance));
+    if (!options_.figure_folder.empty()) files_.add(plots_.emplace(options_.figure_folder, provenance));
     sinks.push_back(&files_);
     if (!options_.figure_folder.empty())
-      sinks.push_back(
-          &figures_.emplace(options_.figure_folder, loaded, options_.figure.camera, figure_size_, progress));
+      sinks.push_back(&figures_.emplace(options_.figure_folder, loaded, options_.figure.camera, figure_size_,
+                                        provenance, progress));
     if (!options_.thumbnails.empty())
       sinks.push_back(&thumbnails_.emplace(options_.thumbnails, comparison.chains.size(),
-                                           options_.figure.camera, progress));
+                                           options_.figure.camera, loaded, provenance, progress));
     run_comparison(loaded, comparison, sinks, progress);
     if (figures_) figures_->finish();
     if (plots_) plots_->finish();

@@ -77,13 +77,23 @@ int cut(const Options& options, const CommonOptions& common, Console& console) {
   const CutOutcome outcome = cut_surface(made.field(), !options.no_shorten, console.progress());
 
   const Stopwatch write_watch;
-  write_cut_mesh(options.output, outcome.opened, input.loaded.source.numbering, console.progress());
-  if (!options.graph.empty()) write_cut_graph(options.graph, outcome.cut, input.loaded);
-  if (document.is_wanted()) {
-    const CutRequest request{options.request, !options.no_shorten, common.repair};
-    const CutTimings timings{load_seconds, write_watch.seconds()};
-    write_cut_document(document.json(), options.mesh, input, request, recipe, made, outcome, timings);
-  }
+  const CutRequest request{options.request, !options.no_shorten, common.repair};
+  const HashedFile file{options.mesh, input.sha256};
+  const FieldSource source{file, input.loaded, recipe, made};
+  const Provenance provenance(common.command, request_section(request), source);
+  write_cut_mesh(options.output, outcome.opened, input.loaded.source.numbering, provenance,
+                 console.progress());
+  if (!options.graph.empty()) write_cut_graph(options.graph, outcome.cut, input.loaded, provenance);
+  if (document.is_wanted())
+    write_cut_document(document.json(), request, source, outcome,
+                       {{"load", load_seconds},
+                        {"field", made.input.seconds},
+                        {"method", made.method_seconds},
+                        {"complex", outcome.complex_seconds},
+                        {"cut", outcome.cut_seconds},
+                        {"shorten", outcome.shorten_seconds},
+                        {"open", outcome.open_seconds},
+                        {"write", write_watch.seconds()}});
   document.commit();
   if (!document.is_stdout()) std::cout << table(outcome);
   if (!options.no_shorten && !outcome.is_settled)

@@ -7,6 +7,8 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/export/field_file.h"
+#include "morsel/tools/report/field_document.h"
+#include "morsel/tools/report/hashed_mesh.h"
 
 namespace morsel::tools {
 namespace {
@@ -21,11 +23,14 @@ int write(const Options& options, const CommonOptions& common, Console& console)
   const FieldRecipe recipe = prepare(options.request);
   check_field_path(options.output);
   const core::Progress progress = console.progress();
-  const core::WholeMesh input = core::read_whole_mesh(options.mesh, {.repair = common.repair}, progress);
-  const core::LoadedMesh& loaded = input.loaded;
+  const HashedWholeMesh mesh = read_hashed_whole_mesh(options.mesh, {.repair = common.repair}, progress);
+  const core::LoadedMesh& loaded = mesh.input.loaded;
   const MadeField made = make_field(recipe, loaded, progress);
   tell_target(made, console);
-  write_field(options.output, made.field(), loaded.source.numbering, input.input_positions, made.input.name);
+  const HashedFile file{options.mesh, mesh.sha256};
+  write_field(
+      options.output, made.field(), loaded.source.numbering, mesh.input.input_positions, made.input.name,
+      {common.command, request_section(options.request, common.repair), {file, loaded, recipe, made}});
   console.message("field: " + options.output);
   return kDone;
 }

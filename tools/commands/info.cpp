@@ -1,22 +1,25 @@
-// morsel info: what a mesh is, or what is wrong with it.
+// morsel info: what a mesh is, or what is wrong with it; and where a file that the program wrote comes from.
 
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/report/mesh_section.h"
+#include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/sha256.h"
 #include "morsel/tools/report/text_table.h"
-#include "morsel/tools/report/version.h"
 
 namespace morsel::tools {
 namespace {
 
 struct Options {
-  std::string mesh;
+  std::string file;
   bool json = false;
 };
 
@@ -43,8 +46,10 @@ Json properties_section(const Findings& findings) {
   return names;
 }
 
+Json head_section() { return {{"schema", "morsel.info/1"}, {"tool", tool_section()}}; }
+
 Json as_json(const std::string& path, const Findings& findings) {
-  Json document = {{"schema", "morsel.info/1"}, {"tool", {{"name", "morsel"}, {"version", kVersion}}}};
+  Json document = head_section();
   document["valid"] = findings.built.has_value();
   if (findings.built) {
     const core::TriangleMesh& mesh = findings.built->mesh;
@@ -76,13 +81,13 @@ Json as_json(const std::string& path, const Findings& findings) {
   return document;
 }
 
-void print_text(const std::string& path, const Findings& findings, bool repair_tried) {
-  const auto line = [](std::string_view name, const std::string& value) {
-    std::string label(name);
-    label.resize(24, ' ');
-    std::cout << "  " << label << value << '\n';
-  };
-  std::cout << path << '\n';
+void line(std::string_view name, const std::string& value) {
+  std::string label(name);
+  label.resize(24, ' ');
+  std::cout << "  " << label << value << '\n';
+}
+
+void print_text(const Findings& findings, bool repair_tried) {
   if (findings.built) {
     const core::TriangleMesh& mesh = findings.built->mesh;
     line("vertices", grouped(mesh.vertex_count()));
@@ -116,23 +121,68 @@ void print_text(const std::string& path, const Findings& findings, bool repair_t
   }
 }
 
+/// Of a document that may be somebody else's, what there is of the usual members; the rest in --json.
+void print_provenance(const Json& provenance) {
+  const auto text = [](const Json& object, const char* key) {
+    if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return std::string("?");
+    const std::string quoted = json_text(object[key]);  // in which no control character reaches a terminal
+    return quoted.substr(1, quoted.size() - 2);
+  };
+  const auto list = [&](const char* key) { return provenance.value(key, Json::array()); };
+  line("made by", "morsel " + text(provenance.value("tool", Json()), "version"));
+  line("command", text(provenance, "command"));
+  for (const Json& input : list("inputs"))
+    line("input", text(input, "path") + ", sha256 " + text(input, "sha256"));
+  const auto with_parameters = [&](const char* label, const Json& made) {
+    line(label,
+         text(made, "name") + " " + json_text(made.is_object() ? made.value("parameters", Json()) : Json()));
+  };
+  if (provenance.contains("field")) with_parameters("field", provenance["field"]);
+  for (const Json& method : list("methods")) with_parameters("method", method);
+}
+
+bool is_mesh(const std::string& path) {
+  const std::string extension = core::file_extension(path);
+  return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
+}
+
+int inform(const Options& options, const CommonOptions& common, Console& console) {
+  std::optional<Findings> findings;
+  if (is_mesh(options.file)) findings = inspect(options.file, common.repair, console.progress());
+  const Json provenance = read_provenance(options.file);
+  if (!findings && provenance.is_null())
+    throw core::BadInput("\"" + options.file +
+                         "\" is no mesh (.off, .obj, .ply or .stl) and does not tell where it comes from");
+  if (options.json) {
+    Json document = findings ? as_json(options.file, *findings) : head_section();
+    if (!provenance.is_null()) document["provenance"] = provenance;
+    std::cout << json_text(document, 2) << '\n';
+    return kDone;
+  }
+  std::cout << options.file << '\n';
+  if (findings) print_text(*findings, common.repair);
+  if (!provenance.is_null()) print_provenance(provenance);
+  return kDone;
+}
+
 }  // namespace
 
 void add_info(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("info", "What a mesh is: counts, topology, components, defects");
-  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  CLI::App& command = *app.add_subcommand(
+      "info",
+      "What a mesh is: counts, topology, components, defects; and where a file that morsel wrote comes from");
+  command
+      .add_option(
+          "FILE", options->file,
+          "A triangle mesh (.off, .obj, .ply or .stl), or any file that morsel wrote but JSON, which\n"
+          "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
+      ->required();
   command.add_flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, invocation.common);
   command.callback([options, &invocation] {
     invocation.action = [options, &invocation](Console& console) {
-      const Findings findings = inspect(options->mesh, invocation.common.repair, console.progress());
-      if (options->json) {
-        std::cout << as_json(options->mesh, findings).dump(2) << '\n';
-      } else {
-        print_text(options->mesh, findings, invocation.common.repair);
-      }
-      return static_cast<int>(kDone);
+      return inform(*options, invocation.common, console);
     };
   });
 }

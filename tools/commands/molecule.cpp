@@ -16,6 +16,8 @@
 #include "morsel/core/molecule.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/molecule/surface.h"
+#include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
@@ -72,7 +74,17 @@ std::string described(const MolecularSurface& surface, const Options& options) {
   return text;
 }
 
-int make(Options& options, Console& console) {
+Json request_section(const Options& options, const core::MoleculeOptions& atoms) {
+  Json section = {{"kind", options.kind},
+                  {"resolution", options.surface.resolution},
+                  {"probe", options.surface.probe},
+                  {"blobbiness", options.surface.blobbiness},
+                  {"cavities", options.cavities}};
+  section.update(to_json(core::molecule_parameters(atoms)));
+  return section;
+}
+
+int make(Options& options, const CommonOptions& common, Console& console) {
   const bool ply = is_ply(options.output);
   const core::MoleculeOptions wanted = molecule_options(options);
   options.surface.kind =
@@ -83,10 +95,12 @@ int make(Options& options, Console& console) {
   const core::Progress progress = console.progress();
   const core::Molecule molecule = core::read_molecule(options.structure, wanted, progress);
   const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
+  const Provenance provenance(common.command, request_section(options, wanted),
+                              {{options.structure, sha256_of_file(options.structure)}});
   if (ply)
-    core::write_ply(options.output, surface.mesh, {}, progress);
+    core::write_ply(options.output, surface.mesh, {}, provenance.lines(), progress);
   else
-    core::write_off(options.output, surface.mesh, progress);
+    core::write_off(options.output, surface.mesh, provenance.lines(), progress);
   console.message(described(molecule));
   console.message(described(surface, options));
   console.message("written: " + options.output);
@@ -154,7 +168,9 @@ void add_molecule(CLI::App& app, Invocation& invocation) {
       "By default the first model's chains are taken, modified residues included, without ligands, ions and\n"
       "waters, and of alternate locations the one with the highest occupancy.");
   command.callback([options, &invocation] {
-    invocation.action = [options](Console& console) { return make(*options, console); };
+    invocation.action = [options, &invocation](Console& console) {
+      return make(*options, invocation.common, console);
+    };
   });
 }
 

@@ -11,6 +11,7 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/quads_writer.h"
 
 namespace morsel::tools {
@@ -39,10 +40,19 @@ int make(const Options& options, const CommonOptions& common, Console& console) 
   const MadeField made = make_field(recipe, input.loaded, progress);
   tell_target(made, console);
   const Quadrangulation result = quadrangulate(made.field(), quads, progress);
-  core::write_obj(options.output, result.mesh.positions, result.mesh.quads, progress);
+  const QuadsRequest request{options.field, options.quads, common.repair};
+  const HashedFile file{options.mesh, input.sha256};
+  const FieldSource source{file, input.loaded, recipe, made};
+  const Provenance provenance(common.command, request_section(request), source);
+  core::write_obj(options.output, result.mesh.positions, result.mesh.quads, provenance.lines(), progress);
   if (document.is_wanted())
-    write_quads(document.json(), {options.mesh, common.repair, load_seconds, options.field, options.quads},
-                input, recipe, made, result);
+    write_quads(document.json(), request, source, result,
+                {{"load", load_seconds},
+                 {"field", made.input.seconds},
+                 {"method", made.method_seconds},
+                 {"layout", result.layout_seconds},
+                 {"sampling", result.sampling_seconds},
+                 {"measuring", result.measuring_seconds}});
   document.commit();
   if (!document.is_stdout()) std::cout << described(result, input.loaded.mesh.bounding_box().diagonal());
   console.message("quads: " + options.output);

@@ -10,10 +10,13 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/drawing/png_comment.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/colormap.h"
 #include "morsel/tools/render/picture.h"
 #include "morsel/tools/render/request_text.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 namespace {
@@ -51,7 +54,8 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
   core::FileWriter file(options.output);
 
   const core::Progress progress = console.progress();
-  const core::LoadedMesh loaded = core::read_mesh(options.mesh, {.repair = common.repair}, progress);
+  const HashedMesh mesh = read_hashed_mesh(options.mesh, {.repair = common.repair}, progress);
+  const core::LoadedMesh& loaded = mesh.loaded;
   const auto region = [&](const std::string& text) -> std::optional<render::Inset> {
     if (text.empty()) return std::nullopt;
     return render::find_inset(render::parse_inset(text), loaded);
@@ -73,7 +77,12 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
   if (subject.caption == "auto") subject.caption = recipe.chain.name + "\n" + counts;
   const render::Image image =
       studio.take(studio.view(options.camera.view, options.camera.up, progress), subject, request, progress);
-  file.write(render::encode_png(image));
+  const HashedFile input{options.mesh, mesh.sha256};
+  Provenance provenance(common.command, request_section(options.field, common.repair),
+                        {input, loaded, recipe, made});
+  provenance.set("picture",
+                 render::picture_section(request, options.camera, subject.caption, loaded.source.numbering));
+  file.write(drawing::with_png_comment(render::encode_png(image), provenance.json()));
   file.commit();
   console.message(counts);
   console.message("picture: " + options.output);

@@ -11,8 +11,8 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/export/label_file.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/segments_writer.h"
-#include "morsel/tools/report/sha256.h"
 #include "morsel/tools/report/text_table.h"
 #include "morsel/tools/segmentation/made_segments.h"
 
@@ -67,9 +67,8 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   const core::Progress progress = console.progress();
   Timings timings;
   const Stopwatch load_watch;
-  const core::WholeMesh input = core::read_whole_mesh(options.mesh, {.repair = common.repair}, progress);
-  const core::LoadedMesh& loaded = input.loaded;
-  const std::string hash = document.is_wanted() ? sha256_of_file(options.mesh) : std::string();
+  const HashedWholeMesh mesh = read_hashed_whole_mesh(options.mesh, {.repair = common.repair}, progress);
+  const core::LoadedMesh& loaded = mesh.input.loaded;
   timings.emplace_back("load", load_watch.seconds());
 
   const MadeField field = make_field(recipe, loaded, progress);
@@ -80,13 +79,14 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   const MadeSegments made = make_segments(field.field(), request, progress);
   timings.emplace_back("segments", segment_watch.seconds());
 
+  const SegmentsRequest asked{options.request, request, common.repair};
+  const HashedFile file{options.mesh, mesh.sha256};
+  const FieldSource source{file, loaded, recipe, field};
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
   const std::vector<std::filesystem::path> written =
       write_labels(options.output, labels, field.field(), field.input.name, loaded.source.numbering,
-                   input.input_positions);
-  if (document.is_wanted())
-    write_segments(document.json(), {options.mesh, hash, common.repair, options.request, request}, loaded,
-                   recipe, field, made, timings);
+                   mesh.input.input_positions, {common.command, request_section(asked), source});
+  if (document.is_wanted()) write_segments(document.json(), asked, source, made, timings);
   document.commit();
   console.message(described(made));
   if (!made.note.empty()) console.message(made.note);

@@ -67,7 +67,7 @@ class KnownRows {
   std::size_t count_ = 0;
 };
 
-Json files_of(const PreparedSweep& prepared) {
+std::vector<HashedFile> files_of(const PreparedSweep& prepared) {
   std::vector<std::string> specifications;
   for (const Combination& combination : prepared.combinations) {
     specifications.push_back(to_string(combination.field));
@@ -97,12 +97,12 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
-  const Json files = files_of(prepared);
+  const std::vector<HashedFile> files = files_of(prepared);
   const KnownRows known(target.open_journal({{"schema", "morsel.sweep/1"},
                                              {"tool", tool_section()},
                                              {"mesh", input.sha256},
                                              {"repair", common.repair},
-                                             {"files", files}}),
+                                             {"files", files_section(files)}}),
                         prepared);
   if (known.count() > 0)
     console.message("going on with " + std::to_string(known.count()) + " of " +
@@ -110,10 +110,16 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
                     ".journal");
   const std::vector<SweepRow> rows = run_sweep(input.loaded, prepared, known.options(), console.progress());
 
-  const SweepReport report{input.loaded, about, options.request, files, prepared, rows};
+  const SweepReport report{input.loaded, about, options.request, prepared, rows};
   target.write([&](JsonSink& json) { write_sweep(json, report); },
                [&](std::ostream& out) { write_sweep_csv(out, report); });
-  if (!options.figure_folder.empty()) plot::write_plots(plots_of(report, options.figure_folder));
+  if (!options.figure_folder.empty()) {
+    std::vector<HashedFile> inputs = {{options.mesh, input.sha256}};
+    inputs.insert(inputs.end(), files.begin(), files.end());
+    plot::write_plots(
+        plots_of(report, options.figure_folder),
+        Provenance(common.command, request_section(options.request, prepared, common.repair), inputs));
+  }
   if (!target.is_stdout()) std::cout << sweep_table(report);
   if (target.is_file()) console.message("sweep: " + options.output);
   if (!options.figure_folder.empty()) console.message("plots: " + options.figure_folder);

@@ -6,12 +6,29 @@
 #include "morsel/core/error.h"
 
 namespace morsel::tools {
+namespace {
+
+std::vector<HashedFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
+  std::vector<HashedFile> files;
+  for (const auto& [key, value] : parameters)
+    if (!function.file_key.empty() && key == function.file_key) {
+      const std::string& path = std::get<std::string>(value);
+      files.push_back({path, sha256_of_file(path)});
+    }
+  return files;
+}
+
+}  // namespace
 
 FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
                             const core::Progress& progress) {
   const Stopwatch watch;
   core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
-  return {function.name, std::move(result.field), std::move(result.parameters), watch.seconds()};
+  std::vector<HashedFile> files = files_of(function, result.parameters);
+  for (const HashedFile& file : files)
+    result.parameters.emplace_back(function.file_key + "_sha256", file.sha256);
+  return {function.name, std::move(result.field), std::move(result.parameters), watch.seconds(),
+          std::move(files)};
 }
 
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress) {

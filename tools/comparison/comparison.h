@@ -18,6 +18,7 @@
 #include "morsel/tools/comparison/chain.h"
 #include "morsel/tools/comparison/matching.h"
 #include "morsel/tools/registry/registry.h"
+#include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
 
@@ -60,8 +61,9 @@ struct MethodOutcome {
 struct FieldOutcome {
   std::string name;
   core::ScalarField field;
-  core::Parameters parameters;
+  core::Parameters parameters;  ///< KEY_sha256 beside a KEY that names a file
   double seconds = 0;
+  std::vector<HashedFile> files = {};  ///< that it was read from, besides the mesh's
 };
 
 /// Takes a Morse function on a loaded mesh.

@@ -46,7 +46,8 @@ Polylines trace_arcs(const mscomplex::MorseSmaleComplex& complex) {
 }  // namespace
 
 void write_complex_file(const std::filesystem::path& path, const core::LoadedMesh& loaded,
-                        const mscomplex::MorseSmaleComplex& complex, const std::vector<VtpArray>& more) {
+                        const mscomplex::MorseSmaleComplex& complex, const Provenance& provenance,
+                        const std::vector<VtpArray>& more) {
   using mscomplex::NodeKind;
   const core::VertexNumbering& numbering = loaded.source.numbering;
   const core::Index nodes = complex.node_count();
@@ -82,6 +83,7 @@ void write_complex_file(const std::filesystem::path& path, const core::LoadedMes
                           {"vertex", std::span<const std::int32_t>(vertices)},
                           {"end_vertex", std::span<const std::int32_t>(end_vertices)}};
   document.cell_arrays.insert(document.cell_arrays.end(), more.begin(), more.end());
+  document.provenance = provenance.json();
   write_vtp(path, document, core::Sync::never);
 }
 

@@ -7,6 +7,7 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
@@ -15,6 +16,7 @@ namespace morsel::tools {
 /// and at caps), in the input's numbers; `more` are further arrays of one value a node and one an arc. Nobody waits until the
 /// file is on disk. Throws WriteFailed.
 void write_complex_file(const std::filesystem::path& path, const core::LoadedMesh& loaded,
-                        const mscomplex::MorseSmaleComplex& complex, const std::vector<VtpArray>& more = {});
+                        const mscomplex::MorseSmaleComplex& complex, const Provenance& provenance,
+                        const std::vector<VtpArray>& more = {});
 
 }  // namespace morsel::tools

@@ -24,15 +24,16 @@ bool is_ply(const std::filesystem::path& path) {
 void check_cut_mesh_path(const std::filesystem::path& path) { is_ply(path); }
 
 void write_cut_mesh(const std::filesystem::path& path, const mscomplex::CutMesh& cut,
-                    const core::VertexNumbering& numbering, const core::Progress& progress) {
+                    const core::VertexNumbering& numbering, const Provenance& provenance,
+                    const core::Progress& progress) {
   if (!is_ply(path)) {
-    core::write_off(path, cut.mesh, progress);
+    core::write_off(path, cut.mesh, provenance.lines(), progress);
     return;
   }
   core::VertexProperty input_vertex{"input_vertex", std::vector<double>(cut.mesh.vertex_count())};
   for (core::Index v = 0; v < cut.mesh.vertex_count(); ++v)
     input_vertex.values[v] = numbering.input_vertex(cut.original(v));
-  core::write_ply(path, cut.mesh, {&input_vertex, 1}, progress);
+  core::write_ply(path, cut.mesh, {&input_vertex, 1}, provenance.lines(), progress);
 }
 
 void check_cut_graph_path(const std::filesystem::path& path) {
@@ -41,7 +42,7 @@ void check_cut_graph_path(const std::filesystem::path& path) {
 }
 
 void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGraph& cut,
-                     const core::LoadedMesh& loaded) {
+                     const core::LoadedMesh& loaded, const Provenance& provenance) {
   std::vector<core::Point> points;
   std::vector<core::Index> vertices;
   std::vector<std::int64_t> ends;
@@ -62,6 +63,7 @@ void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGrap
   document.point_arrays = {{"input_vertex", std::span<const core::Index>(vertices), core::kNone}};
   document.cell_arrays = {{"length", std::span<const double>(lengths)},
                           {"component", std::span<const core::Index>(components), core::kNone}};
+  document.provenance = provenance.json();
   write_vtp(path, document);
 }
 

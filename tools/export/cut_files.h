@@ -5,6 +5,7 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/mscomplex/cut.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
@@ -15,7 +16,8 @@ void check_cut_mesh_path(const std::filesystem::path& path);
 /// vertex, or the one that it copies, has in the input file. Throws InvalidArgument on another ending,
 /// WriteFailed.
 void write_cut_mesh(const std::filesystem::path& path, const mscomplex::CutMesh& cut,
-                    const core::VertexNumbering& numbering, const core::Progress& progress = {});
+                    const core::VertexNumbering& numbering, const Provenance& provenance,
+                    const core::Progress& progress = {});
 
 /// Throws InvalidArgument unless the path ends in .vtp.
 void check_cut_graph_path(const std::filesystem::path& path);
@@ -23,6 +25,6 @@ void check_cut_graph_path(const std::filesystem::path& path);
 /// Writes the cut for ParaView (.vtp): a polyline a path, with its length and component, and at each
 /// point the vertex in the input's numbers. Throws WriteFailed.
 void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGraph& cut,
-                     const core::LoadedMesh& loaded);
+                     const core::LoadedMesh& loaded, const Provenance& provenance);
 
 }  // namespace morsel::tools

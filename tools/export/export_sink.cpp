@@ -8,14 +8,16 @@
 #include "morsel/core/parallel.h"
 #include "morsel/tools/export/complex_file.h"
 #include "morsel/tools/export/surface_file.h"
+#include "morsel/tools/report/csv.h"
 
 namespace morsel::tools {
 namespace {
 
 void write_points(const std::filesystem::path& path, const core::LoadedMesh& loaded,
-                  const MethodOutcome& outcome, std::span<const double> persistence) {
+                  const MethodOutcome& outcome, std::span<const double> persistence,
+                  const Provenance& provenance) {
   core::FileWriter file(path, core::Sync::never);
-  file.write("vertex,x,y,z,type,multiplicity,value,persistence,origin\n");
+  file.write("vertex,x,y,z,type,multiplicity,value,persistence,origin,provenance\n");
   const std::vector<morse::CriticalPoint>& critical = outcome.measurement.critical_points.points;
   for (std::size_t i = 0; i < critical.size(); ++i) {
     const morse::CriticalPoint& point = critical[i];
@@ -35,6 +37,8 @@ void write_points(const std::filesystem::path& path, const core::LoadedMesh& loa
     file.write(",");
     if (outcome.origins[i] != core::kNone)
       file.write_number(std::uint64_t{loaded.source.numbering.input_vertex(outcome.origins[i])});
+    file.write(",");
+    if (i == 0) file.write(csv_field(provenance.json()));
     file.write("\n");
   }
   file.commit();
@@ -42,12 +46,15 @@ void write_points(const std::filesystem::path& path, const core::LoadedMesh& loa
 
 }  // namespace
 
-ExportSink::ExportSink(std::filesystem::path folder, const core::LoadedMesh& loaded)
-    : folder_(std::move(folder)), loaded_(loaded) {
+ExportSink::ExportSink(std::filesystem::path folder, const core::LoadedMesh& loaded, Provenance provenance)
+    : folder_(std::move(folder)), loaded_(loaded), provenance_(std::move(provenance)) {
   make_folder(folder_);
 }
 
-void ExportSink::field(const FieldOutcome& outcome) { field_name_ = outcome.name; }
+void ExportSink::field(const FieldOutcome& outcome) {
+  field_name_ = outcome.name;
+  provenance_.set_field(outcome);
+}
 
 void ExportSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
@@ -59,10 +66,11 @@ void ExportSink::method(const MethodOutcome& outcome) {
   for (const morse::CriticalPoint& point : m.critical_points.points)
     types[point.vertex] = static_cast<std::uint8_t>(point.type);
   const SurfaceFile surface{loaded_, field_name_, outcome.field, types, persistence, m.segmentation};
+  const Provenance provenance = provenance_.with_method(outcome.steps);
   const std::array<std::function<void()>, 3> writers = {
-      [&] { write_surface_file(base.string() + ".surface.vtp", surface); },
-      [&] { write_complex_file(base.string() + ".complex.vtp", loaded_, m.complex); },
-      [&] { write_points(base.string() + ".points.csv", loaded_, outcome, persistence); }};
+      [&] { write_surface_file(base.string() + ".surface.vtp", surface, provenance); },
+      [&] { write_complex_file(base.string() + ".complex.vtp", loaded_, m.complex, provenance); },
+      [&] { write_points(base.string() + ".points.csv", loaded_, outcome, persistence, provenance); }};
   core::parallel_for(0, writers.size(), 1, [&](std::size_t i, std::size_t) { writers[i](); });
 }
 

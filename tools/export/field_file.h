@@ -6,16 +6,17 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/scalar_field.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
 /// Writes `field` in the vertex numbers of the input file: .txt has one value a line, as short as reads back
-/// exactly; .ply (binary) and .vtp have the surface with the values as vertex property `name`. An input
+/// exactly, below lines that begin with #; .ply (binary) and .vtp have the surface with the values as vertex property `name`. An input
 /// vertex that the mesh does not have gets `nan`; one that repair split gets the value of its first copy.
 /// Throws InvalidArgument on another ending, WriteFailed where writing fails.
 void write_field(const std::filesystem::path& path, const core::ScalarField& field,
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
-                 const std::string& name);
+                 const std::string& name, const Provenance& provenance);
 
 /// Throws InvalidArgument unless write_field() knows the path's ending; to be asked before long work.
 void check_field_path(const std::filesystem::path& path);

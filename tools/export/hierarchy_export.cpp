@@ -26,24 +26,32 @@ VtpArray linked_cells(std::string name, const std::vector<Index>& labels,
 
 }  // namespace
 
-HierarchyExport::HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded)
-    : folder_(std::move(folder)), loaded_(loaded) {
+HierarchyExport::HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded,
+                                 Provenance provenance)
+    : folder_(std::move(folder)), loaded_(loaded), provenance_(std::move(provenance)) {
   make_folder(folder_);
 }
 
-void HierarchyExport::begin(const HierarchyBasis& basis) { field_name_ = basis.made.input.name; }
+void HierarchyExport::begin(const HierarchyBasis& basis) {
+  field_name_ = basis.made.input.name;
+  provenance_.set_field(basis.made.input);
+  provenance_.add_method(basis.made.outcome.steps);
+}
 
 void HierarchyExport::level(const Level& level) {
   const std::string place = std::to_string(level.place);
+  Provenance provenance = provenance_;
+  provenance.set("level", {{"place", level.place}, {"asked", level.name.asked}});
   core::parallel_for(0, 2, 1, [&](std::size_t i, std::size_t) {
     if (i == 0)
-      write_surface(folder_ / ("surface." + place + ".vtp"), level);
+      write_surface(folder_ / ("surface." + place + ".vtp"), level, provenance);
     else
-      write_complex(folder_ / ("complex." + place + ".vtp"), level);
+      write_complex(folder_ / ("complex." + place + ".vtp"), level, provenance);
   });
 }
 
-void HierarchyExport::write_surface(const std::filesystem::path& path, const Level& level) const {
+void HierarchyExport::write_surface(const std::filesystem::path& path, const Level& level,
+                                    const Provenance& provenance) const {
   std::vector<std::uint8_t> types(loaded_.mesh.vertex_count(), 0);
   std::vector<double> persistence(loaded_.mesh.vertex_count(), 0);
   for (std::size_t i = 0; i < level.points.points.size(); ++i) {
@@ -60,10 +68,11 @@ void HierarchyExport::write_surface(const std::filesystem::path& path, const Lev
     links.push_back(linked_cells(name + "_merges_into", labels, level.cell_links(kind).merges_into));
   }
   write_surface_file(path, {loaded_, field_name_, *level.field, types, persistence, level.segmentation},
-                     links);
+                     provenance, links);
 }
 
-void HierarchyExport::write_complex(const std::filesystem::path& path, const Level& level) const {
+void HierarchyExport::write_complex(const std::filesystem::path& path, const Level& level,
+                                    const Provenance& provenance) const {
   const mscomplex::MorseSmaleComplex& complex = level.complex;
   const std::vector<morse::CriticalPoint>& points = level.points.points;
   const core::VertexNumbering& numbering = loaded_.source.numbering;
@@ -77,7 +86,7 @@ void HierarchyExport::write_complex(const std::filesystem::path& path, const Lev
     if (parent != core::kNone) parents[n] = numbering.input_vertex(parent);
   }
   write_complex_file(
-      path, loaded_, complex,
+      path, loaded_, complex, provenance,
       {{"parent", parents.size(), numbering.input_count, [&](std::size_t i) { return parents[i]; }}});
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
@@ -16,16 +17,19 @@ namespace morsel::tools {
 class HierarchyExport : public HierarchySink {
  public:
   /// Throws WriteFailed if the folder cannot be made. Refers to `loaded`.
-  HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded);
+  HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded, Provenance provenance);
   void begin(const HierarchyBasis& basis) override;
   void level(const Level& level) override;
 
  private:
-  void write_surface(const std::filesystem::path& path, const Level& level) const;
-  void write_complex(const std::filesystem::path& path, const Level& level) const;
+  void write_surface(const std::filesystem::path& path, const Level& level,
+                     const Provenance& provenance) const;
+  void write_complex(const std::filesystem::path& path, const Level& level,
+                     const Provenance& provenance) const;
 
   std::filesystem::path folder_;
   const core::LoadedMesh& loaded_;
+  Provenance provenance_;
   std::string field_name_;
 };
 

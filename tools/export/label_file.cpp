@@ -1,13 +1,13 @@
 #include "morsel/tools/export/label_file.h"
 
 #include <cstdint>
-#include <limits>
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_extension.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/core/mesh_writer.h"
 #include "morsel/core/parallel.h"
+#include "morsel/tools/export/input_numbers.h"
 #include "morsel/tools/export/vtp_writer.h"
 
 namespace morsel::tools {
@@ -36,16 +36,8 @@ std::vector<std::int32_t> by_input_vertex(std::span<const core::Index> label,
   return result;
 }
 
-std::vector<double> by_input_vertex(const core::ScalarField& field, const core::VertexNumbering& numbering) {
-  std::vector<double> result(numbering.input_count);
-  core::parallel_for_each(result.size(), [&](std::size_t i) {
-    const core::Index v = numbering.mesh_vertex(static_cast<core::Index>(i));
-    result[i] = v == core::kNone ? std::numeric_limits<double>::quiet_NaN() : field.value(v);
-  });
-  return result;
-}
-
-void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels) {
+void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, const Provenance& provenance) {
+  file.write(provenance.text_comment());
   for (const std::int32_t label : labels) {
     if (label < 0)
       file.write("-1");
@@ -65,26 +57,25 @@ std::vector<fs::path> check_label_path(const fs::path& path) {
 
 std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, const core::ScalarField& field,
                                    const std::string& field_name, const core::VertexNumbering& numbering,
-                                   std::span<const core::Point> input_positions) {
+                                   std::span<const core::Point> input_positions,
+                                   const Provenance& provenance) {
   const std::vector<fs::path> files = files_of(path);
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
   const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
   if (files.size() == 2) {
     core::FileWriter vertices(files[0]);
     core::FileWriter faces(files[1]);
-    write_lines(vertices, at_vertices);
-    write_lines(faces, at_triangles);
+    write_lines(vertices, at_vertices, provenance);
+    write_lines(faces, at_triangles, provenance);
     vertices.commit();
     faces.commit();
     return files;
   }
-  std::vector<core::Triangle> triangles(field.mesh().triangles().begin(), field.mesh().triangles().end());
-  for (core::Triangle& t : triangles)
-    for (core::Index& v : t) v = numbering.input_vertex(v);
+  const std::vector<core::Triangle> triangles = on_input_vertices(field.mesh(), numbering);
   if (core::file_extension(path) == ".ply") {
     const core::PropertyView of_vertices(labels.name, at_vertices);
     const core::PropertyView of_faces(labels.name, at_triangles);
-    core::write_ply(path, input_positions, triangles, {&of_vertices, 1}, {&of_faces, 1});
+    core::write_ply(path, input_positions, triangles, {&of_vertices, 1}, {&of_faces, 1}, provenance.lines());
     return files;
   }
   const std::vector<double> values = by_input_vertex(field, numbering);
@@ -94,6 +85,7 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
   document.point_arrays = {{labels.name, std::span<const std::int32_t>(at_vertices)},
                            {field_name, std::span<const double>(values)}};
   document.cell_arrays = {{labels.name, std::span<const std::int32_t>(at_triangles)}};
+  document.provenance = provenance.json();
   write_vtp(path, document);
   return files;
 }

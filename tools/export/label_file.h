@@ -8,6 +8,7 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/scalar_field.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
@@ -22,14 +23,15 @@ struct Labels {
 /// repair split the label of its first copy:
 ///   .ply  the surface (binary), the labels as int properties of vertices and faces
 ///   .vtp  the surface, the labels as arrays of points and cells, and `field` as an array `field_name` of points
-///   .txt  two files, a label a line: NAME.vertices.txt, and NAME.faces.txt in the order of the faces of the others
+///   .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and NAME.faces.txt in the order of the faces of the others
 /// Faces are the mesh's triangles: the input's faces in its order, polygons cut into triangles, without those that
 /// repair dropped. Returns what was written. Throws InvalidArgument on another ending, WriteFailed where writing fails;
 /// of the two text files then none or, should the second fail as it is finished, the first alone is there.
 std::vector<std::filesystem::path> write_labels(const std::filesystem::path& path, const Labels& labels,
                                                 const core::ScalarField& field, const std::string& field_name,
                                                 const core::VertexNumbering& numbering,
-                                                std::span<const core::Point> input_positions);
+                                                std::span<const core::Point> input_positions,
+                                                const Provenance& provenance);
 
 /// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending, and WriteFailed
 /// unless they can be written; to be asked before long work.

@@ -3,7 +3,7 @@
 namespace morsel::tools {
 
 void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
-                        const std::vector<VtpArray>& more) {
+                        const Provenance& provenance, const std::vector<VtpArray>& more) {
   const core::TriangleMesh& mesh = surface.loaded.mesh;
   const std::size_t vertices = mesh.vertex_count();
   const core::VertexNumbering& numbering = surface.loaded.source.numbering;
@@ -24,6 +24,7 @@ void write_surface_file(const std::filesystem::path& path, const SurfaceFile& su
   add("ascending", surface.segmentation.ascending);
   add("morse_smale", surface.segmentation.morse_smale);
   document.cell_arrays.insert(document.cell_arrays.end(), more.begin(), more.end());
+  document.provenance = provenance.json();
   write_vtp(path, document, core::Sync::never);
 }
 

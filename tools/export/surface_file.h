@@ -11,6 +11,7 @@
 #include "morsel/core/scalar_field.h"
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
@@ -28,6 +29,6 @@ struct SurfaceFile {
 /// ascending and morse_smale; `more` are arrays of one value a triangle. Nobody waits until the file is on disk. Throws
 /// WriteFailed.
 void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
-                        const std::vector<VtpArray>& more = {});
+                        const Provenance& provenance, const std::vector<VtpArray>& more = {});
 
 }  // namespace morsel::tools

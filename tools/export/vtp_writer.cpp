@@ -84,10 +84,12 @@ class VtpWriter {
     file_.write(R"(<?xml version="1.0"?>)"
                 "\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"");
     file_.write(std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
-    file_.write("\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-                std::to_string(points.bytes / sizeof(core::Point)) + "\" NumberOfVerts=\"" +
-                count(document_.vertices) + "\" NumberOfLines=\"" + count(document_.lines) +
-                "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + count(document_.polygons) + "\">\n");
+    file_.write("\" header_type=\"UInt64\">\n<PolyData>\n");
+    field_data();
+    file_.write("<Piece NumberOfPoints=\"" + std::to_string(points.bytes / sizeof(core::Point)) +
+                "\" NumberOfVerts=\"" + count(document_.vertices) + "\" NumberOfLines=\"" +
+                count(document_.lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                count(document_.polygons) + "\">\n");
     section("PointData", document_.point_arrays);
     section("CellData", document_.cell_arrays);
     section("Points", {points});
@@ -108,14 +110,30 @@ class VtpWriter {
   }
 
  private:
+  void field_data() {
+    if (document_.provenance.empty()) return;
+    const std::span text(document_.provenance.c_str(), document_.provenance.size() + 1);  // ended by a zero
+    VtpArray array("provenance", std::span<const std::uint8_t>());
+    array.bytes = text.size();
+    array.pieces = {std::as_bytes(text)};
+    file_.write(R"(<FieldData>
+<Array type="String" Name="provenance" NumberOfTuples="1" format="appended" offset=")" +
+                std::to_string(offset_) + "\"/>\n</FieldData>\n");
+    append(array);
+  }
+
+  void append(const VtpArray& array) {
+    offset_ += sizeof(std::uint64_t) + array.bytes;
+    appended_.push_back(array);
+  }
+
   void section(const std::string& name, const std::vector<VtpArray>& arrays) {
     file_.write("<" + name + ">\n");
     for (const VtpArray& array : arrays) {
       file_.write("<DataArray type=\"" + std::string(array.type) + "\" Name=\"" + array.name +
                   "\" NumberOfComponents=\"" + std::to_string(array.components) +
                   "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n");
-      offset_ += sizeof(std::uint64_t) + array.bytes;
-      appended_.push_back(array);
+      append(array);
     }
     file_.write("</" + name + ">\n");
   }

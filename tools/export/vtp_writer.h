@@ -58,6 +58,7 @@ struct VtpDocument {
   VtpCells polygons;
   std::vector<VtpArray> point_arrays;
   std::vector<VtpArray> cell_arrays;
+  std::string provenance;  ///< the field array of that name, one string; none if it is empty
 };
 
 /// Writes binary (raw appended) data, whole or not at all. Throws WriteFailed.

@@ -26,16 +26,18 @@ std::string without_markup(const std::string& json) {
 
 struct HtmlSink::State {
   State(core::FileWriter& target, const core::LoadedMesh& input_mesh, const ReportInput& input,
-        const ComparisonRequest& request, std::string line)
+        const ComparisonRequest& request, std::string line, Provenance origin)
       : file(target),
         loaded(input_mesh),
         command(std::move(line)),
+        provenance(std::move(origin)),
         json(report_text),
         report(json, loaded, input, request) {}
 
   core::FileWriter& file;
   const core::LoadedMesh& loaded;
   std::string command;
+  Provenance provenance;
   std::ostringstream report_text;
   JsonStream json;
   ReportWriter report;  // without items
@@ -46,10 +48,11 @@ struct HtmlSink::State {
 };
 
 HtmlSink::HtmlSink(core::FileWriter& file, const core::LoadedMesh& loaded, const ReportInput& input,
-                   const ComparisonRequest& request, std::string command) {
+                   const ComparisonRequest& request, std::string command, Provenance provenance) {
   ReportInput short_input = input;
   short_input.items = false;
-  state_ = std::make_unique<State>(file, loaded, short_input, request, std::move(command));
+  state_ =
+      std::make_unique<State>(file, loaded, short_input, request, std::move(command), std::move(provenance));
 }
 
 HtmlSink::~HtmlSink() = default;
@@ -57,6 +60,7 @@ HtmlSink::~HtmlSink() = default;
 void HtmlSink::field(const FieldOutcome& outcome) {
   State& s = *state_;
   s.report.field(outcome);
+  s.provenance.set_field(outcome);
   s.file.write(html::kPage.substr(0, html::kPage.find(html::kPagePlace)));
   s.file.write("<script type=\"application/octet-stream\" id=\"buffers\">");
   s.packed.emplace(s.file);
@@ -66,6 +70,7 @@ void HtmlSink::field(const FieldOutcome& outcome) {
 
 void HtmlSink::method(const MethodOutcome& outcome) {
   state_->report.method(outcome);
+  state_->provenance.add_method(outcome.steps);
   state_->methods.push_back(html::write_method(outcome, *state_->buffers));
 }
 
@@ -88,6 +93,7 @@ void HtmlSink::finish() {
   s.file.write(without_markup(text + ",\"report\":" + s.report_text.str() + "}"));
   s.file.write("</script>\n");
   s.file.write(html::kPage.substr(html::kPage.find(html::kPagePlace) + html::kPagePlace.size()));
+  s.file.write(s.provenance.html_comment());
 }
 
 }  // namespace morsel::tools

@@ -6,6 +6,7 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/report_writer.h"
 
 namespace morsel::tools {
@@ -26,7 +27,7 @@ class HtmlSink : public ComparisonSink {
  public:
   /// Refers to `file` and `loaded`. `command`: the command line that makes the page.
   HtmlSink(core::FileWriter& file, const core::LoadedMesh& loaded, const ReportInput& input,
-           const ComparisonRequest& request, std::string command);
+           const ComparisonRequest& request, std::string command, Provenance provenance);
   ~HtmlSink() override;
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;

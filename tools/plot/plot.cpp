@@ -6,6 +6,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
+#include "morsel/tools/drawing/png_comment.h"
 #include "morsel/tools/plot/layout.h"
 #include "morsel/tools/plot/pixel_canvas.h"
 #include "morsel/tools/plot/svg_canvas.h"
@@ -76,7 +77,7 @@ void set_line_style(Series& series, std::size_t i) {
 void write_svg(const std::filesystem::path& path, const Plot& plot) {
   drawing::Lettering lettering;
   const Layout layout = lay_out(plot, lettering);
-  SvgCanvas canvas(layout.width, layout.height, plot.title, lettering);
+  SvgCanvas canvas(layout.width, layout.height, plot.title, plot.metadata, lettering);
   draw(layout, canvas);
   core::write_file(path, canvas.finish());
 }
@@ -89,7 +90,7 @@ void write_png(const std::filesystem::path& path, const Plot& plot, int width) {
   const Layout layout = lay_out(plot, lettering);
   PixelCanvas canvas(layout.width, layout.height, width / layout.width, lettering);
   draw(layout, canvas);
-  core::write_file(path, canvas.png());
+  core::write_file(path, drawing::with_png_comment(canvas.png(), plot.metadata));
 }
 
 }  // namespace morsel::tools::plot

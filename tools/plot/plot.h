@@ -75,6 +75,8 @@ struct Plot {
   std::vector<Panel> panels = {};
   std::size_t columns = 1;              ///< of panels
   std::vector<std::string> notes = {};  ///< small print, a line each, broken where it is too long
+  /// Kept in the file for programs, in ASCII without < and &: an SVG's <metadata>, a PNG's comment; none if it is empty.
+  std::string metadata = {};
   double width = kColumnWidth;  ///< in points of 1/72 inch; the height follows from what is in the plot
 
   static constexpr double kColumnWidth = 252;  ///< of a column of a two-column paper: 3.5 inches

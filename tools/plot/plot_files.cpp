@@ -6,7 +6,8 @@
 
 namespace morsel::tools::plot {
 
-void write_plots(const std::vector<NamedPlot>& plots) {
+void write_plots(std::vector<NamedPlot> plots, const Provenance& provenance) {
+  for (NamedPlot& plot : plots) plot.second.metadata = provenance.json();
   core::parallel_for(0, 2 * plots.size(), 1, [&](std::size_t i, std::size_t) {
     const auto& [base, plot] = plots[i / 2];
     constexpr double kPixelsAPoint = 300. / 72;

@@ -7,20 +7,23 @@
 #include "morsel/tools/plot/plot_files.h"
 
 namespace morsel::tools {
-PlotSink::PlotSink(std::filesystem::path folder) : folder_(std::move(folder)) {
+PlotSink::PlotSink(std::filesystem::path folder, Provenance provenance)
+    : folder_(std::move(folder)), provenance_(std::move(provenance)) {
   make_folder(folder_);
-  const core::FileWriter probe(folder_ / "diagrams.svg");
 }
 
 void PlotSink::field(const FieldOutcome& outcome) {
   field_ = outcome.name;
   std::replace(field_.begin(), field_.end(), '-', ' ');
+  provenance_.set_field(outcome);
 }
 
 void PlotSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
   methods_.push_back(plot::curves_of(outcome));
-  plot::write_plots({{folder_ / (name + ".diagram"), plot::diagram_plot(methods_.back(), field_)}});
+  plot::write_plots({{folder_ / (name + ".diagram"), plot::diagram_plot(methods_.back(), field_)}},
+                    provenance_.with_method(outcome.steps));
+  provenance_.add_method(outcome.steps);
 }
 
 void PlotSink::finish() {
@@ -29,7 +32,7 @@ void PlotSink::finish() {
   plots.emplace_back(folder_ / "persistence", plot::persistence_plot(methods_, field_));
   plots.emplace_back(folder_ / "iterations", plot::iteration_plot(methods_));
   std::erase_if(plots, [](const plot::NamedPlot& plot) { return plot.second.panels.empty(); });
-  plot::write_plots(plots);
+  plot::write_plots(std::move(plots), provenance_);
 }
 
 }  // namespace morsel::tools

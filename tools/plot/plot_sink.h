@@ -8,6 +8,7 @@
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/plot/comparison_plots.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 
@@ -19,8 +20,8 @@ namespace morsel::tools {
 /// NAME is the method's; a second method of the same name gets "-2", and so on. Keeps 24 bytes a pair and method.
 class PlotSink : public ComparisonSink {
  public:
-  /// Throws WriteFailed if the folder cannot be made or written to: to be made before long work.
-  explicit PlotSink(std::filesystem::path folder);
+  /// Throws WriteFailed if the folder cannot be made.
+  PlotSink(std::filesystem::path folder, Provenance provenance);
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
   /// Writes what shows all methods. To be called once, at the end.
@@ -28,6 +29,7 @@ class PlotSink : public ComparisonSink {
 
  private:
   std::filesystem::path folder_;
+  Provenance provenance_;
   std::string field_;
   FileNames names_;
   std::vector<plot::MethodCurves> methods_;

@@ -43,7 +43,8 @@ std::string stroke(const Pen& pen) {
 
 }  // namespace
 
-SvgCanvas::SvgCanvas(double width, double height, std::string_view title, drawing::Lettering& lettering)
+SvgCanvas::SvgCanvas(double width, double height, std::string_view title, std::string_view metadata,
+                     drawing::Lettering& lettering)
     : lettering_(lettering) {
   const std::string w = number(width), h = number(height);
   document_ =
@@ -53,6 +54,7 @@ SvgCanvas::SvgCanvas(double width, double height, std::string_view title, drawin
       R"(" font-family="'DejaVu Sans', 'Bitstream Vera Sans', Verdana, sans-serif" stroke-linejoin="round">)"
       "\n";
   if (!title.empty()) document_ += "<title>" + markup_text(title) + "</title>\n";
+  if (!metadata.empty()) document_ += "<metadata>" + std::string(metadata) + "</metadata>\n";
   document_ += "<rect width=\"" + w + "\" height=\"" + h + "\" fill=\"#ffffff\"/>\n";
 }
 

@@ -13,7 +13,8 @@ namespace morsel::tools::plot {
 class SvgCanvas : public Canvas {
  public:
   /// Refers to the lettering, by which texts are fitted into their places.
-  SvgCanvas(double width, double height, std::string_view title, drawing::Lettering& lettering);
+  SvgCanvas(double width, double height, std::string_view title, std::string_view metadata,
+            drawing::Lettering& lettering);
   void line(const std::vector<Spot>& spots, const Pen& pen) override;
   void rectangle(const Box& box, const Pen& pen) override;
   void marks(const std::vector<Spot>& spots, Mark mark, double radius, Color color, double opacity) override;

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::array kFunctions = {
     FunctionEntry{"atomic-density", "density of the atoms around a molecular surface (Natarajan et al. 2006)",
-                  morse::make_atomic_density},
+                  morse::make_atomic_density, "structure"},
     FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
                   morse::make_curvedness},
     FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
@@ -43,7 +43,7 @@ constexpr std::array kFunctions = {
     FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
                   morse::make_shape_index},
     FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
-                  morse::make_vertex_scalar},
+                  morse::make_vertex_scalar, "file"},
 };
 
 constexpr std::array kMethods = {
@@ -119,7 +119,8 @@ std::span<const MethodEntry> methods() { return kMethods; }
 NamedFunction make_function(std::string_view specification) {
   core::Specification parsed = core::parse_specification(specification, "--field");
   const FunctionEntry& entry = find_entry(kFunctions, parsed.name, "Morse function");
-  return {std::string(specification), std::string(entry.name), make_entry(entry, std::move(parsed))};
+  return {std::string(specification), std::string(entry.name), make_entry(entry, std::move(parsed)),
+          std::string(entry.file_key)};
 }
 
 MethodChain make_method(std::string_view specification) {

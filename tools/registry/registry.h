@@ -18,6 +18,7 @@ struct FunctionEntry {
   std::string_view name;
   std::string_view summary;  ///< one line for help
   std::unique_ptr<core::MorseFunction> (*make)(core::ParameterReader&);
+  std::string_view file_key = {};  ///< the key that names a file to read, if there is one
 };
 
 /// What is peculiar about a method, for whoever composes methods.
@@ -43,6 +44,7 @@ struct NamedFunction {
   std::string specification;  ///< as given
   std::string name;
   std::unique_ptr<core::MorseFunction> function;
+  std::string file_key = {};  ///< its entry's
 };
 
 /// One step of a chain of methods.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "morsel/core/file_writer.h"
+#include "morsel/tools/drawing/png_comment.h"
 #include "morsel/tools/render/caption.h"
 
 namespace morsel::tools::render {
@@ -11,19 +12,14 @@ namespace {
 constexpr std::size_t kPointsWithArcs = 500;  // beyond, arcs hide the surface
 constexpr std::size_t kFullPanels = 12;       // beyond, a sheet's are halved
 
-void write(const std::filesystem::path& path, const Image& image) {
-  core::FileWriter file(path, core::Sync::never);
-  file.write(encode_png(image));
-  file.commit();
-}
-
 }  // namespace
 
 FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera,
-                       Size size, core::Progress progress)
+                       Size size, Provenance provenance, core::Progress progress)
     : folder_(std::move(folder)),
       loaded_(loaded),
       camera_(std::move(camera)),
+      provenance_(std::move(provenance)),
       progress_(std::move(progress)) {
   camera_.check();
   request_.size = size;
@@ -34,6 +30,7 @@ FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loa
 
 void FigureSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
+  provenance_.set_field(outcome);
   studio_.emplace(outcome.field.mesh());
   view_ = studio_->view(camera_.view, camera_.up, progress_);
 }
@@ -42,20 +39,29 @@ void FigureSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
   const morse::CriticalPoints& points = outcome.measurement.critical_points;
   request_.arcs = points.total() <= kPointsWithArcs;
-  const Subject subject{outcome.field, &outcome.measurement,
-                        quantity_of(field_name_, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
-                        outcome.places};
-  Image picture = studio_->take(view_, subject, request_, progress_);
+  Image picture = studio_->take(view_, subject_of(outcome, field_name_), request_, progress_);
   std::string caption =
       outcome.specification + "\n" + counts_line(points.minima, points.saddles, points.maxima);
-  write(folder_ / (name + ".png"), with_caption(picture, caption));
+  Provenance provenance = provenance_.with_method(outcome.steps);
+  provenance.set("picture", picture_section(request_, camera_, caption, loaded_.source.numbering));
+  write(name, with_caption(picture, caption), provenance);
+  provenance_.add_method(outcome.steps);
   panels_.push_back({std::move(picture), std::move(caption)});
 }
 
 void FigureSink::finish() {
   if (panels_.size() > kFullPanels)
     for (Panel& panel : panels_) panel.image = halved(panel.image);
-  write(folder_ / "sheet.png", make_sheet(panels_));
+  Json picture = picture_section(request_, camera_, "", loaded_.source.numbering);
+  picture.erase("arcs");  // each panel has its own
+  picture.erase("caption");
+  provenance_.set("picture", std::move(picture));
+  write("sheet", make_sheet(panels_), provenance_);
+}
+
+void FigureSink::write(const std::string& name, const Image& image, const Provenance& provenance) const {
+  core::write_file(folder_ / (name + ".png"), drawing::with_png_comment(encode_png(image), provenance.json()),
+                   core::Sync::never);
 }
 
 }  // namespace morsel::tools::render

@@ -11,6 +11,7 @@
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/render/sheet.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools::render {
 
@@ -25,16 +26,19 @@ class FigureSink : public ComparisonSink {
   /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset, or an impossible size. Refers to
   /// `loaded`.
   FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera, Size size,
-             core::Progress progress = {});
+             Provenance provenance, core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
   /// Writes the sheet; to be called after the comparison.
   void finish();
 
  private:
+  void write(const std::string& name, const Image& image, const Provenance& provenance) const;
+
   std::filesystem::path folder_;
   const core::LoadedMesh& loaded_;
   CameraText camera_;
+  Provenance provenance_;
   core::Progress progress_;
   PictureRequest request_;
   std::optional<Studio> studio_;

@@ -48,6 +48,12 @@ void color_surface(Scene& scene, const Subject& subject, Show show, const ValueS
 
 }  // namespace
 
+Subject subject_of(const MethodOutcome& outcome, const std::string& field_name) {
+  return {outcome.field, &outcome.measurement,
+          quantity_of(field_name, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
+          outcome.places};
+}
+
 Studio::Studio(const core::TriangleMesh& mesh)
     : body_(make_body(mesh)), rays_(body_.mesh), unit_(mesh.bounding_box().diagonal()), mesh_(mesh) {}
 

@@ -53,6 +53,9 @@ struct Subject {
       {};  ///< for each critical point, the vertex to show it at; empty: its own
 };
 
+/// What a picture of a method shows. `field_name`: of the field before the method. Refers to the outcome.
+Subject subject_of(const MethodOutcome& outcome, const std::string& field_name);
+
 /// One surface from one side, for any number of pictures. Holds the mesh by value.
 class Studio {
  public:

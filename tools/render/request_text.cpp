@@ -6,6 +6,23 @@
 #include "morsel/core/parameters.h"
 
 namespace morsel::tools::render {
+namespace {
+
+const char* center_name(ScaleRequest::Center center) {
+  switch (center) {
+    case ScaleRequest::Center::automatic:
+      return "automatic";
+    case ScaleRequest::Center::zero:
+      return "zero";
+    case ScaleRequest::Center::median:
+      return "median";
+    case ScaleRequest::Center::none:
+      break;
+  }
+  return "none";
+}
+
+}  // namespace
 
 Size parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
@@ -51,6 +68,48 @@ void CameraText::check() const {
 void FigureText::check() const {
   parse_size(size);
   camera.check();
+}
+
+std::string to_string(Show show) {
+  switch (show) {
+    case Show::field:
+      return "field";
+    case Show::descending:
+      return "descending";
+    case Show::ascending:
+      return "ascending";
+    case Show::morse_smale:
+      return "morse-smale";
+    case Show::plain:
+      break;
+  }
+  return "plain";
+}
+
+Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
+                     const core::VertexNumbering& numbering) {
+  const auto region = [&](const std::optional<Inset>& inset) -> Json {
+    if (!inset) return nullptr;
+    return {{"vertex", numbering.input_vertex(inset->vertex)}, {"radius", core::to_string(inset->radius)}};
+  };
+  const ScaleRequest& scale = request.scale;
+  return {{"size", {request.size.width, request.size.height}},
+          {"samples", request.samples},
+          {"background", request.transparent ? "transparent" : "white"},
+          {"view", camera.view},
+          {"up", to_string(camera.up)},
+          {"show", to_string(request.show)},
+          {"points", request.points},
+          {"arcs", request.arcs},
+          {"legend", request.legend},
+          {"colormap", scale.colormap.empty() ? Json() : Json(scale.colormap)},
+          {"center", center_name(scale.center)},
+          {"clip", scale.limits ? Json() : Json(scale.clip)},
+          {"limits", scale.limits ? Json({scale.limits->first, scale.limits->second}) : Json()},
+          {"inset", region(request.inset)},
+          {"frame", region(request.frame)},
+          {"close_up", region(request.close_up)},
+          {"caption", caption}};
 }
 
 }  // namespace morsel::tools::render

@@ -6,6 +6,7 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/render/picture.h"
+#include "morsel/tools/report/json_stream.h"
 
 namespace morsel::tools::render {
 
@@ -39,5 +40,12 @@ struct FigureText {
   /// Throws InvalidArgument, too, on a size that parse_size() refuses.
   void check() const;
 };
+
+/// "field", "descending", "ascending", "morse-smale", "plain"
+std::string to_string(Show show);
+
+/// All that a picture's looks follow from besides the subject, vertices by their numbers in the input file. `caption`: as it is drawn.
+Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
+                     const core::VertexNumbering& numbering);
 
 }  // namespace morsel::tools::render

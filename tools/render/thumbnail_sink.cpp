@@ -3,15 +3,16 @@
 #include <utility>
 
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/render/caption.h"
+#include "morsel/tools/drawing/png_comment.h"
 
 namespace morsel::tools::render {
-
 ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
-                             core::Progress progress)
+                             const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress)
     : prefix_(std::move(prefix)),
       methods_(methods),
       camera_(std::move(camera)),
+      loaded_(loaded),
+      provenance_(std::move(provenance)),
       progress_(std::move(progress)) {
   camera_.check();
   const core::FileWriter probe(path("first"));
@@ -19,6 +20,7 @@ ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, 
 
 void ThumbnailSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
+  provenance_.set_field(outcome);
   studio_.emplace(outcome.field.mesh());
   view_ = studio_->view(camera_.view, camera_.up, progress_);
 }
@@ -26,13 +28,13 @@ void ThumbnailSink::field(const FieldOutcome& outcome) {
 void ThumbnailSink::method(const MethodOutcome& outcome) {
   ++seen_;
   if (seen_ != 1 && seen_ != methods_) return;
-  const Subject subject{outcome.field, &outcome.measurement,
-                        quantity_of(field_name_, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
-                        outcome.places};
   PictureRequest request;
   request.size = {240, 180};
   request.legend = false;
-  const std::string bytes = encode_png(studio_->take(view_, subject, request, progress_));
+  Provenance provenance = provenance_.with_method(outcome.steps);
+  provenance.set("picture", picture_section(request, camera_, "", loaded_.source.numbering));
+  const Image image = studio_->take(view_, subject_of(outcome, field_name_), request, progress_);
+  const std::string bytes = drawing::with_png_comment(encode_png(image), provenance.json());
   if (seen_ == 1) core::write_file(path("first"), bytes);
   if (seen_ == methods_) core::write_file(path("last"), bytes);
 }

@@ -9,6 +9,7 @@
 #include "morsel/core/progress.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/render/request_text.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools::render {
 
@@ -17,9 +18,9 @@ namespace morsel::tools::render {
 class ThumbnailSink : public ComparisonSink {
  public:
   /// `methods`: how many there will be. Of `camera` the inset is left out. Throws WriteFailed if the files cannot be written, InvalidArgument on
-  /// a wrong view.
+  /// a wrong view. Refers to `loaded`.
   ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
-                core::Progress progress = {});
+                const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
 
@@ -30,6 +31,8 @@ class ThumbnailSink : public ComparisonSink {
   std::size_t methods_;
   std::size_t seen_ = 0;
   CameraText camera_;
+  const core::LoadedMesh& loaded_;
+  Provenance provenance_;
   core::Progress progress_;
   std::optional<Studio> studio_;
   View view_;

@@ -1,19 +1,9 @@
 #include "morsel/tools/report/cut_writer.h"
 
-#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
 namespace {
-
-Json request_section(const CutRequest& request) {
-  Json section = {{"field", request.field.field},
-                  {"method", request.field.method},
-                  {"shorten", request.shorten},
-                  {"repair", request.repair}};
-  if (request.field.target) section["target"] = *request.field.target;
-  return section;
-}
 
 void write_components(JsonSink& json, const std::vector<ComponentCut>& components) {
   json.begin_array("components");
@@ -59,13 +49,19 @@ void write_output(JsonSink& json, const mscomplex::CutMesh& opened, const core::
 
 }  // namespace
 
-void write_cut_document(JsonSink& json, const std::string& mesh_path, const HashedMesh& input,
-                        const CutRequest& request, const FieldRecipe& recipe, const MadeField& made,
-                        const CutOutcome& outcome, const CutTimings& timings) {
-  const core::LoadedMesh& loaded = input.loaded;
-  const core::VertexNumbering& numbering = loaded.source.numbering;
-  begin_field_document(json, "morsel.cut/1", request_section(request),
-                       {mesh_path, input.sha256, loaded, recipe, made});
+Json request_section(const CutRequest& request) {
+  Json section = {{"field", request.field.field},
+                  {"method", request.field.method},
+                  {"shorten", request.shorten},
+                  {"repair", request.repair}};
+  if (request.field.target) section["target"] = *request.field.target;
+  return section;
+}
+
+void write_cut_document(JsonSink& json, const CutRequest& request, const FieldSource& source,
+                        const CutOutcome& outcome, const Timings& timings) {
+  const core::VertexNumbering& numbering = source.loaded.source.numbering;
+  begin_field_document(json, "morsel.cut/1", request_section(request), source);
   json.begin_object("cut");
   json.member("length_found", outcome.length_found);
   json.member("length", outcome.cut.length);
@@ -78,14 +74,7 @@ void write_cut_document(JsonSink& json, const std::string& mesh_path, const Hash
   write_paths(json, outcome.cut, numbering);
   json.end_object();
   write_output(json, outcome.opened, numbering);
-  json.member("timings", {{"load", timings.load_seconds},
-                          {"field", made.input.seconds},
-                          {"method", made.method_seconds},
-                          {"complex", outcome.complex_seconds},
-                          {"cut", outcome.cut_seconds},
-                          {"shorten", outcome.shorten_seconds},
-                          {"open", outcome.open_seconds},
-                          {"write", timings.write_seconds}});
+  json.member("timings", timings_section(timings));
   json.end_object();
 }
 

@@ -5,6 +5,12 @@
 
 namespace morsel::tools {
 
+Json request_section(const FieldRequest& request, bool repair) {
+  Json section = {{"field", request.field}, {"method", request.method}, {"repair", repair}};
+  if (request.target) section["target"] = *request.target;
+  return section;
+}
+
 void begin_field_document(JsonSink& json, std::string_view schema, const Json& request,
                           const FieldSource& source) {
   const core::MeshSource& file = source.loaded.source;
@@ -12,7 +18,7 @@ void begin_field_document(JsonSink& json, std::string_view schema, const Json& r
   json.member("schema", schema);
   json.member("tool", tool_section());
   json.member("request", request);
-  json.member("mesh", mesh_section(source.mesh_path, source.mesh_sha256, source.loaded.mesh, file.repairs));
+  json.member("mesh", mesh_section(source.mesh.path, source.mesh.sha256, source.loaded.mesh, file.repairs));
   json.member("field", field_section(source.made.input));
   json.member("method", method_section(source.recipe, source.made, file.numbering));
 }

@@ -7,17 +7,20 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
 
 /// What a field was made from; refers to all of it.
 struct FieldSource {
-  const std::string& mesh_path;  ///< as the user gave it
-  const std::string& mesh_sha256;
+  const HashedFile& mesh;
   const core::LoadedMesh& loaded;
   const FieldRecipe& recipe;
   const MadeField& made;
 };
+
+/// {"field", "method", "repair", "target" (if there is one)}: in the words of the command line.
+Json request_section(const FieldRequest& request, bool repair);
 
 /// Begins a document: "schema", "tool", "request", "mesh", "field", "method". The caller adds what is its own
 /// and ends it.

@@ -17,4 +17,14 @@ struct HashedMesh {
 HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::BuildOptions& options = {},
                             const core::Progress& progress = {});
 
+struct HashedWholeMesh {
+  core::WholeMesh input;
+  std::string sha256;
+};
+
+/// core::read_whole_mesh() and, meanwhile, sha256_of_file().
+HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path,
+                                       const core::BuildOptions& options = {},
+                                       const core::Progress& progress = {});
+
 }  // namespace morsel::tools

@@ -30,6 +30,18 @@ struct SharedCells {
 
 }  // namespace
 
+Json request_section(const HierarchyRequest& request, const ReportInput& input) {
+  Json asked = {{"field", request.field.field},
+                {"method", request.field.method},
+                {"by", to_string(request.kind)},
+                {"repair", input.repair}};
+  if (!input.items) asked["items"] = false;
+  if (!request.levels.empty()) asked["levels"] = request.levels;
+  if (!request.counts.empty()) asked["counts"] = request.counts;
+  if (request.field.target) asked["target"] = *request.field.target;
+  return asked;
+}
+
 HierarchyWriter::HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                                  const HierarchyRequest& request, const PreparedHierarchy& prepared)
     : json_(json),
@@ -40,15 +52,7 @@ HierarchyWriter::HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded,
   json_.begin_object();
   json_.member("schema", "morsel.hierarchy/1");
   json_.member("tool", tool_section());
-  Json asked = {{"field", request.field.field},
-                {"method", request.field.method},
-                {"by", to_string(request.kind)},
-                {"repair", input.repair}};
-  if (!input.items) asked["items"] = false;
-  if (!request.levels.empty()) asked["levels"] = request.levels;
-  if (!request.counts.empty()) asked["counts"] = request.counts;
-  if (request.field.target) asked["target"] = *request.field.target;
-  json_.member("request", asked);
+  json_.member("request", request_section(request, input));
   json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
 }
 

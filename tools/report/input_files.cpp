@@ -4,11 +4,10 @@
 #include <map>
 
 #include "morsel/core/specification.h"
-#include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
 
-Json input_files(const std::vector<std::string>& specifications) {
+std::vector<HashedFile> input_files(const std::vector<std::string>& specifications) {
   std::map<std::string, std::string> hashes;
   for (const std::string& specification : specifications)
     for (const core::Specification& step : core::parse_chain(specification, "--method"))
@@ -16,9 +15,15 @@ Json input_files(const std::vector<std::string>& specifications) {
         if (const std::string value = core::unescape(raw);
             !hashes.contains(value) && std::filesystem::is_regular_file(value))
           hashes[value] = sha256_of_file(value);
-  Json files = Json::array();
-  for (const auto& [path, hash] : hashes) files.push_back({{"path", path}, {"sha256", hash}});
+  std::vector<HashedFile> files;
+  for (const auto& [path, hash] : hashes) files.push_back({path, hash});
   return files;
+}
+
+Json files_section(const std::vector<HashedFile>& files) {
+  Json list = Json::array();
+  for (const HashedFile& file : files) list.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  return list;
 }
 
 }  // namespace morsel::tools

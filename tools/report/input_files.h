@@ -5,11 +5,15 @@
 #include <vector>
 
 #include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
 
-/// [{"path", "sha256"}] of each file that a value in these fields and methods names, by path. A value that happens to be the name
-/// of a file is taken for one. Throws BadInput on one that cannot be read.
-Json input_files(const std::vector<std::string>& specifications);
+/// Each file that a value in these fields and methods names, by path. A value that happens to be the name of a file is taken for one.
+/// Throws BadInput on one that cannot be read.
+std::vector<HashedFile> input_files(const std::vector<std::string>& specifications);
+
+/// [{"path", "sha256"}]
+Json files_section(const std::vector<HashedFile>& files);
 
 }  // namespace morsel::tools

@@ -103,8 +103,12 @@ Json timings_section(const Timings& timings) {
   return json;
 }
 
+Json parameters_section(const std::vector<StepOutcome>& steps) {
+  return by_step(steps, &StepOutcome::parameters);
+}
+
 Json steps_section(const std::vector<StepOutcome>& steps) {
-  return {{"parameters", by_step(steps, &StepOutcome::parameters)},
+  return {{"parameters", parameters_section(steps)},
           {"details", by_step(steps, &StepOutcome::details)},
           {"iterations", by_step(steps, &StepOutcome::iterations)}};
 }

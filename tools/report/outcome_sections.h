@@ -32,6 +32,8 @@ Json complex_section(const mscomplex::MorseSmaleComplex& complex,
                      const mscomplex::Segmentation& segmentation);
 /// Steps with their seconds.
 Json timings_section(const Timings& timings);
+/// The resolved parameters of one step as they are, a chain's by step.
+Json parameters_section(const std::vector<StepOutcome>& steps);
 /// {"parameters", "details", "iterations"}: one step's as they are, a chain's by step.
 Json steps_section(const std::vector<StepOutcome>& steps);
 /// How a wanted number came about, without the list of the cancelled pairs; vertices in the input's numbers.

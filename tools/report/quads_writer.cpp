@@ -2,22 +2,10 @@
 
 #include <utility>
 
-#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
 namespace {
-
-Json request_section(const QuadsInput& input) {
-  Json request = {{"field", input.field.field},
-                  {"method", input.field.method},
-                  {"repair", input.repair},
-                  {"resolution", input.quads.resolution},
-                  {"relaxation", input.quads.relaxation}};
-  if (input.field.target) request["target"] = *input.field.target;
-  if (!input.quads.persistence.empty()) request["persistence"] = input.quads.persistence;
-  return request;
-}
 
 Json quality_section(const mscomplex::QuadQuality& q) {
   Json valence = Json::array();
@@ -37,16 +25,25 @@ Json quality_section(const mscomplex::QuadQuality& q) {
 
 }  // namespace
 
-void write_quads(JsonSink& json, const QuadsInput& input, const HashedMesh& mesh, const FieldRecipe& recipe,
-                 const MadeField& made, const Quadrangulation& result) {
-  const core::LoadedMesh& loaded = mesh.loaded;
-  const core::VertexNumbering& numbering = loaded.source.numbering;
+Json request_section(const QuadsRequest& asked) {
+  Json section = {{"field", asked.field.field},
+                  {"method", asked.field.method},
+                  {"repair", asked.repair},
+                  {"resolution", asked.quads.resolution},
+                  {"relaxation", asked.quads.relaxation}};
+  if (asked.field.target) section["target"] = *asked.field.target;
+  if (!asked.quads.persistence.empty()) section["persistence"] = asked.quads.persistence;
+  return section;
+}
+
+void write_quads(JsonSink& json, const QuadsRequest& request, const FieldSource& source,
+                 const Quadrangulation& result, const Timings& timings) {
+  const core::VertexNumbering& numbering = source.loaded.source.numbering;
   const mscomplex::MorseSmaleComplex& complex = result.repaired.complex;
   const auto vertex_of = [&](core::Index node) {
     return std::uint64_t{numbering.input_vertex(complex.node(node).vertex)};
   };
-  begin_field_document(json, "morsel.quads/1", request_section(input),
-                       {input.path, mesh.sha256, loaded, recipe, made});
+  begin_field_document(json, "morsel.quads/1", request_section(request), source);
   json.member("simplification", {{"threshold", result.threshold}, {"cancelled_pairs", result.cancelled}});
   json.begin_array("repairs");
   for (const mscomplex::DanglingRepair& r : result.repaired.repairs)
@@ -80,12 +77,7 @@ void write_quads(JsonSink& json, const QuadsInput& input, const HashedMesh& mesh
               {"scaled_jacobian_min", quality.scaled_jacobian_min}});
   }
   json.end_array();
-  json.member("timings", {{"load", input.load_seconds},
-                          {"field", made.input.seconds},
-                          {"method", made.method_seconds},
-                          {"layout", result.layout_seconds},
-                          {"sampling", result.sampling_seconds},
-                          {"measuring", result.measuring_seconds}});
+  json.member("timings", timings_section(timings));
   json.end_object();
 }
 

@@ -7,17 +7,22 @@
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
+
+Json request_section(const ReportInput& input, const ComparisonRequest& request) {
+  Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
+  if (!input.items) asked["items"] = false;
+  if (request.target) asked["target"] = *request.target;
+  if (request.snap) asked["snap"] = true;
+  return asked;
+}
+
 ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                            const ComparisonRequest& request)
     : json_(json), loaded_(loaded), items_(input.items), timings_({{"load", input.load_seconds}}) {
   json_.begin_object();
   json_.member("schema", "morsel.comparison/1");
   json_.member("tool", tool_section());
-  Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
-  if (!input.items) asked["items"] = false;
-  if (request.target) asked["target"] = *request.target;
-  if (request.snap) asked["snap"] = true;
-  json_.member("request", asked);
+  json_.member("request", request_section(input, request));
   json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
 }
 

@@ -18,6 +18,9 @@ struct ReportInput {
   double load_seconds = 0;
 };
 
+/// What was asked for.
+Json request_section(const ReportInput& input, const ComparisonRequest& request);
+
 /// Writes a report while the comparison runs, method by method.
 class ReportWriter : public ComparisonSink {
  public:

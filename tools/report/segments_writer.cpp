@@ -4,7 +4,6 @@
 
 #include "morsel/persistence/diagram.h"
 #include "morsel/persistence/pairing.h"
-#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -13,17 +12,6 @@ namespace {
 using core::Index;
 using core::kNone;
 using mscomplex::NodeKind;
-
-Json request_section(const SegmentsInput& input) {
-  Json asked = {{"field", input.field.field},
-                {"method", input.field.method},
-                {"by", to_string(input.segments.kind)},
-                {"repair", input.repair}};
-  if (input.field.target) asked["target"] = *input.field.target;
-  if (input.segments.segments) asked["segments"] = *input.segments.segments;
-  if (input.segments.persistence) asked["persistence"] = persistence::to_string(*input.segments.persistence);
-  return asked;
-}
 
 Json merging_section(const MadeSegments& made) {
   return {{"segments_before", made.unmerged},
@@ -105,23 +93,30 @@ class SegmentRows {
 
 }  // namespace
 
-void write_segments(JsonSink& json, const SegmentsInput& input, const core::LoadedMesh& loaded,
-                    const FieldRecipe& recipe, const MadeField& field, const MadeSegments& made,
-                    const Timings& timings) {
-  const core::VertexNumbering& numbering = loaded.source.numbering;
+Json request_section(const SegmentsRequest& request) {
+  Json asked = {{"field", request.field.field},
+                {"method", request.field.method},
+                {"by", to_string(request.segments.kind)},
+                {"repair", request.repair}};
+  if (request.field.target) asked["target"] = *request.field.target;
+  if (request.segments.segments) asked["segments"] = *request.segments.segments;
+  if (request.segments.persistence)
+    asked["persistence"] = persistence::to_string(*request.segments.persistence);
+  return asked;
+}
+
+void write_segments(JsonSink& json, const SegmentsRequest& request, const FieldSource& source,
+                    const MadeSegments& made, const Timings& timings) {
   const MadeSegments::Areas areas = made.areas();
-  begin_field_document(json, "morsel.segments/1", request_section(input),
-                       {input.mesh_path, input.mesh_sha256, loaded, recipe, field});
+  begin_field_document(json, "morsel.segments/1", request_section(request), source);
   json.member("merging", merging_section(made));
   json.member("count", made.segments.count());
   json.member("area", {{"smallest", areas.smallest}, {"median", areas.median}, {"largest", areas.largest}});
   json.begin_array("segments");
-  const SegmentRows rows(made, field.field(), numbering);
+  const SegmentRows rows(made, source.made.field(), source.loaded.source.numbering);
   json.rows(made.segments.count(), [&](std::size_t i, const TakeRow& take) { rows.make(i, take); });
   json.end_array();
-  Json seconds = Json::object();
-  for (const auto& [step, time] : timings) seconds[step] = time;
-  json.member("timings", seconds);
+  json.member("timings", timings_section(timings));
   json.end_object();
 }
 

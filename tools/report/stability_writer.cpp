@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/tools/report/csv_line.h"
+#include "morsel/tools/report/csv.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -128,7 +128,7 @@ Json trials_key(const StabilityRequest& request, const ReportInput& input) {
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},
           {"request", std::move(asked)},
-          {"files", input_files(specifications)}};
+          {"files", files_section(input_files(specifications))}};
 }
 
 void write_stability(JsonSink& json, const StabilityReport& report) {
@@ -186,7 +186,7 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(report.prepared.functions[outcome.field].specification);
       line.add_json(to_json(result.fields[outcome.field].parameters));
       line.add(report.prepared.chains[outcome.method].specification);
-      line.add_json(steps_section(outcome.clean.steps)["parameters"]);
+      line.add_json(parameters_section(outcome.clean.steps));
       line.add(outcome.target ? std::to_string(*outcome.target) : "");
       line.add(std::uint64_t{outcome.with_reference.found});
       line.add(outcome.agreement());

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "morsel/tools/report/csv_line.h"
+#include "morsel/tools/report/csv.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/text_table.h"
@@ -25,17 +25,6 @@ double all_seconds(const Json& seconds) {
   return sum;
 }
 
-Json request_section(const SweepReport& report) {
-  Json variations = Json::array();
-  for (const Variation& variation : report.prepared.variations)
-    variations.push_back({{"key", variation.key}, {"values", variation.values}});
-  return {{"field", report.request.field},
-          {"method", report.request.method},
-          {"vary", report.request.vary},
-          {"variations", std::move(variations)},
-          {"repair", report.input.repair}};
-}
-
 void write_row(JsonSink& json, const SweepReport& report, std::size_t i) {
   const Combination& combination = report.prepared.combinations[i];
   Json values = Json::object();
@@ -51,14 +40,24 @@ void write_row(JsonSink& json, const SweepReport& report, std::size_t i) {
 
 }  // namespace
 
+Json request_section(const SweepRequest& request, const PreparedSweep& prepared, bool repair) {
+  Json variations = Json::array();
+  for (const Variation& variation : prepared.variations)
+    variations.push_back({{"key", variation.key}, {"values", variation.values}});
+  return {{"field", request.field},
+          {"method", request.method},
+          {"vary", request.vary},
+          {"variations", std::move(variations)},
+          {"repair", repair}};
+}
+
 void write_sweep(JsonSink& json, const SweepReport& report) {
   json.begin_object();
   json.member("schema", "morsel.sweep/1");
   json.member("tool", tool_section());
-  json.member("request", request_section(report));
+  json.member("request", request_section(report.request, report.prepared, report.input.repair));
   json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded.mesh,
                                    report.loaded.source.repairs));
-  json.member("files", report.files);
   json.begin_array("rows");
   for (std::size_t i = 0; i < report.rows.size(); ++i) write_row(json, report, i);
   json.end_array();
@@ -70,7 +69,7 @@ void write_sweep(JsonSink& json, const SweepReport& report) {
 
 void write_sweep_csv(std::ostream& out, const SweepReport& report) {
   CsvLine head;
-  for (const char* column : {"version", "mesh", "sha256", "files", "field", "method"}) head.add(column);
+  for (const char* column : {"version", "mesh", "sha256", "field", "method"}) head.add(column);
   for (const Variation& variation : report.prepared.variations) head.add(variation.key);
   head.add("iterations_run");
   for (const char* count : kCounts) head.add(count);
@@ -86,7 +85,6 @@ void write_sweep_csv(std::ostream& out, const SweepReport& report) {
     line.add(kVersion);
     line.add(report.input.mesh_path);
     line.add(report.input.mesh_sha256);
-    line.add(report.files.empty() ? std::string() : json_text(report.files));
     line.add(to_string(combination.field));
     line.add(to_string(combination.steps));
     for (std::size_t k = 0; k < combination.choices.size(); ++k) line.add(value_of(report, i, k));

@@ -17,10 +17,12 @@ struct SweepReport {
   const core::LoadedMesh& loaded;
   const ReportInput& input;
   const SweepRequest& request;
-  const Json& files;  ///< input_files() of all combinations
   const PreparedSweep& prepared;
   const std::vector<SweepRow>& rows;
 };
+
+/// What was asked for, and with which ranges.
+Json request_section(const SweepRequest& request, const PreparedSweep& prepared, bool repair);
 
 /// Of its members only "timings" differs when it is run again.
 void write_sweep(JsonSink& json, const SweepReport& report);

@@ -102,6 +102,28 @@ Json all_timings(const Reproduction& reproduction) {
 
 }  // namespace
 
+Provenance provenance_of(const Request& request, const std::vector<const Model*>& models) {
+  std::vector<HashedFile> meshes;
+  for (const Model* model : models) meshes.push_back({model->file().path.string(), model->sha256()});
+  return {command_line(command_words(request)), request_section(request), meshes};
+}
+
+Provenance page_provenance(const Prepared& prepared, const Reproduction& reproduction) {
+  std::vector<const Model*> models;
+  Json runs = Json::array();
+  for (const auto& model : reproduction.models) {
+    models.push_back(model.get());
+    for (const auto& [method, run] : model->runs())
+      runs.push_back({{"model", model->recipe().name},
+                      {"field", to_json(run->made.input.parameters)},
+                      {"method", method},
+                      {"parameters", parameters_section(run->made.outcome.steps)}});
+  }
+  Provenance provenance = provenance_of(prepared.request, models);
+  provenance.set("runs", std::move(runs));
+  return provenance;
+}
+
 void write_document(JsonSink& json, const Prepared& prepared, const Reproduction& reproduction) {
   Json models = Json::array();
   for (std::size_t i = 0; i < reproduction.models.size(); ++i)

@@ -7,6 +7,7 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
+#include "morsel/tools/drawing/png_comment.h"
 #include "morsel/tools/hierarchy/hierarchy.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/sheet.h"
@@ -78,22 +79,6 @@ std::string region_text(const Model& model, const ComparedRegion& region) {
          core::to_string(region.radius);
 }
 
-std::string name_of(Show show) {
-  switch (show) {
-    case Show::field:
-      return "field";
-    case Show::descending:
-      return "descending";
-    case Show::ascending:
-      return "ascending";
-    case Show::morse_smale:
-      return "morse-smale";
-    case Show::plain:
-      break;
-  }
-  return "plain";
-}
-
 /// What `morsel render` is to be told to make the panel.
 std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutcome& figure,
                                     const PictureOptions& options, const render::PictureRequest& request) {
@@ -103,7 +88,7 @@ std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutco
       "--method", panel.method};
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (options.repair) add({"--repair"});
-  if (request.show != Show::field) add({"--show", name_of(request.show)});
+  if (request.show != Show::field) add({"--show", render::to_string(request.show)});
   if (!request.points) add({"--no-points"});
   if (!request.legend) add({"--no-legend"});
   if (request.arcs && request.show == Show::field) add({"--arcs"});
@@ -162,16 +147,24 @@ std::vector<LevelLinks> count_links(const FigureRecipe& recipe, const Model& mod
   return std::move(counter.levels);
 }
 
-void write(const std::filesystem::path& path, const std::string& bytes) {
-  core::FileWriter file(path, core::Sync::never);
-  file.write(bytes);
-  file.commit();
+/// The picture as `morsel render` with the panel's command writes it.
+std::string panel_png(const render::Image& image, const PanelOutcome& panel, const Model& model,
+                      const PictureOptions& options, const render::PictureRequest& request) {
+  const HashedFile mesh{model.file().path.string(), model.sha256()};
+  Provenance provenance(
+      shaping_command(panel.command),
+      tools::request_section(FieldRequest{std::string(kField), panel.method, {}}, options.repair),
+      {mesh, model.loaded(), panel.run->recipe, panel.run->made});
+  provenance.set("picture",
+                 render::picture_section(request, options.camera, "", model.loaded().source.numbering));
+  return drawing::with_png_comment(render::encode_png(image), provenance.json());
 }
 
 }  // namespace
 
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
-                          const std::filesystem::path& folder, const core::Progress& progress) {
+                          const std::filesystem::path& folder, Provenance provenance,
+                          const core::Progress& progress) {
   const std::string name = "figure" + std::to_string(recipe.number);
   FigureOutcome figure{&recipe, &model, name + ".png", {}, {}, {}, {}};
   SharedScales scales;
@@ -214,14 +207,19 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
         panel.run->made.field(), &panel.run->measurement,
         render::quantity_of(std::string(kField), panel.run->recipe.chain.steps.back().name), ""};
     render::Image image = model.studio().take(view, subject, request, progress);
-    panel.png = render::encode_png(image);
-    write(folder / panel.file, panel.png);
+    panel.png = panel_png(image, panel, model, options, request);
+    core::write_file(folder / panel.file, panel.png, core::Sync::never);
+    provenance.add_method(panel.run->made.outcome.steps);
     sheet.push_back({std::move(image), panel.caption});
   }
   figure.finding = recipe.finding(figure);
   const std::string title = "Figure " + std::to_string(recipe.number) + ". " + std::string(recipe.title) +
                             ": " + model.file().path.filename().string();
-  write(folder / figure.file, render::encode_png(render::make_sheet(sheet, title)));
+  provenance.set_field(figure.panels.front().run->made.input);
+  core::write_file(
+      folder / figure.file,
+      drawing::with_png_comment(render::encode_png(render::make_sheet(sheet, title)), provenance.json()),
+      core::Sync::never);
   return figure;
 }
 

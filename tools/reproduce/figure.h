@@ -5,6 +5,7 @@
 
 #include "morsel/core/progress.h"
 #include "morsel/tools/render/request_text.h"
+#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/reproduce/outcome.h"
 
 namespace morsel::tools::reproduce {
@@ -18,8 +19,9 @@ struct PictureOptions {
 };
 
 /// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods, pictures and
-/// files throw.
+/// files throw. `provenance`: of the figure, without field and methods; each panel has its own.
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
-                          const std::filesystem::path& folder, const core::Progress& progress = {});
+                          const std::filesystem::path& folder, Provenance provenance,
+                          const core::Progress& progress = {});
 
 }  // namespace morsel::tools::reproduce

@@ -42,6 +42,8 @@ class Model {
   const core::TriangleMesh& mesh() const { return loaded_.mesh; }
   const render::Studio& studio() const { return studio_; }
 
+  /// What was run until now, by method.
+  const std::map<std::string, std::unique_ptr<const MethodRun>>& runs() const { return runs_; }
   /// Throws what make_field() and measure() throw.
   const MethodRun& run(const std::string& method, const core::Progress& progress = {});
 

@@ -9,6 +9,7 @@
 #include "morsel/tools/report/base64.h"
 #include "morsel/tools/report/text_table.h"
 #include "morsel/tools/report/version.h"
+#include "morsel/tools/reproduce/document.h"
 
 namespace morsel::tools::reproduce {
 namespace {
@@ -35,18 +36,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines(1);
   for (const char c : text) c == '\n' ? lines.emplace_back() : lines.back() += c;
   return lines;
-}
-
-/// The command line of it all.
-std::string command_of(const Request& request) {
-  std::vector<std::string> words = {"morsel", "reproduce", request.folder.string()};
-  if (!request.data.empty()) words.insert(words.end(), {"--data", request.data.string()});
-  words.insert(words.end(), {"--meshes", request.samples.string(), "--size", request.size, "--samples",
-                             std::to_string(request.pixel_samples)});
-  for (const std::string& view : request.views) words.insert(words.end(), {"--view", view});
-  for (const std::string& up : request.ups) words.insert(words.end(), {"--up", up});
-  if (request.repair) words.emplace_back("--repair");
-  return command_line(words);
 }
 
 std::string models_table(const Reproduction& reproduction) {
@@ -156,8 +145,11 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       "not in size.</p>\n" +
       models_table(reproduction) + "</section>\n" + table_section(reproduction);
   for (const FigureOutcome& figure : reproduction.figures) text += figure_section(figure);
+  std::vector<std::string> command = command_words(prepared.request);
+  command.insert(command.begin() + 2, prepared.request.folder.string());
   return text + "</main>\n<footer><p>All of this again:</p><pre class=\"copy\">" +
-         markup_text(command_of(prepared.request)) + "</pre></footer>\n</body>\n</html>\n";
+         markup_text(command_line(command)) + "</pre></footer>\n</body>\n</html>\n" +
+         page_provenance(prepared, reproduction).html_comment();
 }
 
 }  // namespace morsel::tools::reproduce

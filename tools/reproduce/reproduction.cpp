@@ -44,6 +44,17 @@ render::UpAxis up_axis(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> command_words(const Request& request) {
+  std::vector<std::string> words = {"morsel", "reproduce"};
+  if (!request.data.empty()) words.insert(words.end(), {"--data", request.data.string()});
+  words.insert(words.end(), {"--meshes", request.samples.string(), "--size", request.size, "--samples",
+                             std::to_string(request.pixel_samples)});
+  for (const std::string& view : request.views) words.insert(words.end(), {"--view", view});
+  for (const std::string& up : request.ups) words.insert(words.end(), {"--up", up});
+  if (request.repair) words.emplace_back("--repair");
+  return words;
+}
+
 Prepared prepare(const Request& request) {
   PictureOptions pictures;
   pictures.size = render::parse_size(request.size);
@@ -84,8 +95,9 @@ Reproduction run(const Prepared& prepared, const core::Progress& progress) {
   timed("methods", [&] { reproduction.table = make_table(reproduction.models, progress); });
   for (const FigureRecipe& figure : figures())
     timed("figure" + std::to_string(figure.number), [&] {
-      reproduction.figures.push_back(make_figure(figure, *reproduction.models[figure.model],
-                                                 prepared.pictures[figure.model], folder, progress));
+      Model& model = *reproduction.models[figure.model];
+      reproduction.figures.push_back(make_figure(figure, model, prepared.pictures[figure.model], folder,
+                                                 provenance_of(prepared.request, {&model}), progress));
     });
   reproduction.timings.emplace_back("total", total.seconds());
 

@@ -23,6 +23,9 @@ struct Request {
   bool repair = false;
 };
 
+/// The command line that it came from, but for the folder, which changes nothing.
+std::vector<std::string> command_words(const Request& request);
+
 /// A request whose words have been looked up.
 struct Prepared {
   Request request;

@@ -5,21 +5,12 @@
 #include <utility>
 
 #include "morsel/core/parameters.h"
+#include "morsel/tools/report/csv.h"
+#include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/text_table.h"
+#include "morsel/tools/report/version.h"
 
 namespace morsel::tools::reproduce {
-namespace {
-
-/// Quoted where a reader of CSV would take it apart.
-std::string csv(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-}  // namespace
-
 std::string method_of(const TableRow& row, const TableSetting& setting) {
   if (row.iterations == 0) return "conventional";
   return "salient:iterations=" + std::to_string(row.iterations) + "," + std::string(setting.keys);
@@ -42,16 +33,21 @@ std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>
 
 std::string table_csv(const std::vector<TableRowOutcome>& table) {
   std::string text =
-      "model,mesh,vertices,figure,iterations,method,points,paper_points,seconds,paper_seconds\r\n";
+      "model,mesh,vertices,figure,iterations,method,points,paper_points,seconds,paper_seconds,version,sha256,"
+      "field,field_parameters,method_parameters\r\n";
   for (const TableRowOutcome& row : table)
     for (const TableCell& cell : row.cells)
-      text += std::string(row.model->recipe().name) + "," + csv(row.model->file().path.filename().string()) +
-              "," + std::to_string(row.model->mesh().vertex_count()) + "," + std::string(row.recipe->figure) +
-              "," + std::to_string(row.recipe->iterations) + "," + csv(cell.run->recipe.chain.specification) +
+      text += std::string(row.model->recipe().name) + "," +
+              csv_field(row.model->file().path.filename().string()) + "," +
+              std::to_string(row.model->mesh().vertex_count()) + "," + std::string(row.recipe->figure) + "," +
+              std::to_string(row.recipe->iterations) + "," + csv_field(cell.run->recipe.chain.specification) +
               "," + std::to_string(cell.run->total()) + "," +
               (row.recipe->paper_points ? std::to_string(*row.recipe->paper_points) : "") + "," +
               core::shortest(cell.run->seconds) + "," +
-              (row.recipe->paper_seconds ? core::shortest(*row.recipe->paper_seconds) : "") + "\r\n";
+              (row.recipe->paper_seconds ? core::shortest(*row.recipe->paper_seconds) : "") + "," + kVersion +
+              "," + row.model->sha256() + "," + std::string(kField) + "," +
+              csv_field(json_text(to_json(cell.run->made.input.parameters))) + "," +
+              csv_field(json_text(parameters_section(cell.run->made.outcome.steps))) + "\r\n";
   return text;
 }
 

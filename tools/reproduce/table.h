@@ -16,7 +16,7 @@ std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>
 std::string method_of(const TableRow& row, const TableSetting& setting);
 
 /// A line for each row and setting: model, mesh, vertices, figure, iterations, method, points, paper_points, seconds,
-/// paper_seconds; empty where the paper has no number. RFC 4180.
+/// paper_seconds (empty where the paper has no number), version, the mesh's sha256, and all resolved parameters. RFC 4180.
 std::string table_csv(const std::vector<TableRowOutcome>& table);
 
 }  // namespace morsel::tools::reproduce

@@ -222,7 +222,7 @@ class SweepRun {
       row.result = {{"field", field_section(*field_)},
                     {"method",
                      {{"name", name},
-                      {"parameters", steps_section(draft.steps)["parameters"]},
+                      {"parameters", parameters_section(draft.steps)},
                       {"min", draft.measured["min"]},
                       {"max", draft.measured["max"]}}},
                     {"iterations_run", iterates ? Json(iterations) : Json()},

@@ -1,4 +1,4 @@
-#include "morsel/tools/report/csv_line.h"
+#include "morsel/tools/report/csv.h"
 
 #include "morsel/core/parameters.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A line of comma-separated values (RFC 4180).
+/// Tables of comma-separated values (RFC 4180).
 
 #include <cstdint>
 #include <optional>
@@ -10,9 +10,10 @@
 
 namespace morsel::tools {
 
-/// A text as a field, in quotes where it needs them.
+/// A field: in quotes where it has a comma, a quote or a line's end.
 std::string csv_field(std::string_view text);
 
+/// A line of fields.
 class CsvLine {
  public:
   void add(std::string_view text) { add_raw(csv_field(text)); }

@@ -1,0 +1,316 @@
+"""Every file that the program writes tells where it comes from: version, inputs with hashes, resolved parameters; and is the same
+when it is made again. A reader for each kind of file, written from what the documentation says."""
+
+import csv
+import hashlib
+import json
+import re
+import shutil
+import struct
+import unittest
+import xml.etree.ElementTree as xml
+import zlib
+
+import jsonschema
+from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from test_molecule import atom
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+PROVENANCE_SCHEMA = SCHEMA.parent / "provenance.schema.json"
+VALUES = "9\n8\n-2\n0\n-1\n1\n"  # on the octahedron: two minima, two saddles, two maxima
+
+
+def of_png(path):
+    data, at, texts = path.read_bytes(), 8, {}
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0], path
+        if kind == b"tEXt":
+            keyword, text = body.split(b"\0")
+            texts[keyword.decode()] = text.decode("latin-1")
+        at += 12 + size
+    document = json.loads(texts["Comment"])
+    assert texts["Software"] == "morsel " + document["tool"]["version"]
+    return document
+
+
+def of_svg(path):
+    return json.loads(xml.parse(path).getroot().findtext("{http://www.w3.org/2000/svg}metadata"))
+
+
+def of_vtp(path):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    array = reader.GetOutput().GetFieldData().GetAbstractArray("provenance")
+    assert array.GetNumberOfValues() == 1
+    return json.loads(array.GetValue(0))
+
+
+def of_lines(path, mark):
+    """Of comment lines, which are short: some readers take no long ones."""
+    lines = [line.decode() for line in path.read_bytes().split(b"end_header")[0].splitlines() if line.startswith(mark)]
+    assert max(map(len, lines)) < 500
+    return json.loads("".join(line[len(mark):] for line in lines))
+
+
+def of_html(path):
+    return json.loads(re.findall(r"<!-- ([^\n]*) -->\n$", path.read_text())[-1])
+
+
+READERS = {".png": of_png, ".svg": of_svg, ".vtp": of_vtp, ".ply": lambda path: of_lines(path, b"comment "),
+           ".off": lambda path: of_lines(path, b"# "), ".obj": lambda path: of_lines(path, b"# "),
+           ".txt": lambda path: of_lines(path, b"# "), ".html": of_html}
+
+
+def without_timings(path):
+    """What must be the same when a file is made again."""
+    if path.suffix == ".json":
+        document = json.loads(path.read_text())
+        document.pop("timings", None)
+        document.pop("seconds", None)  # of the state of a batch
+        return document
+    if path.suffix == ".csv":
+        with open(path, newline="", encoding="utf-8") as file:
+            return [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(file)]
+    if path.suffix == ".html":
+        text = re.sub(r'"timings":\s*\{.*?\}\s*\}', "", path.read_text(), flags=re.DOTALL)
+        return re.sub(r"<small>[\d.]+ s</small>|reproduce out\d", "", text)
+    return path.read_bytes()
+
+
+class Provenance(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.schema = json.loads(PROVENANCE_SCHEMA.read_text())
+        self.version = self.morsel("--version").stdout.split()[1]
+        shutil.copy(SAMPLES / "sphere.off", self.folder / "a mesh--1.off")
+        self.mesh = "a mesh--1.off"
+        self.octahedron = self.file("octahedron.off", OCTAHEDRON).name
+        self.values = self.file("values.txt", VALUES).name
+
+    def sha256(self, name):
+        return hashlib.sha256((self.folder / name).read_bytes()).hexdigest()
+
+    def written_twice(self, *arguments, expected):
+        """The files that a command writes into {out}; it writes the same, but for timings, at another number of threads."""
+        runs = []
+        for threads in (1, 3):
+            out = self.folder / f"out{threads}"
+            out.mkdir()
+            self.morsel(*(str(word).format(out=out.name) for word in arguments), "--threads", threads)
+            runs.append({str(path.relative_to(out)): path for path in sorted(out.rglob("*")) if path.is_file()})
+        self.assertEqual(set(runs[0]), set(expected))
+        self.assertEqual({name: without_timings(path) for name, path in runs[0].items()},
+                         {name: without_timings(path) for name, path in runs[1].items()})
+        shutil.rmtree(self.folder / "out3")
+        return runs[0]
+
+    def check_document(self, document, path):
+        jsonschema.validate(document, self.schema)
+        self.assertEqual(document["tool"]["version"], self.version)
+        # The program finds what the reader found.
+        self.assertEqual(json.loads(self.morsel("info", path, "--json").stdout)["provenance"], document)
+
+    def check(self, files, command, inputs, methods, shown=None, keys=("mean-curvature", "radius")):
+        """`methods`: names of all; `shown`: those that a file shows, by its name, where these are not all."""
+        hashes = [{"path": name, "sha256": self.sha256(name)} for name in inputs]
+        for name, path in files.items():
+            with self.subTest(file=name):
+                if path.suffix == ".json":
+                    document = json.loads(path.read_text())
+                    self.assertEqual(document["tool"]["version"], self.version)
+                    self.assertEqual((document["mesh"]["path"], document["mesh"]["sha256"]), (inputs[0], hashes[0]["sha256"]))
+                    self.assertIn("request", document)
+                    continue
+                if path.suffix == ".csv":
+                    with open(path, newline="", encoding="utf-8") as file:
+                        first, *others = csv.DictReader(file)
+                    self.assertEqual({row["provenance"] for row in others}, {""})
+                    document = json.loads(first["provenance"])
+                else:
+                    document = READERS[path.suffix](path)
+                self.check_document(document, path)
+                self.assertTrue(document["command"].startswith(f"morsel {command} "), document["command"])
+                self.assertNotRegex(document["command"], "out1|threads")
+                self.assertEqual(document["inputs"], hashes)
+                if methods:
+                    self.assertEqual(document["field"]["name"], keys[0])
+                    self.assertIn(keys[1], document["field"]["parameters"])
+                    wanted = next((show for start, show in (shown or {}).items() if name.startswith(start)), methods)
+                    self.assertEqual([method["name"] for method in document["methods"]], wanted)
+                    for method in document["methods"]:
+                        if method["name"] == "salient":
+                            self.assertGreater(method["parameters"]["sigma"], 0)  # 8eps, in the mesh's unit
+    def test_compare(self):
+        methods = ["conventional", "salient", "tps"]
+        files = self.written_twice(
+            "compare", self.mesh, "-o", "{out}/report.json", "--html", "{out}/page.html", "--figures", "{out}", "--size", "60x42",
+            "--export", "{out}", "--thumbnails", "{out}/small", expected={
+                "report.json", "page.html", "small.first.png", "small.last.png", "sheet.png",
+                *(f"{all_methods}.{kind}" for all_methods in ("diagrams", "persistence", "iterations") for kind in ("png", "svg")),
+                *(f"{method}.{kind}" for method in methods for kind in (
+                    "png", "diagram.png", "diagram.svg", "surface.vtp", "complex.vtp", "points.csv"))})
+        shown = {f"{method}.": [method] for method in methods} | {"small.first": ["conventional"], "small.last": ["tps"]}
+        self.check(files, "compare", [self.mesh], methods, shown)
+
+    def test_field(self):
+        for kind in ("txt", "ply", "vtp"):
+            files = self.written_twice("field", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "--method",
+                                       "salient:iterations=2", "-o", f"{{out}}/f.{kind}", expected={f"f.{kind}"})
+            self.check(files, "field", [self.octahedron, self.values], ["salient"], keys=("vertex-scalar", "file_sha256"))
+            shutil.rmtree(self.folder / "out1")
+
+    def test_hierarchy(self):
+        files = self.written_twice(
+            "hierarchy", self.mesh, "--levels", "0,2", "-o", "{out}/h.json", "--export", "{out}",
+            expected={"h.json", "surface.0.vtp", "surface.1.vtp", "complex.0.vtp", "complex.1.vtp"})
+        self.check(files, "hierarchy", [self.mesh], ["salient"])
+        self.assertEqual(of_vtp(files["surface.1.vtp"])["level"], {"place": 1, "asked": "2"})
+        self.assertEqual(of_vtp(files["surface.1.vtp"])["request"]["levels"], "0,2")
+
+    def test_segment(self):
+        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("txt", {"s.vertices.txt", "s.faces.txt"})):
+            files = self.written_twice("segment", self.mesh, "--persistence", "1%", "-o", f"{{out}}/s.{kind}", "--json",
+                                       "{out}/s.json", expected={"s.json", *names})
+            self.check(files, "segment", [self.mesh], ["conventional"])
+            shutil.rmtree(self.folder / "out1")
+
+    def test_cut(self):
+        for kind in ("off", "ply"):
+            files = self.written_twice("cut", self.mesh, "--field", "mean-curvature", "--method", "salient+tps:count=8", "-o",
+                                       f"{{out}}/c.{kind}", "--json", "{out}/c.json", "--graph", "{out}/g.vtp",
+                                       expected={f"c.{kind}", "c.json", "g.vtp"})
+            self.check(files, "cut", [self.mesh], ["salient+tps"])
+            self.assertEqual(READERS[f".{kind}"](files[f"c.{kind}"])["request"]["shorten"], True)
+            shutil.rmtree(self.folder / "out1")
+
+    def test_quads(self):
+        files = self.written_twice("quads", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "-o",
+                                   "{out}/q.obj", "--json", "{out}/q.json", expected={"q.obj", "q.json"})
+        self.check(files, "quads", [self.octahedron, self.values], ["conventional"], keys=("vertex-scalar", "file"))
+        report = json.loads(files["q.json"].read_text())
+        self.assertEqual(report["field"]["parameters"]["file_sha256"], self.sha256(self.values))
+
+    def test_render(self):
+        files = self.written_twice("render", self.mesh, "--method", "salient", "--size", "60x42", "--samples", "1", "--inset", "7",
+                                   "--view=-20/10", "--caption", "über <&> --", "-o", "{out}/p.png", expected={"p.png"})
+        self.check(files, "render", [self.mesh], ["salient"])
+        document = of_png(files["p.png"])
+        self.assertEqual(document["command"], "morsel render 'a mesh--1.off' --method salient --size 60x42 --samples 1 --inset 7 "
+                                              "--view=-20/10 --caption 'über <&> --'")
+        self.assertEqual(document["picture"]["inset"], {"vertex": 7, "radius": "15eps"})
+        self.assertEqual((document["picture"]["view"], document["picture"]["caption"]), ("-20/10", "über <&> --"))
+
+    def test_molecule(self):
+        self.file("two.pdb", atom(1, (0, 0, 0)) + atom(2, (2, 0, 0)))
+        for kind in ("off", "ply"):
+            files = self.written_twice("molecule", "two.pdb", "-o", f"{{out}}/m.{kind}", expected={f"m.{kind}"})
+            self.check(files, "molecule", ["two.pdb"], [])
+            request = READERS[f".{kind}"](files[f"m.{kind}"])["request"]
+            self.assertEqual((request["kind"], request["resolution"], request["hetero"]), ("gaussian", 0.5, "residues"))
+            shutil.rmtree(self.folder / "out1")
+
+    def test_stability(self):
+        for kind in ("json", "csv"):
+            files = self.written_twice("stability", self.mesh, "--noise", "0.1", "--trials", "2", "--seed", "7", "-o",
+                                       f"{{out}}/s.{kind}", expected={f"s.{kind}"})
+            if kind == "json":
+                self.check(files, "stability", [self.mesh], [])
+                self.assertEqual(json.loads(files["s.json"].read_text())["request"]["seed"], 7)
+            else:
+                for row in without_timings(files["s.csv"]):
+                    self.assertEqual((row["version"], row["mesh"], row["sha256"], row["seed"]),
+                                     (self.version, self.mesh, self.sha256(self.mesh), "7"))
+                    self.assertIn("radius", json.loads(row["field_parameters"]))
+                    json.loads(row["method_parameters"])
+            shutil.rmtree(self.folder / "out1")
+
+    def test_sweep(self):
+        files = self.written_twice("sweep", self.mesh, "--vary", "iterations=1..3", "--vary", "range=1std,local", "-o",
+                                   "{out}/s.json", "--figures", "{out}",
+                                   expected={"s.json", *(f"{key}.{kind}" for key in ("iterations", "range")
+                                                         for kind in ("png", "svg"))})
+        self.check(files, "sweep", [self.mesh], [])
+        self.assertEqual(of_svg(files["range.svg"])["request"]["variations"][0],
+                         {"key": "iterations", "values": ["1", "2", "3"]})
+        shutil.rmtree(self.folder / "out1")
+        files = self.written_twice("sweep", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "--vary",
+                                   "iterations=1..3", "-o", "{out}/s.csv", expected={"s.csv"})
+        for row in without_timings(files["s.csv"]):
+            self.assertEqual((row["version"], row["mesh"], row["sha256"]),
+                             (self.version, self.octahedron, self.sha256(self.octahedron)))
+            self.assertEqual(json.loads(row["field_parameters"])["file_sha256"], self.sha256(self.values))
+
+    def test_reproduce(self):
+        names = ("lion", "squirrel", "protein")
+        (self.folder / "data").mkdir()
+        for name in names:
+            shutil.copy(self.folder / self.mesh, self.folder / "data" / f"{name}.off")
+        panels = {1: "abcd", 2: "ab", 3: "abcde", 4: "abc"}
+        files = self.written_twice(
+            "reproduce", "{out}", "--data", "data", "--size", "40x34", "--samples", "1",
+            expected={"table1.csv", "reproduction.json", "index.html", *(f"figure{n}.png" for n in panels),
+                      *(f"figure{n}{letter}.png" for n, letters in panels.items() for letter in letters)})
+        meshes = [{"path": f"data/{name}.off", "sha256": self.sha256(self.mesh)} for name in names]
+        for name, path in files.items():
+            with self.subTest(file=name):
+                if name == "reproduction.json":
+                    document = json.loads(path.read_text())
+                    self.assertEqual(document["tool"]["version"], self.version)
+                    self.assertEqual([{k: model["mesh"][k] for k in meshes[0]} for model in document["models"]], meshes)
+                elif name == "table1.csv":
+                    for row in without_timings(path):
+                        self.assertEqual((row["version"], row["sha256"]), (self.version, meshes[0]["sha256"]))
+                        self.assertIn("radius", json.loads(row["field_parameters"]))
+                        self.assertEqual("sigma" in json.loads(row["method_parameters"]), row["method"] != "conventional")
+                else:
+                    document = READERS[path.suffix](path)
+                    self.check_document(document, path)
+                    self.assertTrue(all(file in meshes for file in document["inputs"]))
+                    self.assertTrue(document["runs"] if name == "index.html" else document["methods"])
+                    panel = re.fullmatch(r"figure\d[a-e]\.png", name)
+                    self.assertTrue(document["command"].startswith("morsel render " if panel else "morsel reproduce "))
+
+    def test_batch(self):
+        (self.folder / "meshes").mkdir()
+        for name in ("a.off", "b.off"):
+            shutil.copy(self.folder / self.mesh, self.folder / "meshes" / name)
+        files = self.written_twice(
+            "batch", "meshes", "--out", "{out}", expected={
+                "summary.csv", "summary.json", "index.html",
+                *(f"plots/{plot}.svg" for plot in ("histogram", "cumulative", "against-size")),
+                *(name for mesh in "ab" for name in (f"reports/{mesh}.off.json", f"state/{mesh}.off.json",
+                                                     f"thumbnails/{mesh}.off.first.png", f"thumbnails/{mesh}.off.last.png"))})
+        hashed = self.sha256(self.mesh)
+        sums = "".join(f"{hashed}  {name}\n" for name in ("a.off", "b.off"))
+        collection = [{"path": "meshes", "sha256": hashlib.sha256(sums.encode()).hexdigest()}]
+        for name, path in files.items():
+            with self.subTest(file=name):
+                if path.suffix == ".json":
+                    text = path.read_text()
+                    self.assertIn(f'"version": "{self.version}"', text)
+                    self.assertIn(f'"sha256": "{hashed}"', text)
+                    self.assertIn('"sigma":', text)
+                elif path.suffix == ".csv":
+                    for row in without_timings(path):
+                        self.assertEqual((row["version"], row["sha256"], row["field"]), (self.version, hashed, "mean-curvature"))
+                        self.assertIn("radius", json.loads(row["field_parameters"]))
+                        self.assertEqual("sigma" in json.loads(row["method_parameters"]), row["method"] == "salient")
+                else:
+                    document = READERS[path.suffix](path)
+                    self.check_document(document, path)
+                    self.assertEqual(document["inputs"], collection if path.suffix != ".png" else [
+                        {"path": f"meshes/{path.name[:5]}", "sha256": hashed}])
+                    self.assertEqual(document["request"]["methods"], ["conventional", "salient", "tps"])
+
+    def test_no_command_is_left_out(self):
+        """A new command has its files looked at here, too."""
+        listed = re.findall(r"^  (\w+) ", self.morsel("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+        tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")}
+        self.assertEqual(set(listed) - tested, {"info", "check"})  # which write no file
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,106 @@
+#include "morsel/tools/report/provenance.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "morsel/tools/report/csv.h"
+
+using namespace morsel;
+using tools::Json;
+using tools::Provenance;
+
+namespace {
+
+/// With all that formats have to be careful with.
+Provenance awkward() {
+  Provenance provenance("morsel field 'a\"b -- <&>\\.off' --method salient",
+                        {{"field", "vertex-scalar:file=x\\,y\nz"}, {"target", 7}},
+                        {{"dir/\xc3\xa9.off", std::string(64, '0')}, {"not \xff UTF-8 }{\"", "1"}});
+  tools::StepOutcome step{"salient", {{"sigma", 0.1}, {"range", std::string("1std,\"")}}, {}, {}};
+  provenance.add_method({step});
+  step.name = "tps";
+  provenance.add_method({step, step});
+  return provenance;
+}
+
+}  // namespace
+
+TEST_CASE("a provenance is one line of ASCII that any markup can hold") {
+  const std::string json = awkward().json();
+  for (const char c : json) CHECK((c >= ' ' && c <= '~' && c != '<' && c != '>' && c != '&'));
+  const Json document = Json::parse(json);
+  CHECK(document["schema"] == "morsel.provenance/1");
+  CHECK(document["command"] == "morsel field 'a\"b -- <&>\\.off' --method salient");
+  CHECK(document["inputs"][0] == Json({{"path", "dir/\xc3\xa9.off"}, {"sha256", std::string(64, '0')}}));
+  CHECK(document["request"]["field"] == "vertex-scalar:file=x\\,y\nz");
+  CHECK(document["methods"][0]["parameters"] == Json({{"sigma", 0.1}, {"range", "1std,\""}}));
+  CHECK(document["methods"][1]["name"] == "tps+tps");
+}
+
+TEST_CASE("its lines are short, and together they are it") {
+  const Provenance provenance = awkward();
+  std::string joined;
+  for (const std::string& line : provenance.lines()) {
+    CHECK(line.size() <= 150);
+    joined += line;
+  }
+  CHECK(joined == provenance.json());
+  CHECK(provenance.lines().size() > 3);
+  // What cannot be cut stays whole.
+  const Provenance with_long_text("morsel " + std::string(400, ','), {}, {});
+  CHECK(
+      std::ranges::any_of(with_long_text.lines(), [](const std::string& line) { return line.size() > 400; }));
+}
+
+TEST_CASE("a provenance is found in every kind of file") {
+  const Provenance provenance = awkward();
+  const Json expected = Json::parse(provenance.json());
+  std::string ply = "ply\nformat ascii 1.0\n";
+  std::string dos = "OFF\r\n";
+  for (const std::string& line : provenance.lines()) {
+    ply += "comment " + line + "\n";
+    dos += "# " + line + "\r\n";
+  }
+  const std::string json = provenance.json();
+  CHECK(tools::find_provenance(json) == expected);
+  CHECK(tools::find_provenance(provenance.text_comment() + "1\n2\n") == expected);
+  CHECK(tools::find_provenance(provenance.text_comment()) == expected);
+  CHECK(tools::find_provenance(ply + "comment } {\nelement vertex 0\nend_header\n") == expected);
+  CHECK(tools::find_provenance(dos + "0 0 0\r\n") == expected);
+  CHECK(tools::find_provenance("<svg><metadata>" + json + "</metadata></svg>") == expected);
+  CHECK(tools::find_provenance(std::string("\x89PNG\0tEXtComment\0", 17) + json + "\x01\x02{}") == expected);
+  CHECK(tools::find_provenance("<html></html>\n" + provenance.html_comment()) == expected);
+  CHECK(tools::find_provenance("vertex,provenance\n1," + tools::csv_field(json) + "\n2,\n") == expected);
+  CHECK(tools::find_provenance("vertex,provenance\n1," + tools::csv_field(json)) == expected);
+}
+
+TEST_CASE("an HTML comment holds nothing that ends it") {
+  const std::string comment = awkward().html_comment();
+  CHECK(comment.starts_with("<!-- {"));
+  CHECK(comment.find("--", 4) == comment.size() - 4);
+}
+
+TEST_CASE("what has none or a damaged one gives null") {
+  const std::string json = awkward().json();
+  CHECK(tools::find_provenance("").is_null());
+  CHECK(tools::find_provenance("OFF\n0 0 0\n").is_null());
+  for (std::size_t size = 0; size < json.size(); ++size) {
+    CHECK(tools::find_provenance(json.substr(0, size)).is_null());
+    CHECK(tools::find_provenance("1," + tools::csv_field(json.substr(0, size))).is_null());
+  }
+  std::string damaged = json;
+  damaged.replace(damaged.find("\"tool\""), 6, "tool\"\"");
+  CHECK(tools::find_provenance(damaged).is_null());
+}
+
+TEST_CASE("a command without what leaves the contents of files as they are") {
+  const auto command = [](const std::vector<std::string>& words) { return tools::shaping_command(words); };
+  CHECK(command({"morsel", "field", "a b.off", "-o", "x.txt", "--threads", "3", "--method", "salient"}) ==
+        "morsel field 'a b.off' --method salient");
+  CHECK(command({"morsel", "compare", "--quiet", "--threads=1", "--output=r.json", "-or.json", "--html",
+                 "p.html", "--view=-20/10", "--figures=f", "--", "-o.off"}) ==
+        "morsel compare --view=-20/10 -- -o.off");
+  CHECK(command({"morsel", "cut", "m.off", "--json", "-", "--graph", "g.vtp", "-o"}) == "morsel cut m.off");
+}

@@ -1,0 +1,184 @@
+#include "morsel/tools/report/provenance.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "morsel/core/file_bytes.h"
+#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/input_files.h"
+#include "morsel/tools/report/outcome_sections.h"
+
+namespace morsel::tools {
+namespace {
+
+constexpr std::string_view kBegin = R"({"schema":"morsel.provenance/1")";
+constexpr std::string_view kBeginInTable = R"({""schema"":""morsel.provenance/1"")";
+constexpr std::size_t kLine = 150;
+constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; what follows in a file may be large
+
+void replace_all(std::string& text, std::string_view what, std::string_view with) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
+    text.replace(at, what.size(), with);
+}
+
+/// Calls take(i) for each character of JSON text that is in no string until it returns false.
+template <class Take>
+void outside_strings(std::string_view json, const Take& take) {
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    if (in_string && json[i] == '\\')
+      ++i;
+    else if (json[i] == '"')
+      in_string = !in_string;
+    else if (!in_string && !take(i))
+      return;
+  }
+}
+
+/// The object that the text begins with; empty if it is cut off.
+std::string_view first_object(std::string_view text) {
+  int depth = 0;
+  std::size_t size = 0;
+  outside_strings(text, [&](std::size_t i) {
+    if (text[i] == '{') ++depth;
+    if (text[i] == '}' && --depth == 0) size = i + 1;
+    return size == 0;
+  });
+  return text.substr(0, size);
+}
+
+/// The lines from `at` on without the mark that they all begin with, put together.
+std::string marked_lines(std::string_view text, std::size_t at) {
+  const std::size_t before = text.substr(0, at).find_last_of("\r\n");
+  const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+  const std::string_view mark = text.substr(begin, at - begin);
+  if (mark != "# " && mark != "comment ") return std::string(text.substr(at));
+  std::string joined;
+  text.remove_prefix(begin);
+  while (text.starts_with(mark)) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(mark.size(), end - mark.size());
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    joined += line;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return joined;
+}
+
+/// A quoted field of a table from within its quotes on, without doubling.
+std::string table_field(std::string_view text) {
+  std::string field;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' && (i + 1 == text.size() || text[++i] != '"')) break;
+    field += text[i];
+  }
+  return field;
+}
+
+}  // namespace
+
+Provenance::Provenance(std::string_view command, Json request, const std::vector<HashedFile>& inputs)
+    : document_({{"schema", "morsel.provenance/1"},
+                 {"tool", tool_section()},
+                 {"command", command},
+                 {"inputs", files_section(inputs)},
+                 {"request", std::move(request)}}) {}
+
+Provenance::Provenance(std::string_view command, Json request, const FieldSource& source)
+    : Provenance(command, std::move(request), {source.mesh}) {
+  set_field(source.made.input);
+  add_method(source.made.outcome.steps);
+}
+
+void Provenance::set_field(const FieldOutcome& field) {
+  document_["field"] = {{"name", field.name}, {"parameters", to_json(field.parameters)}};
+  for (Json& file : files_section(field.files)) document_["inputs"].push_back(std::move(file));
+}
+
+void Provenance::add_method(const std::vector<StepOutcome>& steps) {
+  std::string name;
+  for (const StepOutcome& step : steps) name += (name.empty() ? "" : "+") + step.name;
+  document_["methods"].push_back({{"name", name}, {"parameters", parameters_section(steps)}});
+}
+
+Provenance Provenance::with_method(const std::vector<StepOutcome>& steps) const {
+  Provenance more = *this;
+  more.add_method(steps);
+  return more;
+}
+
+std::string Provenance::json() const {
+  std::string text = document_.dump(-1, ' ', true, Json::error_handler_t::replace);
+  replace_all(text, "<", "\\u003c");
+  replace_all(text, ">", "\\u003e");
+  replace_all(text, "&", "\\u0026");
+  return text;
+}
+
+std::vector<std::string> Provenance::lines() const {
+  const std::string text = json();
+  std::vector<std::string> lines(1);
+  std::size_t begin = 0;
+  const auto add = [&](std::size_t end) {
+    if (!lines.back().empty() && lines.back().size() + end - begin > kLine) lines.emplace_back();
+    lines.back().append(text, begin, end - begin);
+    begin = end;
+  };
+  outside_strings(text, [&](std::size_t i) {
+    if (text[i] == ',') add(i + 1);
+    return true;
+  });
+  add(text.size());
+  return lines;
+}
+
+std::string Provenance::text_comment() const {
+  std::string text;
+  for (const std::string& line : lines()) text += "# " + line + "\n";
+  return text;
+}
+
+std::string Provenance::html_comment() const {
+  std::string text = json();
+  replace_all(text, "--", "-\\u002d");  // which would end it
+  return "<!-- " + text + " -->\n";
+}
+
+std::string shaping_command(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 10> kWithValue = {"-o",       "--output",  "--json", "--graph",
+                                                           "--export", "--figures", "--html", "--thumbnails",
+                                                           "--out",    "--threads"};
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") {
+      kept.insert(kept.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+      break;
+    }
+    const std::string name = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    if (word == "--quiet") continue;
+    if (std::ranges::find(kWithValue, name) == kWithValue.end())
+      kept.push_back(word);
+    else if (word == name)
+      ++i;
+  }
+  return command_line(kept);
+}
+
+Json find_provenance(std::string_view bytes) {
+  std::string text;
+  if (const std::size_t at = bytes.find(kBegin); at != std::string_view::npos)
+    text = marked_lines(bytes.substr(0, at + kMost), at);
+  else if (const std::size_t in_table = bytes.find(kBeginInTable); in_table != std::string_view::npos)
+    text = table_field(bytes.substr(in_table, kMost));
+  const Json found = Json::parse(first_object(text), nullptr, false);
+  return found.is_object() ? found : Json();
+}
+
+Json read_provenance(const std::filesystem::path& path) {
+  const core::FileBytes bytes(path, path.string());
+  return find_provenance(bytes.view());
+}
+
+}  // namespace morsel::tools
