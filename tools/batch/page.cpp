@@ -133,14 +133,21 @@ std::string table_head(const BatchRequest& request) {
   return head + "</tr>\n";
 }
 
-/// What makes all this again.
-std::string request_line(const BatchRequest& request, const SummaryOptions& options, const OutFolder& out) {
-  std::vector<std::string> words = {"morsel", "batch", options.collection, "--out", out.root().string()};
+/// What makes all this again, into whatever folder.
+std::vector<std::string> batch_words(const BatchRequest& request, const SummaryOptions& options) {
+  std::vector<std::string> words = {"morsel", "batch", options.collection};
   for (std::string& word : request_words(request)) words.push_back(std::move(word));
   if (!request.thumbnails) words.emplace_back("--no-thumbnails");
   if (request.pages) words.emplace_back("--html");
   if (request.figures) words.emplace_back("--figures");
   if (request.exports) words.emplace_back("--export");
+  return words;
+}
+
+/// The same into this folder.
+std::string request_line(const BatchRequest& request, const SummaryOptions& options, const OutFolder& out) {
+  std::vector<std::string> words = batch_words(request, options);
+  words.insert(words.begin() + 3, {"--out", out.root().string()});
   return command_line(words);
 }
 
@@ -155,7 +162,7 @@ Provenance provenance_of(const std::vector<MeshOutcome>& outcomes, const BatchRe
   std::vector<HashedFile> inputs = {{options.collection, sha256_of(sums)}};
   const Json key = common_key(request);
   for (const Json& file : key.at("files")) inputs.push_back({file.at("path"), file.at("sha256")});
-  return {request_line(request, options), key.at("request"), inputs};
+  return {command_line(batch_words(request, options)), key.at("request"), inputs};
 }
 
 std::string counts_line(const Tally& sums) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "morsel/core/error.h"
@@ -239,7 +240,7 @@ class SweepRun {
 
   /// Does the work; an error of it names the combination, unless work within it has named its own.
   template <class Work>
-  auto named(std::size_t i, const Work& work) {
+  std::invoke_result_t<const Work&> named(std::size_t i, const Work& work) {
     const Combination& combination = prepared_.combinations[i];
     try {
       return work();
