@@ -51,6 +51,16 @@ std::string number_cell(std::uint64_t number) {
   return "<td data-v=\"" + std::to_string(number) + "\">" + grouped(number) + "</td>";
 }
 
+/// Markup in which lines may break after each of some characters.
+std::string breakable(const std::string& markup, std::string_view after) {
+  std::string text;
+  for (const char c : markup) {
+    text += c;
+    if (after.find(c) != std::string_view::npos) text += "<wbr>";
+  }
+  return text;
+}
+
 std::string link_to(const fs::path& path, const std::string& markup) {
   return "<a href=\"" + link_text(path.generic_string()) + "\">" + markup + "</a>";
 }
@@ -67,8 +77,8 @@ std::string name_cell(const MeshOutcome& outcome, const BatchRequest& request) {
   const std::string& name = outcome.mesh.name;
   const std::string shown = markup_text(valid_text(name));
   std::string cell = "<th scope=\"row\" data-v=\"" + shown + "\">";
-  if (outcome.status != Status::done) return cell + shown + "</th>";
-  cell += link_to(best_of(name, request), shown);
+  if (outcome.status != Status::done) return cell + breakable(shown, "/") + "</th>";
+  cell += link_to(best_of(name, request), breakable(shown, "/"));
   if (request.pages || request.figures || request.exports) {
     const OutFolder beside("");
     cell += "<small>" + link_to(beside.report(name), "report");
@@ -88,7 +98,7 @@ std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request
                   (std::string_view(which) == "first" ? request.comparison.methods.front()
                                                       : request.comparison.methods.back())) +
       "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\">";
-  return "<td>" + link_to(best_of(name, request), image) + "</td>";
+  return "<td class=\"picture\">" + link_to(best_of(name, request), image) + "</td>";
 }
 
 std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
@@ -113,8 +123,13 @@ std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
   return row + "</tr>\n";
 }
 
-std::string sort_head(const std::string& label) {
-  return "<th scope=\"col\"><button type=\"button\">" + label + "</button></th>";
+std::string method_head(const std::string& method) {
+  return breakable(markup_text(valid_text(method)), ",:+");
+}
+
+std::string sort_head(const std::string& label, const char* attributes = "") {
+  return std::string("<th scope=\"col\"") + attributes + "><button type=\"button\">" + label +
+         "</button></th>";
 }
 
 std::string table_head(const BatchRequest& request) {
@@ -122,11 +137,11 @@ std::string table_head(const BatchRequest& request) {
   const std::vector<std::string>& methods = request.comparison.methods;
   if (request.thumbnails)
     for (const std::string& method : {methods.front(), methods.back()})
-      head += "<th scope=\"col\">" + markup_text(valid_text(method)) + "</th>";
-  head += sort_head("status") + sort_head("vertices");
+      head += "<th scope=\"col\" class=\"picture\">" + method_head(method) + "</th>";
+  head += sort_head("status", " class=\"text\"") + sort_head("vertices");
   for (const std::string& method : methods)
-    head += sort_head(markup_text(valid_text(method)) + "<br>total") +
-            sort_head(markup_text(valid_text(method)) + "<br>pairs &gt; 1&nbsp;%");
+    head += sort_head(method_head(method) + "<br>total") +
+            sort_head(method_head(method) + "<br>pairs &gt; 1&nbsp;%");
   return head + "</tr>\n";
 }
 
@@ -183,7 +198,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
              "<a href=\"summary.json\">summary.json</a>.</p></header>\n<main>\n");
   file.write(plots);
   file.write(
-      "<p class=\"find\"><label>Show meshes with <input type=\"search\" id=\"find\" "
+      "<p class=\"find\"><label>Find <input type=\"search\" id=\"find\" "
       "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output></p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Meshes\"><table "
       "class=\"collection\">\n<thead>" +
