@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kShownFirst = 500;  // rows; the others when all are asked for
+
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {
   std::vector<MethodTotals> methods;
@@ -101,8 +103,9 @@ std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request
   return "<td class=\"picture\">" + link_to(best_of(name, request), image) + "</td>";
 }
 
-std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
-  std::string row = "<tr class=\"" + to_string(outcome.status) + "\">" + name_cell(outcome, request);
+std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request, bool shown) {
+  std::string row = "<tr class=\"" + to_string(outcome.status) + (shown ? "\">" : "\" hidden>") +
+                    name_cell(outcome, request);
   if (request.thumbnails)
     for (const char* which : {"first", "last"}) row += picture_cell(outcome, request, which);
   row += "<td class=\"text\" data-v=\"" + to_string(outcome.status) + "\">" + to_string(outcome.status);
@@ -145,9 +148,9 @@ std::string table_head(const BatchRequest& request) {
   return head + "</tr>\n";
 }
 
-/// What makes all this again.
-std::string request_line(const BatchRequest& request, const SummaryOptions& options, const OutFolder& out) {
-  std::vector<std::string> words = {"morsel", "batch", options.collection, "--out", out.root().string()};
+/// What was asked for, as words of the command line; not where it went, so that a page says the same wherever it is.
+std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
+  std::vector<std::string> words = {"morsel", "batch", options.collection};
   for (std::string& word : request_words(request)) words.push_back(std::move(word));
   if (!request.thumbnails) words.emplace_back("--no-thumbnails");
   if (request.pages) words.emplace_back("--html");
@@ -199,13 +202,15 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
   file.write(plots);
   file.write(
       "<p class=\"find\"><label>Find <input type=\"search\" id=\"find\" "
-      "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output></p>\n"
+      "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output> <button "
+      "type=\"button\" id=\"all\" hidden>Show all</button></p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Meshes\"><table "
-      "class=\"collection\">\n<thead>" +
-      table_head(request) + "</thead>\n<tbody>\n");
-  for (const MeshOutcome& outcome : outcomes) file.write(mesh_row(outcome, request));
+      "class=\"collection\" data-first=\"" +
+      std::to_string(kShownFirst) + "\">\n<thead>" + table_head(request) + "</thead>\n<tbody>\n");
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    file.write(mesh_row(outcomes[i], request, i < kShownFirst));
   file.write("</tbody>\n</table></div>\n</main>\n<footer><p>morsel " + markup_text(kVersion) +
-             "; all of this again:</p><pre>" + markup_text(valid_text(request_line(request, options, out))) +
+             "; what was asked for:</p><pre>" + markup_text(valid_text(request_line(request, options))) +
              "</pre></footer>\n<script>\n");
   file.write(kPageScript);
   file.write("</script>\n</body>\n</html>\n");
