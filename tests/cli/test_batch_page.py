@@ -51,6 +51,15 @@ class CollectionPage(BatchTest):
             self.assertEqual(self.rows(page), expected)
             self.assertEqual(page.run("document.getElementById('found').textContent"), said)
 
+    def test_of_very_many_rows_the_first_are_shown(self):
+        page = self.page()
+        page.run("limit = 2; show()")
+        self.assertEqual(self.rows(page), [self.bad, self.names[0]])
+        self.assertIn("first 2", page.run("found.textContent"))
+        page.run("all.click()")
+        self.assertEqual(self.rows(page), [self.bad, *self.names])
+        self.assertTrue(page.run("all.hidden && found.textContent === ''"))
+
     def test_it_is_whole_on_a_phone_and_in_the_dark(self):
         for settings in ({"width": 390, "height": 800, "phone": True}, {"dark": True}, {}):
             page = self.page(**settings)

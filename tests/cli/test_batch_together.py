@@ -55,7 +55,7 @@ class Together(AtWork):
         self.check_whole()
 
     def test_runs_with_other_options_are_not_mixed(self):
-        many = ("--jobs", "2", "--html", "--figures", "--size", "120x90", "--export", "--method", "conventional")
+        many = ("--html", "--figures", "--size", "120x90", "--export", "--method", "conventional")
         for _ in range(3):
             processes = [self.start(*many, *more) for more in ((), ("--snap",), ("--snap", "--jobs", "3"))]
             for process in processes:

@@ -153,13 +153,19 @@ TEST_CASE("the time limit ends a child with all that it started", "[batch]") {
 }
 
 TEST_CASE("the memory limit is the child's", "[batch]") {
-  CHECK(ends({"test $(ulimit -v) = 102400"}, 1, {0, 100})[0].exit_code == 0);
-  CHECK(ends({"test $(ulimit -v) != 102400"}, 1)[0].exit_code == 0);
+  CHECK(ends({"test $(ulimit -d) = 102400"}, 1, {0, 100})[0].exit_code == 0);
+  CHECK(ends({"test $(ulimit -d) != 102400"}, 1)[0].exit_code == 0);
   batch::ChildEnd end;
   end.exit_code = 5;
   CHECK(batch::error_of(end, {0, 100})->kind == "memory-limit");
   CHECK_FALSE(batch::error_of(end, {0, 100})->may_pass());
   CHECK(batch::error_of(end, {})->may_pass());
+  batch::ChildEnd aborted;
+  aborted.signal = SIGABRT;
+  CHECK(batch::error_of(aborted, {0, 100})->kind == "signal");
+  aborted.message = "pthread_create has failed: Resource temporarily unavailable";
+  CHECK(batch::error_of(aborted, {0, 100})->kind == "memory-limit");
+  CHECK(batch::error_of(aborted, {})->kind == "signal");
 }
 
 TEST_CASE("no more children run than there are jobs, and all of them do", "[batch]") {

@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kShownFirst = 500;  // rows; the others when all are asked for
+
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {
   std::vector<MethodTotals> methods;
@@ -54,6 +56,16 @@ std::string number_cell(std::uint64_t number) {
   return "<td data-v=\"" + std::to_string(number) + "\">" + grouped(number) + "</td>";
 }
 
+/// Markup in which lines may break after each of some characters.
+std::string breakable(const std::string& markup, std::string_view after) {
+  std::string text;
+  for (const char c : markup) {
+    text += c;
+    if (after.find(c) != std::string_view::npos) text += "<wbr>";
+  }
+  return text;
+}
+
 std::string link_to(const fs::path& path, const std::string& markup) {
   return "<a href=\"" + link_text(path.generic_string()) + "\">" + markup + "</a>";
 }
@@ -70,8 +82,8 @@ std::string name_cell(const MeshOutcome& outcome, const BatchRequest& request) {
   const std::string& name = outcome.mesh.name;
   const std::string shown = markup_text(valid_text(name));
   std::string cell = "<th scope=\"row\" data-v=\"" + shown + "\">";
-  if (outcome.status != Status::done) return cell + shown + "</th>";
-  cell += link_to(best_of(name, request), shown);
+  if (outcome.status != Status::done) return cell + breakable(shown, "/") + "</th>";
+  cell += link_to(best_of(name, request), breakable(shown, "/"));
   if (request.pages || request.figures || request.exports) {
     const OutFolder beside("");
     cell += "<small>" + link_to(beside.report(name), "report");
@@ -91,11 +103,12 @@ std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request
                   (std::string_view(which) == "first" ? request.comparison.methods.front()
                                                       : request.comparison.methods.back())) +
       "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\">";
-  return "<td>" + link_to(best_of(name, request), image) + "</td>";
+  return "<td class=\"picture\">" + link_to(best_of(name, request), image) + "</td>";
 }
 
-std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
-  std::string row = "<tr class=\"" + to_string(outcome.status) + "\">" + name_cell(outcome, request);
+std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request, bool shown) {
+  std::string row = "<tr class=\"" + to_string(outcome.status) + (shown ? "\">" : "\" hidden>") +
+                    name_cell(outcome, request);
   if (request.thumbnails)
     for (const char* which : {"first", "last"}) row += picture_cell(outcome, request, which);
   row += "<td class=\"text\" data-v=\"" + to_string(outcome.status) + "\">" + to_string(outcome.status);
@@ -116,8 +129,13 @@ std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
   return row + "</tr>\n";
 }
 
-std::string sort_head(const std::string& label) {
-  return "<th scope=\"col\"><button type=\"button\">" + label + "</button></th>";
+std::string method_head(const std::string& method) {
+  return breakable(markup_text(valid_text(method)), ",:+");
+}
+
+std::string sort_head(const std::string& label, const char* attributes = "") {
+  return std::string("<th scope=\"col\"") + attributes + "><button type=\"button\">" + label +
+         "</button></th>";
 }
 
 std::string table_head(const BatchRequest& request) {
@@ -125,29 +143,22 @@ std::string table_head(const BatchRequest& request) {
   const std::vector<std::string>& methods = request.comparison.methods;
   if (request.thumbnails)
     for (const std::string& method : {methods.front(), methods.back()})
-      head += "<th scope=\"col\">" + markup_text(valid_text(method)) + "</th>";
-  head += sort_head("status") + sort_head("vertices");
+      head += "<th scope=\"col\" class=\"picture\">" + method_head(method) + "</th>";
+  head += sort_head("status", " class=\"text\"") + sort_head("vertices");
   for (const std::string& method : methods)
-    head += sort_head(markup_text(valid_text(method)) + "<br>total") +
-            sort_head(markup_text(valid_text(method)) + "<br>pairs &gt; 1&nbsp;%");
+    head += sort_head(method_head(method) + "<br>total") +
+            sort_head(method_head(method) + "<br>pairs &gt; 1&nbsp;%");
   return head + "</tr>\n";
 }
 
-/// What makes all this again, into whatever folder.
-std::vector<std::string> batch_words(const BatchRequest& request, const SummaryOptions& options) {
+/// What was asked for, as words of the command line; not where it went, so that a page says the same wherever it is.
+std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
   std::vector<std::string> words = {"morsel", "batch", options.collection};
   for (std::string& word : request_words(request)) words.push_back(std::move(word));
   if (!request.thumbnails) words.emplace_back("--no-thumbnails");
   if (request.pages) words.emplace_back("--html");
   if (request.figures) words.emplace_back("--figures");
   if (request.exports) words.emplace_back("--export");
-  return words;
-}
-
-/// The same into this folder.
-std::string request_line(const BatchRequest& request, const SummaryOptions& options, const OutFolder& out) {
-  std::vector<std::string> words = batch_words(request, options);
-  words.insert(words.begin() + 3, {"--out", out.root().string()});
   return command_line(words);
 }
 
@@ -162,7 +173,7 @@ Provenance provenance_of(const std::vector<MeshOutcome>& outcomes, const BatchRe
   std::vector<HashedFile> inputs = {{options.collection, sha256_of(sums)}};
   const Json key = common_key(request);
   for (const Json& file : key.at("files")) inputs.push_back({file.at("path"), file.at("sha256")});
-  return {command_line(batch_words(request, options)), key.at("request"), inputs};
+  return {request_line(request, options), key.at("request"), inputs};
 }
 
 std::string counts_line(const Tally& sums) {
@@ -208,14 +219,16 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
              "<a href=\"summary.json\">summary.json</a>.</p></header>\n<main>\n");
   file.write(plots);
   file.write(
-      "<p class=\"find\"><label>Show meshes with <input type=\"search\" id=\"find\" "
-      "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output></p>\n"
+      "<p class=\"find\"><label>Find <input type=\"search\" id=\"find\" "
+      "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output> <button "
+      "type=\"button\" id=\"all\" hidden>Show all</button></p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Meshes\"><table "
-      "class=\"collection\">\n<thead>" +
-      table_head(request) + "</thead>\n<tbody>\n");
-  for (const MeshOutcome& outcome : outcomes) file.write(mesh_row(outcome, request));
+      "class=\"collection\" data-first=\"" +
+      std::to_string(kShownFirst) + "\">\n<thead>" + table_head(request) + "</thead>\n<tbody>\n");
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    file.write(mesh_row(outcomes[i], request, i < kShownFirst));
   file.write("</tbody>\n</table></div>\n</main>\n<footer><p>morsel " + markup_text(kVersion) +
-             "; all of this again:</p><pre>" + markup_text(valid_text(request_line(request, options, out))) +
+             "; what was asked for:</p><pre>" + markup_text(valid_text(request_line(request, options))) +
              "</pre></footer>\n<script>\n");
   file.write(kPageScript);
   file.write("</script>\n</body>\n</html>\n");

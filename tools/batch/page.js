@@ -15,25 +15,35 @@ for (const [column, head] of heads.entries()) {
     const there = rows.filter(row => value(row) !== undefined);
     there.sort((a, b) => (down ? -1 : 1) * compare(value(a), value(b)));
     body.append(...there, ...rows.filter(row => value(row) === undefined));
+    show();
   });
 }
 
-// What is looked for is in a mesh's name, its status or its error.
+// What is looked for is in a mesh's name, its status or its error. Of very many rows the first are shown until all are asked for: browsers take
+// long to lay out ten thousand.
 const find = document.getElementById("find");
 const found = document.getElementById("found");
+const all = document.getElementById("all");
+let limit = Number(table.dataset.first);
 const show = () => {
   const wanted = find.value.toLowerCase();
-  let count = 0;
+  let matching = 0;
   for (const row of body.rows) {
-    row.hidden = !row.textContent.toLowerCase().includes(wanted);
-    count += !row.hidden;
+    const matches = row.textContent.toLowerCase().includes(wanted);
+    matching += matches;
+    row.hidden = !matches || matching > limit;
   }
-  found.textContent = wanted ? `${count} of ${body.rows.length}` : "";
+  all.hidden = matching <= limit;
+  found.textContent = (wanted ? `${matching} of ${body.rows.length}` : "") + (all.hidden ? "" : ` The first ${limit} are shown.`);
 };
 let later = 0;
 find.addEventListener("input", () => {
   clearTimeout(later);
   later = setTimeout(show, 150);
+});
+all.addEventListener("click", () => {
+  limit = Infinity;
+  show();
 });
 show();
 document.body.dataset.state = "ready";

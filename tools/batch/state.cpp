@@ -19,6 +19,16 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSchema = "morsel.batch-state/1";
 constexpr int kOutOfMemory = 5;  // of the program's exit codes
+constexpr int kInternalError = 70;
+
+/// Whether a child had no memory left: it says so, or a library ended it because no thread could be made.
+bool ran_out_of_memory(const ChildEnd& end) {
+  if (end.exit_code == kOutOfMemory) return true;
+  constexpr std::array kSaid = {"std::bad_alloc", "Resource temporarily unavailable"};
+  return (end.signal == SIGABRT || end.exit_code == kInternalError) &&
+         std::any_of(kSaid.begin(), kSaid.end(),
+                     [&](const char* text) { return end.message.find(text) != std::string::npos; });
+}
 
 MeshError error_from(const Json& json) {
   return {json.at("kind").get<std::string>(),
@@ -60,7 +70,7 @@ std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits
   if (end.timed_out) {
     error.kind = "time-limit";
     error.message = "longer than the time limit of " + core::shortest(limits.seconds) + " s";
-  } else if (end.exit_code == kOutOfMemory && limits.memory_mib > 0) {
+  } else if (limits.memory_mib > 0 && ran_out_of_memory(end)) {
     error.kind = "memory-limit";
     error.message = "more memory than the limit of " + std::to_string(limits.memory_mib) + " MiB";
   } else if (end.signal != 0) {

@@ -148,10 +148,11 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
   command
-      .add_option("--memory-limit", options.run.limits.memory_mib,
-                  "A mesh that needs more address space fails; a few hundred MiB are needed for\n"
-                  "the smallest (default: none)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      .add_option(
+          "--memory-limit", options.run.limits.memory_mib,
+          "A mesh that needs more writable memory of its own (heap and stacks; not code) fails, from\n"
+          "64 MiB on, of which the program itself takes 45 (default: none)")
+      ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 40))
       ->type_name("MIB");
   command.add_flag("--retry", options.run.retry, "Run what failed before again");
   command
