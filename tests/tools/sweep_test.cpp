@@ -16,7 +16,11 @@
 using namespace morsel;
 using namespace morsel::test;
 using Catch::Contains;
+using tools::counts_section;
+using tools::field_section;
 using tools::Json;
+using tools::parameters_section;
+using tools::persistence_section;
 using tools::parse_variation;
 using tools::SweepRequest;
 using tools::SweepRow;
