@@ -44,8 +44,7 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const core::LoadedMesh& loaded = input.loaded;
-  const ReportInput about{options.mesh, input.sha256, common.repair, !options.no_items,
-                          load_watch.seconds()};
+  const ReportInput about{options.mesh, input.sha256, common.repair, !options.no_items, load_watch.seconds()};
 
   TargetTeller teller(console);
   HierarchyTable table(prepared);
