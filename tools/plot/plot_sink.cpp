@@ -28,7 +28,7 @@ void write(std::vector<NamedPlot> plots, const Provenance& provenance) {
 }  // namespace
 
 PlotSink::PlotSink(std::filesystem::path folder, Provenance provenance)
-    : folder_(std::move(folder)), provenance_(std::move(provenance)) {
+    : folder_(std::move(folder)), provenance_(std::move(provenance)), all_(provenance_) {
   make_folder(folder_);
 }
 
@@ -36,6 +36,7 @@ void PlotSink::field(const FieldOutcome& outcome) {
   field_ = outcome.name;
   std::replace(field_.begin(), field_.end(), '-', ' ');
   provenance_.set_field(outcome);
+  all_ = provenance_;
 }
 
 void PlotSink::method(const MethodOutcome& outcome) {
@@ -43,7 +44,7 @@ void PlotSink::method(const MethodOutcome& outcome) {
   methods_.push_back(plot::curves_of(outcome));
   write({{folder_ / (name + ".diagram"), plot::diagram_plot(methods_.back(), field_)}},
         provenance_.with_method(outcome.steps));
-  provenance_.add_method(outcome.steps);
+  all_.add_method(outcome.steps);
 }
 
 void PlotSink::finish() {
@@ -52,7 +53,7 @@ void PlotSink::finish() {
   plots.emplace_back(folder_ / "persistence", plot::persistence_plot(methods_, field_));
   plots.emplace_back(folder_ / "iterations", plot::iteration_plot(methods_));
   std::erase_if(plots, [](const NamedPlot& plot) { return plot.second.panels.empty(); });
-  write(std::move(plots), provenance_);
+  write(std::move(plots), all_);
 }
 
 }  // namespace morsel::tools
