@@ -8,7 +8,7 @@
 
 namespace morsel::tools {
 PlotSink::PlotSink(std::filesystem::path folder, Provenance provenance)
-    : folder_(std::move(folder)), provenance_(std::move(provenance)) {
+    : folder_(std::move(folder)), provenance_(std::move(provenance)), all_(provenance_) {
   make_folder(folder_);
 }
 
@@ -16,6 +16,7 @@ void PlotSink::field(const FieldOutcome& outcome) {
   field_ = outcome.name;
   std::replace(field_.begin(), field_.end(), '-', ' ');
   provenance_.set_field(outcome);
+  all_ = provenance_;
 }
 
 void PlotSink::method(const MethodOutcome& outcome) {
@@ -23,7 +24,7 @@ void PlotSink::method(const MethodOutcome& outcome) {
   methods_.push_back(plot::curves_of(outcome));
   plot::write_plots({{folder_ / (name + ".diagram"), plot::diagram_plot(methods_.back(), field_)}},
                     provenance_.with_method(outcome.steps));
-  provenance_.add_method(outcome.steps);
+  all_.add_method(outcome.steps);
 }
 
 void PlotSink::finish() {
@@ -32,7 +33,7 @@ void PlotSink::finish() {
   plots.emplace_back(folder_ / "persistence", plot::persistence_plot(methods_, field_));
   plots.emplace_back(folder_ / "iterations", plot::iteration_plot(methods_));
   std::erase_if(plots, [](const plot::NamedPlot& plot) { return plot.second.panels.empty(); });
-  plot::write_plots(std::move(plots), provenance_);
+  plot::write_plots(std::move(plots), all_);
 }
 
 }  // namespace morsel::tools

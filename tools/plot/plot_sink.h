@@ -29,7 +29,8 @@ class PlotSink : public ComparisonSink {
 
  private:
   std::filesystem::path folder_;
-  Provenance provenance_;
+  Provenance provenance_;  // without methods
+  Provenance all_;         // with all that came by
   std::string field_;
   FileNames names_;
   std::vector<plot::MethodCurves> methods_;

@@ -20,6 +20,7 @@ FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loa
       loaded_(loaded),
       camera_(std::move(camera)),
       provenance_(std::move(provenance)),
+      all_(provenance_),
       progress_(std::move(progress)) {
   camera_.check();
   request_.size = size;
@@ -31,6 +32,7 @@ FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loa
 void FigureSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
   provenance_.set_field(outcome);
+  all_ = provenance_;
   studio_.emplace(outcome.field.mesh());
   view_ = studio_->view(camera_.view, camera_.up, progress_);
 }
@@ -45,7 +47,7 @@ void FigureSink::method(const MethodOutcome& outcome) {
   Provenance provenance = provenance_.with_method(outcome.steps);
   provenance.set("picture", picture_section(request_, camera_, caption, loaded_.source.numbering));
   write(name, with_caption(picture, caption), provenance);
-  provenance_.add_method(outcome.steps);
+  all_.add_method(outcome.steps);
   panels_.push_back({std::move(picture), std::move(caption)});
 }
 
@@ -55,8 +57,8 @@ void FigureSink::finish() {
   Json picture = picture_section(request_, camera_, "", loaded_.source.numbering);
   picture.erase("arcs");  // each panel has its own
   picture.erase("caption");
-  provenance_.set("picture", std::move(picture));
-  write("sheet", make_sheet(panels_), provenance_);
+  all_.set("picture", std::move(picture));
+  write("sheet", make_sheet(panels_), all_);
 }
 
 void FigureSink::write(const std::string& name, const Image& image, const Provenance& provenance) const {

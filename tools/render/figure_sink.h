@@ -38,7 +38,8 @@ class FigureSink : public ComparisonSink {
   std::filesystem::path folder_;
   const core::LoadedMesh& loaded_;
   CameraText camera_;
-  Provenance provenance_;
+  Provenance provenance_;  // without methods
+  Provenance all_;         // with all that came by
   core::Progress progress_;
   PictureRequest request_;
   std::optional<Studio> studio_;
