@@ -131,20 +131,16 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
                                           core::Parameters parameters = {}) {
   estimators.push_back({"quadric", nullptr, Way::quadric});
   std::vector<std::string_view> names;
-  std::string listed;
-  const Estimator* diffused = nullptr;
+  bool can_diffuse = false;
   for (const Estimator& estimator : estimators) {
     names.push_back(estimator.name);
-    if (estimator.way == Way::diffused) diffused = &estimator;
-    listed += std::string(listed.empty() ? "" : ", ") + std::string(estimator.name);
+    if (estimator.way == Way::diffused) can_diffuse = true;
   }
-  listed += " (fitted within a radius, for noisy surfaces)";
-  if (diffused != nullptr)
-    listed +=
-        "; diffused: at the scale of diffusion, for surfaces that are noisy or sampled otherwise, with "
-        "scale=" +
-        core::to_string(kScaleOfDiffused) + " unless given";
-  const std::string chosen = reader.choice("estimator", names.front(), names, listed);
+  std::string about = "how it is measured; quadric: fitted within a radius, for noisy surfaces";
+  if (can_diffuse)
+    about += "; diffused: along the surface, for surfaces that are noisy or sampled otherwise, with scale=" +
+             core::to_string(kScaleOfDiffused) + " unless given";
+  const std::string chosen = reader.choice("estimator", names.front(), names, about);
   const Estimator& estimator =
       *std::ranges::find_if(estimators, [&](const Estimator& e) { return e.name == chosen; });
   const core::Length scale =
@@ -161,7 +157,7 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
   };
   read_reach(Way::quadric, "radius", core::Length::epsilons(5),
              "how far a fitted quadric reaches, with estimator=quadric");
-  if (diffused != nullptr)
+  if (can_diffuse)
     read_reach(Way::diffused, "diffusion", core::Length::epsilons(12),
                "with estimator=diffused: waves of 2 pi times this keep nearly half their height");
   parameters.emplace_back("estimator", chosen);
