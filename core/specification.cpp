@@ -76,6 +76,22 @@ std::vector<Specification> parse_chain(std::string_view text, std::string_view w
   return chain;
 }
 
+std::string to_string(const Specification& specification) {
+  std::string text = escape(specification.name);
+  char separator = ':';
+  for (const auto& [key, raw] : specification.given) {
+    text += separator + escape(key) + '=' + raw;
+    separator = ',';
+  }
+  return text;
+}
+
+std::string to_string(const std::vector<Specification>& chain) {
+  std::string text;
+  for (const Specification& link : chain) text += (text.empty() ? "" : "+") + to_string(link);
+  return text;
+}
+
 Specification parse_specification(std::string_view text, std::string_view what) {
   std::vector<Specification> chain = parse_chain(text, what);
   if (chain.size() > 1)

@@ -24,6 +24,10 @@ std::vector<Specification> parse_chain(std::string_view text, std::string_view w
 /// parse_chain() for what cannot be chained; throws InvalidArgument if it is.
 Specification parse_specification(std::string_view text, std::string_view what);
 
+/// The text that parse_chain() reads it from.
+std::string to_string(const Specification& specification);
+std::string to_string(const std::vector<Specification>& chain);
+
 /// Takes the backslashes out.
 std::string unescape(std::string_view raw);
 

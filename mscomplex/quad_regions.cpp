@@ -11,9 +11,9 @@ using core::TriangleMesh;
 namespace {
 
 /// Walks along the rims of the discs, counter-clockwise, and labels the triangles whose lowest corner it visits.
-class RimWalk {
+class DiscWalk {
  public:
-  RimWalk(const core::ScalarField& field, const MorseSmaleComplex& complex, std::vector<Index>& quad)
+  DiscWalk(const core::ScalarField& field, const MorseSmaleComplex& complex, std::vector<Index>& quad)
       : mesh_(complex.mesh()), rank_(field.ranks()), gradient_(complex.gradient()), quad_(quad) {}
 
   /// The stretch after a critical edge, in the disc of the triangle of half-edge `side`.
@@ -83,7 +83,7 @@ std::vector<Index> quad_of_triangles(const core::ScalarField& field, const Morse
   const TriangleMesh& mesh = complex.mesh();
   const auto saddles = complex.gradient().saddles();
   std::vector<Index> quad(mesh.triangle_count(), kNone);
-  RimWalk walk(field, complex, quad);
+  DiscWalk walk(field, complex, quad);
   core::parallel_for(0, saddles.size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Index left = mesh.edge_halfedge(saddles[i].cell);

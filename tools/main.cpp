@@ -64,6 +64,7 @@ int run(int argc, char** argv, std::stop_token stop) {
   add_render(app, invocation);
   add_reproduce(app, invocation);
   add_stability(app, invocation);
+  add_sweep(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

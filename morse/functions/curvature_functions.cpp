@@ -1,5 +1,6 @@
 #include "morsel/morse/functions/curvature_functions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
+#include "morsel/morse/functions/diffused_curvature.h"
 #include "morsel/morse/functions/discrete_curvature.h"
 #include "morsel/morse/functions/quadric_curvature.h"
 #include "morsel/morse/operators/low_pass.h"
@@ -40,18 +42,20 @@ std::vector<double> product(const PrincipalCurvatures& k) {
   return combine(k, [](double k1, double k2) { return k1 * k2; });
 }
 
-/// From fitted quadrics, by Taubin's tensor, or in the curvature's own way.
+enum class Way : std::uint8_t { one_ring, quadric, diffused };
+
+/// From one-rings (in the curvature's own way or by Taubin's tensor), from fitted quadrics or diffused.
 class Curvature final : public core::MorseFunction {
  public:
-  /// Without `direct`, an estimator other than quadric is Taubin's.
-  Curvature(Combination combination, Direct direct, core::Length scale, core::Length radius,
-            core::Parameters parameters, bool quadric)
+  /// Without `direct`, one-rings are Taubin's. `reach`: the quadrics' radius, or the scale of diffusion.
+  Curvature(Combination combination, Direct direct, Way way, core::Length scale, core::Length reach,
+            core::Parameters parameters)
       : combination_(combination),
         direct_(direct),
+        way_(way),
         scale_(scale),
-        radius_(radius),
-        parameters_(std::move(parameters)),
-        quadric_(quadric) {}
+        reach_(reach),
+        parameters_(std::move(parameters)) {}
 
   core::FunctionResult evaluate(const TriangleMesh& mesh,
                                 const core::FunctionContext& context) const override {
@@ -67,62 +71,102 @@ class Curvature final : public core::MorseFunction {
   }
 
  private:
-  /// Of `surface`; a radius in other units is that on `mesh`. Adds to the parameters.
+  /// Of `surface`; a length in other units is that on `mesh`. Adds to the parameters.
   ScalarField on_surface(const TriangleMesh& surface, const TriangleMesh& mesh,
                          const core::FunctionContext& context, core::Parameters& parameters) const {
-    if (!quadric_) {
-      if (direct_ != nullptr) return direct_(surface, context.progress);
-      return {surface, combination_(principal_curvatures(surface, context.progress))};
+    switch (way_) {
+      case Way::quadric: {
+        const double radius = reach_on(mesh, "radius");
+        const QuadricCurvatures fitted = quadric_curvatures(surface, radius, context.progress);
+        parameters.emplace_back("radius", radius);
+        parameters.emplace_back("widened_vertices", static_cast<std::int64_t>(fitted.widened));
+        parameters.emplace_back("unfitted_vertices", static_cast<std::int64_t>(fitted.unfitted));
+        return {surface, combination_(fitted.curvatures)};
+      }
+      case Way::diffused: {
+        const double diffusion = reach_on(mesh, "diffusion");
+        parameters.emplace_back("diffusion", diffusion);
+        return diffused_mean_curvature(surface, diffusion, context.progress);
+      }
+      case Way::one_ring:
+        break;
     }
-    const double radius = radius_.on(mesh);
-    if (!(radius > 0))
-      throw core::BadInput("radius = " + core::to_string(radius_) + " comes to " + core::shortest(radius) +
-                           " on this mesh, whose vertices all coincide");
-    const QuadricCurvatures fitted = quadric_curvatures(surface, radius, context.progress);
-    parameters.emplace_back("radius", radius);
-    parameters.emplace_back("widened_vertices", static_cast<std::int64_t>(fitted.widened));
-    parameters.emplace_back("unfitted_vertices", static_cast<std::int64_t>(fitted.unfitted));
-    return {surface, combination_(fitted.curvatures)};
+    if (direct_ != nullptr) return direct_(surface, context.progress);
+    return {surface, combination_(principal_curvatures(surface, context.progress))};
+  }
+
+  double reach_on(const TriangleMesh& mesh, const char* key) const {
+    const double reach = reach_.on(mesh);
+    const auto comes_to = [&] {
+      return key + (" = " + core::to_string(reach_)) + " comes to " + core::shortest(reach);
+    };
+    if (!(reach > 0)) throw core::BadInput(comes_to() + " on this mesh, whose vertices all coincide");
+    const double diagonal = mesh.bounding_box().diagonal();
+    if (way_ == Way::diffused && reach > diagonal)
+      throw core::BadInput(comes_to() + " on this mesh, more than the diagonal of its bounding box, " +
+                           core::shortest(diagonal) + ": nothing would be left of it");
+    return reach;
   }
 
   Combination combination_;
   Direct direct_;
+  Way way_;
   core::Length scale_;
-  core::Length radius_;
+  core::Length reach_;
   core::Parameters parameters_;
-  bool quadric_;
 };
+
+/// Noise that would ruin a diffused curvature's Laplacian is smoothed away if nothing else is asked for.
+constexpr core::Length kScaleOfDiffused = core::Length::edges(0.6);
 
 struct Estimator {
   std::string_view name;
   Direct direct;
+  Way way = Way::one_ring;
 };
 
 /// The first estimator is the default; quadric is one besides these.
 std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combination combination,
-                                          const std::vector<Estimator>& estimators,
+                                          std::vector<Estimator> estimators,
                                           core::Parameters parameters = {}) {
+  estimators.push_back({"quadric", nullptr, Way::quadric});
   std::vector<std::string_view> names;
-  names.reserve(estimators.size() + 1);
-  for (const Estimator& estimator : estimators) names.push_back(estimator.name);
-  names.emplace_back("quadric");
   std::string listed;
-  for (const std::string_view name : names)
-    listed += std::string(listed.empty() ? "" : " or ") + std::string(name);
-  const core::Length scale = read_scale(reader, core::Length::absolute(0));
-  const std::string chosen = reader.choice("estimator", names.front(), names,
-                                           listed + " (fitted within a radius, for noisy surfaces)");
-  const core::Length radius = reader.length("radius", core::Length::epsilons(5), core::kPositive,
-                                            "how far a fitted quadric reaches, with estimator=quadric");
-  const bool quadric = chosen == "quadric";
-  if (!quadric && reader.given("radius"))
-    throw core::InvalidArgument(reader.owner() +
-                                ":radius is for estimator=quadric, not for estimator=" + chosen);
-  Direct direct = nullptr;
-  for (const Estimator& estimator : estimators)
-    if (estimator.name == chosen) direct = estimator.direct;
+  const Estimator* diffused = nullptr;
+  for (const Estimator& estimator : estimators) {
+    names.push_back(estimator.name);
+    if (estimator.way == Way::diffused) diffused = &estimator;
+    listed += std::string(listed.empty() ? "" : ", ") + std::string(estimator.name);
+  }
+  listed += " (fitted within a radius, for noisy surfaces)";
+  if (diffused != nullptr)
+    listed +=
+        "; diffused: at the scale of diffusion, for surfaces that are noisy or sampled otherwise, with "
+        "scale=" +
+        core::to_string(kScaleOfDiffused) + " unless given";
+  const std::string chosen = reader.choice("estimator", names.front(), names, listed);
+  const Estimator& estimator =
+      *std::ranges::find_if(estimators, [&](const Estimator& e) { return e.name == chosen; });
+  const core::Length scale =
+      read_scale(reader, estimator.way == Way::diffused ? kScaleOfDiffused : core::Length::absolute(0));
+  core::Length reach;
+  const auto read_reach = [&](Way way, const char* key, core::Length default_length, const char* what) {
+    const core::Length length = reader.length(key, default_length, core::kPositive, what);
+    const std::string_view owner = std::ranges::find(estimators, way, &Estimator::way)->name;
+    if (estimator.way == way)
+      reach = length;
+    else if (reader.given(key))
+      throw core::InvalidArgument(reader.owner() + ":" + key + " is for estimator=" + std::string(owner) +
+                                  ", not for estimator=" + chosen);
+  };
+  read_reach(Way::quadric, "radius", core::Length::epsilons(5),
+             "how far a fitted quadric reaches, with estimator=quadric");
+  if (diffused != nullptr)
+    read_reach(Way::diffused, "diffusion", core::Length::epsilons(12),
+               "with estimator=diffused: waves of 2 pi times this keep nearly half their height");
   parameters.emplace_back("estimator", chosen);
-  return std::make_unique<Curvature>(combination, direct, scale, radius, std::move(parameters), quadric);
+  return std::make_unique<Curvature>(combination, estimator.direct, estimator.way, scale, reach,
+                                     std::move(parameters));
 }
 
 }  // namespace
@@ -137,7 +181,10 @@ std::vector<double> shape_index(const PrincipalCurvatures& curvatures) {
 }
 
 std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& reader) {
-  return make(reader, mean, {{"taubin", mean_curvature}, {"cotangent", cotangent_mean_curvature}});
+  return make(reader, mean,
+              {{"taubin", mean_curvature},
+               {"cotangent", cotangent_mean_curvature},
+               {"diffused", nullptr, Way::diffused}});
 }
 
 std::unique_ptr<core::MorseFunction> make_gaussian_curvature(core::ParameterReader& reader) {

@@ -24,16 +24,19 @@ std::vector<double> shape_index(const PrincipalCurvatures& curvatures);
 // (quadric_curvatures(); default 5eps); only quadrics have it. The resolved parameters then also hold how many
 // vertices took rings in place of too small a ball (widened_vertices), and how many could not be fitted
 // (unfitted_vertices).
+//
+// With estimator=diffused the scale is 0.6edges unless given, and diffusion=12eps or diffusion=0.25 is the scale of
+// diffused_mean_curvature().
 
-/// Keys: scale, estimator=taubin|cotangent|quadric, radius.
+/// Keys: estimator=taubin|cotangent|diffused|quadric, scale, radius, diffusion.
 std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& reader);
-/// Keys: scale, estimator=defect|quadric, radius.
+/// Keys: estimator=defect|quadric, scale, radius.
 std::unique_ptr<core::MorseFunction> make_gaussian_curvature(core::ParameterReader& reader);
-/// Keys: which=max|min, scale, estimator=taubin|quadric, radius.
+/// Keys: which=max|min, estimator=taubin|quadric, scale, radius.
 std::unique_ptr<core::MorseFunction> make_principal_curvature(core::ParameterReader& reader);
-/// Keys: scale, estimator=taubin|quadric, radius.
+/// Keys: estimator=taubin|quadric, scale, radius.
 std::unique_ptr<core::MorseFunction> make_curvedness(core::ParameterReader& reader);
-/// Keys: scale, estimator=taubin|quadric, radius.
+/// Keys: estimator=taubin|quadric, scale, radius.
 std::unique_ptr<core::MorseFunction> make_shape_index(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

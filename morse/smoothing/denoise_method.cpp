@@ -97,6 +97,8 @@ class Denoise final : public core::Method {
     return control.result(parameters(smoothing), details(input, control.field(), smoothing.surface()));
   }
 
+  bool tells_results() const override { return true; }
+
  private:
   core::Parameters parameters(const SurfaceSmoothing& smoothing) const {
     if (const auto* laplacian = std::get_if<LaplacianDenoising>(&kind_))

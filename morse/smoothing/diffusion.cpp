@@ -90,6 +90,8 @@ class LaplacianSmoothing final : public core::Method {
     return control.result(std::move(parameters));
   }
 
+  bool tells_results() const override { return true; }
+
  private:
   DiffusionOptions options_;
   StopCriteria criteria_;

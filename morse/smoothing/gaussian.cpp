@@ -32,6 +32,8 @@ class Gaussian final : public core::Method {
                           {{"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)}});
   }
 
+  bool tells_results() const override { return true; }
+
  private:
   SalientOptions options_;
   StopCriteria criteria_;

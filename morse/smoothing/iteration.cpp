@@ -112,8 +112,12 @@ bool IterationControl::counted() const {
 }
 
 bool IterationControl::needs_field() const {
-  return counted() || criteria_.until_change || context_.on_iteration ||
-         iteration_ + 1 >= criteria_.iterations;
+  const int next = iteration_ + 1;
+  return counted() || criteria_.until_change || is_told(next) || next >= criteria_.iterations;
+}
+
+bool IterationControl::is_told(int iteration) const {
+  return context_.on_iteration && (!context_.tells_iteration || context_.tells_iteration(iteration));
 }
 
 void IterationControl::restart() {
@@ -137,7 +141,7 @@ void IterationControl::record(std::vector<double> values) {
 }
 
 void IterationControl::tell() {
-  const bool go_on = !context_.on_iteration || context_.on_iteration(iteration_, field_);
+  const bool go_on = !is_told(iteration_) || context_.on_iteration(iteration_, field_);
   if (!go_on && stopped_by_.empty()) stopped_by_ = "caller";
 }
 

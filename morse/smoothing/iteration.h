@@ -72,6 +72,7 @@ class IterationControl {
 
  private:
   bool counted() const;
+  bool is_told(int iteration) const;
   void count(double change);
   void decide(double change);
   void tell();

@@ -61,6 +61,9 @@ class Salient final : public core::Method {
     return result;
   }
 
+  /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
+  bool tells_results() const override { return !options_.return_saliency && options_.accuracy == 0; }
+
  private:
   /// The Morse function of the smoothed surface, as a field on the original one.
   core::ScalarField at_scale(const core::ScalarField& given, const core::MethodContext& context) const {

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ["MORSEL_PROGRAM"]
@@ -41,6 +42,21 @@ DAMAGED = """OFF
 3 0 3 4
 3 0 3 3
 """
+
+
+def interrupted(folder, arguments, how, code, ready):
+    """Runs the program until `ready`, then sends it the signal `how`, of which it must end with `code`. The number of
+    entries that journals in the folder have then."""
+    with subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=folder, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE) as process:
+        end = time.monotonic() + 60
+        while not ready():
+            assert process.poll() is None and time.monotonic() < end, "nothing happened"
+            time.sleep(0.005)
+        process.send_signal(how)
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode == code, (process.returncode, errors)
+    return sum(path.read_bytes().count(b"\n") - 1 for path in folder.glob("*.journal"))
 
 
 def data_lines(path):

@@ -53,6 +53,17 @@ class Compare(ProgramTest):
         self.assertEqual(scaled["methods"][0]["critical_points"], alone["methods"][0]["critical_points"])
         self.morsel("compare", SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1e6edges", code=3)
 
+    def test_diffused_curvature(self):
+        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=diffused", "--method",
+                             "conventional")
+        parameters = report["field"]["parameters"]
+        self.assertEqual(parameters["estimator"], "diffused")
+        self.assertAlmostEqual(parameters["diffusion"], 12 * 0.003 * report["mesh"]["bbox_diagonal"], delta=1e-12)
+        self.assertGreater(parameters["scale"], 0)
+        self.assertEqual(report["methods"][0]["critical_points"]["total"], 103)
+        self.morsel("compare", SAMPLES / "lion-head.off", "--field",
+                    "mean-curvature:estimator=diffused,diffusion=400eps", code=3)
+
     def test_items_can_be_left_out(self):
         schema = json.loads(SCHEMA.read_text())
         full = self.report(SAMPLES / "lion-head.off")

@@ -56,6 +56,9 @@ class Usage(ProgramTest):
         self.refuse("--field", "height:axis=w", naming=["axis", "w"])
         self.refuse("--field", "mean-curvature:estimator=fast", naming=["fast", "taubin", "cotangent", "quadric"])
         self.refuse("--field", "shape-index:estimator=quadric,radius=0", naming=["radius", "0"])
+        self.refuse("--field", "mean-curvature:estimator=diffused,diffusion=0", naming=["diffusion", "0"])
+        self.refuse("--field", "mean-curvature:diffusion=8eps", naming=["diffusion", "estimator=diffused", "taubin"])
+        self.refuse("--field", "shape-index:estimator=diffused", naming=["diffused", "taubin", "quadric"])
         self.refuse("--field", "height:direction=0/0/0", naming=["direction"])
         self.refuse("--field", "vertex-scalar", naming=["file", "property"])
 

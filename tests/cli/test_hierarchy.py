@@ -257,6 +257,9 @@ class Files(Hierarchy):
                           ("iteration", lambda d: d["levels"][0]["points"][0].pop("parent")),
                           ("iteration", lambda d: cell(d).update(merged_share=2)),
                           ("iteration", lambda d: d.update(levels=[])),
+                          ("iteration", lambda d: d["levels"][0].pop("arcs")),
+                          ("iteration", lambda d: d["request"].update(items=False)),
+                          ("iteration", lambda d: d["request"].update(items=True)),
                           ("persistence", lambda d: d.pop("cancellations")),
                           ("persistence", lambda d: d["levels"][0].update(iteration=1)),
                           ("persistence", lambda d: d["request"].update(counts="3"))):
@@ -265,6 +268,22 @@ class Files(Hierarchy):
             spoil(document)
             with self.assertRaises(jsonschema.ValidationError):
                 jsonschema.validate(document, schema)
+
+    def test_without_items_counts_stay(self):
+        schema = json.loads(HIERARCHY_SCHEMA.read_text())
+        for kind in ("iteration", "persistence"):
+            whole = self.hierarchy(LION, "--by", kind)
+            short = self.hierarchy(LION, "--by", kind, "--no-items", name="short.json")
+            jsonschema.validate(short, schema)
+            self.assertLess((self.folder / "short.json").stat().st_size, 20000)
+            whole["request"]["items"] = False
+            whole.pop("cancellations", None)
+            for level in whole["levels"]:
+                for part in ("points", "arcs", "cells"):
+                    del level[part]
+            for document in (whole, short):
+                del document["timings"]
+            self.assertEqual(short, whole)
 
     def test_standard_output(self):
         result = self.morsel("hierarchy", self.file("o.off", OCTAHEDRON), "--levels", "1", "-o", "-")

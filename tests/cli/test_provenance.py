@@ -228,6 +228,22 @@ class Provenance(ProgramTest):
                     json.loads(row["method_parameters"])
             shutil.rmtree(self.folder / "out1")
 
+    def test_sweep(self):
+        files = self.written_twice("sweep", self.mesh, "--vary", "iterations=1..3", "--vary", "range=1std,local", "-o",
+                                   "{out}/s.json", "--figures", "{out}",
+                                   expected={"s.json", *(f"{key}.{kind}" for key in ("iterations", "range")
+                                                         for kind in ("png", "svg"))})
+        self.check(files, "sweep", [self.mesh], [])
+        self.assertEqual(of_svg(files["range.svg"])["request"]["variations"][0],
+                         {"key": "iterations", "values": ["1", "2", "3"]})
+        shutil.rmtree(self.folder / "out1")
+        files = self.written_twice("sweep", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "--vary",
+                                   "iterations=1..3", "-o", "{out}/s.csv", expected={"s.csv"})
+        for row in without_timings(files["s.csv"]):
+            self.assertEqual((row["version"], row["mesh"], row["sha256"]),
+                             (self.version, self.octahedron, self.sha256(self.octahedron)))
+            self.assertEqual(json.loads(row["field_parameters"])["file_sha256"], self.sha256(self.values))
+
     def test_reproduce(self):
         names = ("lion", "squirrel", "protein")
         (self.folder / "data").mkdir()

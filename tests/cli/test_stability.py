@@ -3,10 +3,11 @@
 import csv
 import json
 import os
+import signal
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted
 
 STABILITY_SCHEMA = SCHEMA.parent / "stability.schema.json"
 LION = SAMPLES / "lion-head.off"
@@ -159,6 +160,26 @@ class Files(Stability):
         result = self.morsel("stability", self.file("o.off", OCTAHEDRON), "--field", "height", "--trials", "1",
                              "-o", "-")
         self.assertEqual(json.loads(result.stdout)["schema"], "morsel.stability/1")
+
+
+class Interruption(Stability):
+    ARGUMENTS = (SMALL, "--method", "salient:iterations=200", "--noise", "0.1,0.3", "--trials", "12", "--threads", "2")
+
+    def test_a_run_that_is_ended_in_any_way_goes_on_where_it_was(self):
+        whole = self.stability(*self.ARGUMENTS)
+        del whole["timings"]
+        for how, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)):
+            journal = self.folder / "s.json.journal"
+            interrupted(self.folder, ("stability", *self.ARGUMENTS, "-o", "s.json"), how, code,
+                        lambda: journal.exists() and journal.read_bytes().count(b"\n") >= 5)
+            self.assertFalse((self.folder / "s.json").exists())
+            result = self.morsel("stability", *self.ARGUMENTS, "-o", "s.json")
+            self.assertRegex(result.stderr, r"going on with [0-9]+ perturbed surfaces done: s.json.journal")
+            document = json.loads((self.folder / "s.json").read_text())
+            del document["timings"]
+            self.assertEqual(document, whole)
+            self.assertFalse(journal.exists())
+            (self.folder / "s.json").unlink()
 
 
 class Refused(Stability):

@@ -146,6 +146,26 @@ TEST_CASE("whoever watches an iterative method sees every field and may end it")
   }
 }
 
+TEST_CASE("whoever watches some iterations alone is told these, and nothing else changes") {
+  const ScalarField field = noisy();
+  for (const Make make : kIterative) {
+    std::vector<int> told;
+    std::vector<double> third;
+    core::MethodContext context;
+    context.tells_iteration = [](int iteration) { return iteration % 3 == 0; };
+    context.on_iteration = [&](int iteration, const ScalarField& passed) {
+      told.push_back(iteration);
+      if (iteration == 3) third = values_of(passed);
+      return true;
+    };
+    const core::MethodResult watched = run(make, field, {{"iterations", "7"}}, context);
+    CHECK(told == std::vector<int>{3, 6});
+    CHECK(third == values_of(run(make, field, {{"iterations", "3"}}).field));
+    CHECK(values_of(watched.field) == values_of(run(make, field, {{"iterations", "7"}}).field));
+    CHECK(iterations_run(watched) == 7);
+  }
+}
+
 TEST_CASE("conditions to stop are checked when the method is made") {
   const ScalarField field = noisy(1);
   const Given bad = {{"iterations", "-1"},  {"until-count", "-1"},   {"until-count", "few"},

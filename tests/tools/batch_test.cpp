@@ -1,3 +1,4 @@
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
@@ -61,9 +62,27 @@ TEST_CASE("a folder's meshes are found in all folders of it, by name", "[batch]"
   const auto meshes = batch::read_collection(folder.path());
   CHECK(names(meshes) == std::vector<std::string>{"a/y.obj", "a/z.STL", "b.off", "c.ply"});
   CHECK(meshes[0].path == folder.path() / "a/y.obj");
-  CHECK(names(batch::chosen(meshes, {"c.ply", "b.off"})) == std::vector<std::string>{"b.off", "c.ply"});
-  CHECK(batch::chosen(meshes, {}) == meshes);
-  CHECK_THROWS_AS(batch::chosen(meshes, {"b.off", "z.off"}), core::InvalidArgument);
+}
+
+TEST_CASE("chosen meshes are those that the whole collection has by these names", "[batch]") {
+  const test::Scratch folder;
+  for (const char* name : {"all/b.off", "all/a/y.obj", "all/c.ply", "all/note.txt", "elsewhere/d.off"})
+    folder.file(name);
+  fs::create_directory_symlink(folder.path() / "elsewhere", folder.path() / "all/link");
+  fs::create_symlink(folder.path() / "elsewhere/d.off", folder.path() / "all/d.off");
+  const fs::path list =
+      folder.file("all/list", "c.ply\n#b.off\nb.off\r\na/y.obj\n./d.off\n../elsewhere/./d.off\n");
+  for (const fs::path& collection : {folder.path() / "all", list}) {
+    const auto all = batch::read_collection(collection);
+    for (const auto& mesh : all) CHECK(batch::read_collection(collection, {mesh.name}) == std::vector{mesh});
+    CHECK(batch::read_collection(collection, {"c.ply", "d.off", "b.off", "a/y.obj", "c.ply"}) ==
+          std::vector(all.begin(), all.begin() + 4));
+    for (const char* absent : {"z.off", "link/d.off", "note.txt", "./b.off", "a", "y.obj", ""})
+      CHECK_THROWS_AS(batch::read_collection(collection, {"b.off", absent}), core::InvalidArgument);
+  }
+  const fs::path twice = folder.file("twice", "a.off\nb.off\n../b.off\n");
+  CHECK(names(batch::read_collection(twice, {"a.off"})) == std::vector<std::string>{"a.off"});
+  CHECK_THROWS_AS(batch::read_collection(twice, {"b.off"}), core::BadInput);
 }
 
 TEST_CASE("a list's meshes are those of its lines", "[batch]") {
@@ -74,6 +93,7 @@ TEST_CASE("a list's meshes are those of its lines", "[batch]") {
   CHECK(meshes[0].path == folder.path() / "b.off");
   CHECK(meshes[2].path == "/abs/c.off");
   CHECK_THROWS_AS(batch::read_collection(folder.file("twice", "a.off\n../a.off\n")), core::BadInput);
+  CHECK_THROWS_AS(batch::read_collection(folder.file("within", "a.off\n/a.off/b.off\n")), core::BadInput);
   CHECK_THROWS_AS(batch::read_collection(folder.file("up", "a.off\n..\n")), core::BadInput);
   CHECK_THROWS_AS(batch::read_collection(folder.file("empty")), core::BadInput);
   CHECK_THROWS_AS(batch::read_collection(folder.file("mesh.off", "OFF")), core::BadInput);
@@ -133,13 +153,19 @@ TEST_CASE("the time limit ends a child with all that it started", "[batch]") {
 }
 
 TEST_CASE("the memory limit is the child's", "[batch]") {
-  CHECK(ends({"test $(ulimit -v) = 102400"}, 1, {0, 100})[0].exit_code == 0);
-  CHECK(ends({"test $(ulimit -v) != 102400"}, 1)[0].exit_code == 0);
+  CHECK(ends({"test $(ulimit -d) = 102400"}, 1, {0, 100})[0].exit_code == 0);
+  CHECK(ends({"test $(ulimit -d) != 102400"}, 1)[0].exit_code == 0);
   batch::ChildEnd end;
   end.exit_code = 5;
   CHECK(batch::error_of(end, {0, 100})->kind == "memory-limit");
   CHECK_FALSE(batch::error_of(end, {0, 100})->may_pass());
   CHECK(batch::error_of(end, {})->may_pass());
+  batch::ChildEnd aborted;
+  aborted.signal = SIGABRT;
+  CHECK(batch::error_of(aborted, {0, 100})->kind == "signal");
+  aborted.message = "pthread_create has failed: Resource temporarily unavailable";
+  CHECK(batch::error_of(aborted, {0, 100})->kind == "memory-limit");
+  CHECK(batch::error_of(aborted, {})->kind == "signal");
 }
 
 TEST_CASE("no more children run than there are jobs, and all of them do", "[batch]") {
@@ -181,11 +207,16 @@ TEST_CASE("a state is read back as it was written; anything else is none", "[bat
   const test::Scratch folder;
   const batch::OutFolder out(folder.path());
   const Json key = {{"request", {{"thumbnails", true}}}, {"sha256", "ab"}};
+  batch::BatchRequest request;
+  request.figures = true;
+  const auto products = batch::products_of("sub/a.off", request, out);
   batch::MeshState state;
   state.key = key;
   state.seconds = 1.5;
   state.result = {{"mesh", {{"vertices", 3}}}};
   state.timings = {{"load", 0.5}};
+  state.files = {"figures/sheet.png", "report.json", "thumbnail.last.png"};
+  fs::create_directories(folder.path() / "state/sub");
   batch::write_state(out.state("sub/a.off"), state);
   auto read = batch::read_state(folder.path() / "state/sub/a.off.json");
   REQUIRE(read);
@@ -194,17 +225,19 @@ TEST_CASE("a state is read back as it was written; anything else is none", "[bat
   CHECK(read->seconds == 1.5);
   CHECK_FALSE(read->error);
 
+  CHECK(read->files == state.files);
+
   // done is what has its files
-  CHECK_FALSE(batch::is_settled(*read, key, {}, out, "sub/a.off"));
-  folder.file("reports/sub/a.off.json");
-  CHECK_FALSE(batch::is_settled(*read, key, {}, out, "sub/a.off"));
-  folder.file("thumbnails/sub/a.off.first.png");
-  folder.file("thumbnails/sub/a.off.last.png");
-  CHECK(batch::is_settled(*read, key, {}, out, "sub/a.off"));
-  CHECK(batch::is_settled(*read, key, {1, 1}, out, "sub/a.off"));
+  for (const char* file :
+       {"reports/sub/a.off.json", "thumbnails/sub/a.off.last.png", "figures/sub/a.off/sheet.png"}) {
+    CHECK_FALSE(batch::is_settled(*read, key, {}, products));
+    folder.file(file);
+  }
+  CHECK(batch::is_settled(*read, key, {}, products));
+  CHECK(batch::is_settled(*read, key, {1, 1}, products));
   Json other = key;
   other["sha256"] = "cd";
-  CHECK_FALSE(batch::is_settled(*read, other, {}, out, "sub/a.off"));
+  CHECK_FALSE(batch::is_settled(*read, other, {}, products));
 
   // failed is what failed within the same limits
   state.error = batch::MeshError{"time-limit", -1, 9, "late"};
@@ -215,8 +248,8 @@ TEST_CASE("a state is read back as it was written; anything else is none", "[bat
   REQUIRE(read->error);
   CHECK(batch::to_json(*read->error) == batch::to_json(*state.error));
   CHECK(read->limits == state.limits);
-  CHECK(batch::is_settled(*read, key, {2.5, 0}, out, "sub/a.off"));
-  CHECK_FALSE(batch::is_settled(*read, key, {3, 0}, out, "sub/a.off"));
+  CHECK(batch::is_settled(*read, key, {2.5, 0}, products));
+  CHECK_FALSE(batch::is_settled(*read, key, {3, 0}, products));
 
   CHECK_FALSE(batch::read_state(folder.path() / "absent"));
   CHECK_FALSE(batch::read_state(folder.file("damaged", "{\"schema\": \"morsel.batch-state/1\"")));
@@ -232,7 +265,7 @@ TEST_CASE("the key has all that a report follows from", "[batch]") {
   REQUIRE(key["files"].size() == 1);
   CHECK(key["files"][0]["path"] == values);
   CHECK(batch::mesh_key(key, folder.path() / "absent")["sha256"].is_null());
-  std::vector<batch::BatchRequest> changed(7, request);
+  std::vector<batch::BatchRequest> changed(12, request);
   changed[0].comparison.field = "height";
   changed[1].comparison.methods.pop_back();
   changed[2].comparison.target = 10;
@@ -240,9 +273,75 @@ TEST_CASE("the key has all that a report follows from", "[batch]") {
   changed[4].repair = true;
   changed[5].items = false;
   changed[6].thumbnails = false;
+  changed[7].pages = true;
+  changed[8].figures = true;
+  changed[9].exports = true;
+  changed[10].figure.camera.view = "left";
+  changed[11].figure.camera.up = render::UpAxis::z;
   for (const batch::BatchRequest& other : changed) CHECK(batch::common_key(other) != key);
+  batch::BatchRequest unseen = request;  // by thumbnails
+  unseen.figure.size = "10x10";
+  unseen.figure.camera.inset = "3";
+  CHECK(batch::common_key(unseen) == key);
+  unseen.figures = true;
+  CHECK(batch::common_key(unseen) != batch::common_key(changed[8]));
   folder.file("values", "2\n");
   CHECK(batch::common_key(request) != key);
+}
+
+TEST_CASE("what is made of a mesh has its place", "[batch]") {
+  const test::Scratch folder;
+  const batch::OutFolder out("o");
+  batch::BatchRequest request;
+  request.thumbnails = false;
+  request.figures = true;
+  const auto products = batch::products_of("a/b.off", request, out);
+  for (const char* file : {"report.json", "figures/two.png", "figures/one.png", "page.html"})
+    folder.file(file);
+  CHECK(batch::made_files(products, folder.path()) ==
+        std::vector<std::string>{"figures/one.png", "figures/two.png", "report.json"});
+  CHECK(batch::place_of("figures/one.png", products) == "o/figures/a/b.off/one.png");
+  CHECK(batch::place_of("page.html", products) == "o/pages/a/b.off.html");
+  CHECK(batch::place_of("other", products).empty());
+}
+
+TEST_CASE("one has a lock at a time", "[batch]") {
+  const test::Scratch folder;
+  using batch::FileLock;
+  std::optional<FileLock> one = FileLock::take(folder / "sub/lock", FileLock::Wait::yes);
+  REQUIRE(one);
+  CHECK(one->is_held());
+  CHECK_FALSE(FileLock::take(folder / "sub/lock", FileLock::Wait::no));
+  std::atomic<bool> given_up = false;
+  bool was_given_up = false;
+  std::thread other([&] {
+    const auto lock = FileLock::take(folder / "sub/lock", FileLock::Wait::yes);
+    was_given_up = given_up;
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  given_up = true;
+  one.reset();
+  other.join();
+  CHECK(was_given_up);
+  CHECK(FileLock::take(folder / "sub/lock", FileLock::Wait::no));
+  CHECK_THROWS_AS(FileLock::take("/proc/nowhere/lock", FileLock::Wait::no), core::WriteFailed);
+}
+
+TEST_CASE("work folders are their makers' own and go with them", "[batch]") {
+  const test::Scratch folder;
+  const batch::OutFolder out(folder.path());
+  {
+    const batch::WorkFolder one(out);
+    const batch::WorkFolder other(out);
+    CHECK(one.path() != other.path());
+    folder.file("work/abcdef/7/report.json");  // of one that was killed
+    batch::remove_left_work(out);
+    CHECK_FALSE(fs::exists(folder.path() / "work/abcdef"));
+    CHECK(fs::exists(one.path()));
+    CHECK(fs::exists(other.path()));
+  }
+  CHECK_FALSE(fs::exists(out.work()));
+  batch::remove_left_work(out);
 }
 
 TEST_CASE("texts are written as tables and pages need them", "[batch]") {

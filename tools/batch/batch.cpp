@@ -1,11 +1,12 @@
 #include "morsel/tools/batch/batch.h"
 
-#include <set>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
+#include "morsel/tools/batch/out_folder.h"
 #include "morsel/tools/batch/scheduler.h"
 #include "morsel/tools/export/folder.h"
 
@@ -14,39 +15,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void remove_whole(const fs::path& path) {
-  std::error_code error;
-  fs::remove_all(path, error);
-  if (error) throw core::WriteFailed("cannot remove " + path.string() + ": " + error.message());
-}
-
-void put(const fs::path& from, const fs::path& to) {
-  make_folder(to.parent_path());
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw core::WriteFailed("cannot write " + to.string() + ": " + error.message());
-}
-
 class Run {
  public:
   Run(const BatchRequest& request, const RunOptions& options, const OutFolder& out, const TellOutcome& tell)
       : request_(request), options_(options), out_(out), tell_(tell) {}
-  /// What was in work when an error or a stop came up leaves nothing behind.
-  ~Run() {
-    std::error_code error;
-    for (const std::string& name : in_work_) fs::remove_all(out_.work(name), error);
-  }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
-
   std::vector<MeshOutcome> run(const std::vector<CollectionMesh>& meshes, const core::Progress& progress) {
     look(meshes, progress);
+    if (!options_.run) return std::move(outcomes_);
+    remove_left_work(out_);
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < outcomes_.size(); ++i)
       if (outcomes_[i].status == Status::not_run) open.push_back(i);
-    if (!options_.run) return std::move(outcomes_);
-    run_children({open.size(), [&](std::size_t i) { return begin(outcomes_[open[i]]); },
-                  [&](std::size_t i, const ChildEnd& end) { finish(outcomes_[open[i]], end); }},
+    if (open.empty()) return std::move(outcomes_);
+    const WorkFolder work(out_);
+    const auto place = [&](std::size_t i) { return work.path() / std::to_string(i); };
+    run_children({open.size(), [&](std::size_t i) { return begin(outcomes_[open[i]], place(i)); },
+                  [&](std::size_t i, const ChildEnd& end) { finish(outcomes_[open[i]], place(i), end); }},
                  options_.jobs, options_.limits, options_.stop, progress);
     return std::move(outcomes_);
   }
@@ -64,7 +48,7 @@ class Run {
       outcome.sha256 = key["sha256"];
       std::optional<MeshState> state = read_state(out_.state(meshes[i].name));
       if (state && !(state->error && options_.retry && options_.run) &&
-          is_settled(*state, key, options_.limits, out_, meshes[i].name)) {
+          is_settled(*state, key, options_.limits, products_of(meshes[i].name, request_, out_))) {
         outcome.state = std::move(*state);
         outcome.status = outcome.state.error ? Status::failed : Status::done;
         outcome.was_settled = true;
@@ -73,22 +57,15 @@ class Run {
     });
   }
 
-  std::vector<std::string> begin(MeshOutcome& outcome) {
-    const std::string& name = outcome.mesh.name;
-    in_work_.insert(name);
-    const fs::path work = out_.work(name);
-    remove_whole(work);
+  std::vector<std::string> begin(const MeshOutcome& outcome, const fs::path& work) const {
     make_folder(work);
     std::vector<std::string> words = {"/proc/self/exe"};
-    for (std::string& word : compare_words(request_, outcome.mesh.path, work / "report.json",
-                                           work / "thumbnail", options_.threads))
+    for (std::string& word : compare_words(request_, outcome.mesh, work, out_, options_.threads))
       words.push_back(std::move(word));
     return words;
   }
 
-  void finish(MeshOutcome& outcome, const ChildEnd& end) {
-    const std::string& name = outcome.mesh.name;
-    const fs::path work = out_.work(name);
+  void finish(MeshOutcome& outcome, const fs::path& work, const ChildEnd& end) const {
     MeshState& state = outcome.state;
     state.seconds = end.seconds;
     state.limits = options_.limits;
@@ -99,20 +76,26 @@ class Run {
           state.result.at("mesh").at("sha256");  // of what was read, should it have changed since
       outcome.sha256 = state.key["sha256"];
     }
-    remove_whole(out_.state(name));  // it says nothing of the files that come
-    remove_whole(out_.report(name));
-    for (const char* which : {"first", "last"}) remove_whole(out_.thumbnail(name, which));
-    if (!state.error) {
-      put(work / "report.json", out_.report(name));
-      if (request_.thumbnails)
-        for (const std::string which : {"first", "last"})
-          put(work / ("thumbnail." + which + ".png"), out_.thumbnail(name, which));
-    }
-    write_state(out_.state(name), state);
-    remove_whole(work);
-    in_work_.erase(name);
+    publish(outcome.mesh.name, work, state);
+    std::error_code error;
+    fs::remove_all(work, error);
     outcome.status = state.error ? Status::failed : Status::done;
     if (tell_) tell_(outcome);
+  }
+
+  /// Puts what was made in the place of what was there. Whenever this is broken off, the state's absence says so; and runs that
+  /// make the same mesh's things, perhaps with other options, do not mix them.
+  void publish(const std::string& name, const fs::path& work, MeshState& state) const {
+    const std::vector<Product> products = products_of(name, request_, out_);
+    if (!state.error) state.files = made_files(products, work);
+    write_state(work / "state.json", state);
+    const std::optional<FileLock> alone = FileLock::take(out_.lock(), FileLock::Wait::yes);
+    put_aside(out_.state(name), work / "old" / "state.json");  // it says nothing of the files that come
+    for (const Product& product : products) {
+      put_aside(product.place, work / "old" / product.made);
+      if (product.wanted && !state.error) put(work / product.made, product.place);
+    }
+    put(work / "state.json", out_.state(name));
   }
 
   const BatchRequest& request_;
@@ -120,7 +103,6 @@ class Run {
   const OutFolder& out_;
   const TellOutcome& tell_;
   std::vector<MeshOutcome> outcomes_;
-  std::set<std::string> in_work_;
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr std::size_t kKeptText = 2000;  // bytes of standard error: its end, wh
   if (limits.memory_mib > 0) {
     const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) << 20;
     const rlimit limit{bytes, bytes};
-    ::setrlimit(RLIMIT_AS, &limit);
+    ::setrlimit(RLIMIT_DATA, &limit);
   }
   ::execv(words[0], words + 1);
   constexpr char kMessage[] = "the program cannot be run";

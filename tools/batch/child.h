@@ -13,7 +13,7 @@ namespace morsel::tools::batch {
 
 struct ChildLimits {
   double seconds = 0;            ///< of wall-clock time; 0: none
-  std::uint64_t memory_mib = 0;  ///< of address space; 0: none
+  std::uint64_t memory_mib = 0;  ///< of writable memory of its own (heap, data, stacks; not code); 0: none
 
   friend bool operator==(const ChildLimits&, const ChildLimits&) = default;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -33,7 +35,10 @@ std::vector<CollectionMesh> of_folder(const fs::path& folder) {
   return meshes;
 }
 
-std::vector<CollectionMesh> of_list(const fs::path& list) {
+using Names = std::set<std::string, std::less<>>;
+
+/// The meshes of those lines that end in one of these file names; of all, if there are none.
+std::vector<CollectionMesh> of_list(const fs::path& list, const Names& files) {
   if (is_mesh(list)) throw core::BadInput(list.string() + " is a mesh, not a list of meshes or a folder");
   const core::FileBytes bytes(list, list.string());
   std::vector<CollectionMesh> meshes;
@@ -44,14 +49,54 @@ std::vector<CollectionMesh> of_list(const fs::path& list) {
     rest.remove_prefix(std::min(length + 1, rest.size()));
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.empty() || line.front() == '#') continue;
+    if (!files.empty() && !files.contains(line.substr(line.rfind('/') + 1))) continue;
     const fs::path path(line);
     std::string name = mesh_name(path);
     if (name.empty())
       throw core::BadInput(list.string() + ", line " + std::to_string(number) + ": that names no file");
     meshes.push_back({std::move(name), list.parent_path() / path});
   }
-  if (meshes.empty()) throw core::BadInput("there is no mesh in the list " + list.string());
   return meshes;
+}
+
+/// The mesh of this name in a folder, if it is what of_folder() would find, which passes over folders that are links.
+std::optional<CollectionMesh> in_folder(const fs::path& folder, const std::string& name) {
+  if (name.empty() || mesh_name(name) != name || !is_mesh(name)) return std::nullopt;
+  fs::path path = folder;
+  for (const fs::path& part : fs::path(name).parent_path())
+    if (fs::is_symlink(path /= part)) return std::nullopt;
+  path = folder / name;
+  return fs::is_regular_file(path) ? std::optional(CollectionMesh{name, path}) : std::nullopt;
+}
+
+/// Those with these names, as far as they are found without reading the whole collection.
+std::vector<CollectionMesh> found_directly(const fs::path& folder_or_list, const Names& names) {
+  std::vector<CollectionMesh> meshes;
+  if (fs::is_directory(folder_or_list)) {
+    for (const std::string& name : names)
+      if (std::optional<CollectionMesh> mesh = in_folder(folder_or_list, name))
+        meshes.push_back(std::move(*mesh));
+  } else {
+    Names files;
+    for (const std::string& name : names) files.insert(name.substr(name.rfind('/') + 1));
+    meshes = of_list(folder_or_list, files);
+    std::erase_if(meshes, [&](const CollectionMesh& mesh) { return !names.contains(mesh.name); });
+  }
+  return meshes;
+}
+
+/// Throws where results of two meshes would have the same place.
+void check_names(const fs::path& folder_or_list, const std::vector<CollectionMesh>& meshes) {
+  std::set<std::string_view> names;
+  for (const CollectionMesh& mesh : meshes)
+    if (!names.insert(mesh.name).second)
+      throw core::BadInput(folder_or_list.string() + " has two meshes that would be called " + mesh.name);
+  for (const std::string_view name : names)
+    for (std::size_t at = 0; (at = name.find('/', at)) != std::string_view::npos; ++at)
+      if (names.contains(name.substr(0, at)))
+        throw core::BadInput(folder_or_list.string() + " has a mesh that would be called " +
+                             std::string(name.substr(0, at)) + " and one in a folder of that name, " +
+                             std::string(name));
 }
 
 }  // namespace
@@ -63,30 +108,26 @@ std::string mesh_name(const fs::path& path) {
   return name.has_filename() ? name.string() : "";
 }
 
-std::vector<CollectionMesh> read_collection(const fs::path& folder_or_list) {
-  std::vector<CollectionMesh> meshes =
-      fs::is_directory(folder_or_list) ? of_folder(folder_or_list) : of_list(folder_or_list);
-  std::set<std::string_view> names;
-  for (const CollectionMesh& mesh : meshes)
-    if (!names.insert(mesh.name).second)
-      throw core::BadInput(folder_or_list.string() + " has two meshes that would be called " + mesh.name);
-  return meshes;
-}
-
-std::vector<CollectionMesh> chosen(const std::vector<CollectionMesh>& meshes,
-                                   const std::vector<std::string>& names) {
-  if (names.empty()) return meshes;
-  std::set<std::string_view> missing(names.begin(), names.end());
-  std::vector<CollectionMesh> found;
-  for (const CollectionMesh& mesh : meshes) {
-    if (std::find(names.begin(), names.end(), mesh.name) == names.end()) continue;
-    missing.erase(mesh.name);
-    found.push_back(mesh);
+std::vector<CollectionMesh> read_collection(const fs::path& folder_or_list,
+                                            const std::vector<std::string>& wanted) {
+  const Names names(wanted.begin(), wanted.end());
+  if (!names.empty()) {
+    std::vector<CollectionMesh> meshes = found_directly(folder_or_list, names);
+    check_names(folder_or_list, meshes);
+    if (meshes.size() == names.size()) return meshes;
   }
+  std::vector<CollectionMesh> meshes =
+      fs::is_directory(folder_or_list) ? of_folder(folder_or_list) : of_list(folder_or_list, {});
+  if (meshes.empty()) throw core::BadInput("there is no mesh in the list " + folder_or_list.string());
+  check_names(folder_or_list, meshes);
+  if (names.empty()) return meshes;
+  Names missing = names;
+  for (const CollectionMesh& mesh : meshes) missing.erase(mesh.name);
   if (!missing.empty())
-    throw core::InvalidArgument("the collection has no mesh called " + std::string(*missing.begin()) +
+    throw core::InvalidArgument("the collection has no mesh called " + *missing.begin() +
                                 "; names are paths within it, such as " + meshes.front().name);
-  return found;
+  std::erase_if(meshes, [&](const CollectionMesh& mesh) { return !names.contains(mesh.name); });
+  return meshes;
 }
 
 }  // namespace morsel::tools::batch

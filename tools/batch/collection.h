@@ -18,14 +18,14 @@ struct CollectionMesh {
 /// order of the lines; relative paths begin at the list's folder; empty lines and those that begin with # are passed over.
 ///
 /// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws BadInput where the
-/// folder or list cannot be read or has no mesh, and where two meshes have one name.
-std::vector<CollectionMesh> read_collection(const std::filesystem::path& folder_or_list);
+/// folder or list cannot be read or has no mesh, where two meshes have one name, and where one's name is a folder of another's.
+///
+/// With names, only the meshes that are called so, in the same order, and little time for all the others; throws InvalidArgument on a name that
+/// is not there.
+std::vector<CollectionMesh> read_collection(const std::filesystem::path& folder_or_list,
+                                            const std::vector<std::string>& names = {});
 
 /// What a mesh of this path within a collection is called. Empty for a path that names no file.
 std::string mesh_name(const std::filesystem::path& path);
-
-/// Those with these names, in the collection's order; all, if there are no names. Throws InvalidArgument on a name that is not there.
-std::vector<CollectionMesh> chosen(const std::vector<CollectionMesh>& meshes,
-                                   const std::vector<std::string>& names);
 
 }  // namespace morsel::tools::batch

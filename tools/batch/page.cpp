@@ -1,13 +1,10 @@
 #include "morsel/tools/batch/page.h"
 
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/distributions.h"
-#include "morsel/tools/batch/page_parts.h"
 #include "morsel/tools/batch/request.h"
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/html/command_line.h"
@@ -20,6 +17,8 @@ namespace morsel::tools::batch {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kShownFirst = 500;  // rows; the others when all are asked for
 
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {
@@ -37,13 +36,7 @@ std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
   return methods;
 }
 
-std::string contents(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  return text.starts_with("<?xml") ? text.substr(text.find("?>") + 2) : text;
-}
-
-/// Writes the plots; their drawings, to be put into the page.
+/// Writes the plots; the section of the page that shows them.
 std::string write_plots(const std::vector<MethodTotals>& methods, const fs::path& folder,
                         const Provenance& provenance) {
   make_folder(folder);
@@ -54,42 +47,76 @@ std::string write_plots(const std::vector<MethodTotals>& methods, const fs::path
   for (auto& [name, plot] : plots) {
     plot.metadata = provenance.json();
     plot::write_svg(folder / name, plot);
-    figures += "<figure>" + contents(folder / name) + "</figure>\n";
+    figures += "<figure><img alt=\"" + markup_text(plot.title) + "\" src=\"plots/" + name + "\"></figure>\n";
   }
-  return "<section class=\"plots\">\n" + figures + "</section>\n";
+  return "<section class=\"plots\" aria-label=\"Distributions\">\n" + figures + "</section>\n";
 }
 
 std::string number_cell(std::uint64_t number) {
   return "<td data-v=\"" + std::to_string(number) + "\">" + grouped(number) + "</td>";
 }
 
+/// Markup in which lines may break after each of some characters.
+std::string breakable(const std::string& markup, std::string_view after) {
+  std::string text;
+  for (const char c : markup) {
+    text += c;
+    if (after.find(c) != std::string_view::npos) text += "<wbr>";
+  }
+  return text;
+}
+
+std::string link_to(const fs::path& path, const std::string& markup) {
+  return "<a href=\"" + link_text(path.generic_string()) + "\">" + markup + "</a>";
+}
+
+/// What a click on a mesh shows: the best there is.
+fs::path best_of(const std::string& name, const BatchRequest& request) {
+  const OutFolder beside("");
+  return request.pages     ? beside.page(name)
+         : request.figures ? beside.figures(name) / "sheet.png"
+                           : beside.report(name);
+}
+
+std::string name_cell(const MeshOutcome& outcome, const BatchRequest& request) {
+  const std::string& name = outcome.mesh.name;
+  const std::string shown = markup_text(valid_text(name));
+  std::string cell = "<th scope=\"row\" data-v=\"" + shown + "\">";
+  if (outcome.status != Status::done) return cell + breakable(shown, "/") + "</th>";
+  cell += link_to(best_of(name, request), breakable(shown, "/"));
+  if (request.pages || request.figures || request.exports) {
+    const OutFolder beside("");
+    cell += "<small>" + link_to(beside.report(name), "report");
+    if (request.figures) cell += link_to(beside.figures(name) / "sheet.png", "pictures");
+    if (request.exports) cell += link_to(beside.exports(name) / "", "files");
+    cell += "</small>";
+  }
+  return cell + "</th>";
+}
+
 std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request, const char* which) {
   if (outcome.status != Status::done) return "<td></td>";
   const std::string& name = outcome.mesh.name;
-  return "<td><img loading=\"lazy\" width=\"240\" height=\"180\" alt=\"" +
-         markup_text(valid_text(name) + ", " +
-                     (std::string_view(which) == "first" ? request.comparison.methods.front()
-                                                         : request.comparison.methods.back())) +
-         "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\"></td>";
+  const std::string image =
+      "<img loading=\"lazy\" width=\"240\" height=\"180\" alt=\"" +
+      markup_text(valid_text(name) + ", " +
+                  (std::string_view(which) == "first" ? request.comparison.methods.front()
+                                                      : request.comparison.methods.back())) +
+      "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\">";
+  return "<td class=\"picture\">" + link_to(best_of(name, request), image) + "</td>";
 }
 
-std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
-  const std::string& name = outcome.mesh.name;
-  const std::string shown = markup_text(valid_text(name));
-  const bool done = outcome.status == Status::done;
-  std::string row =
-      "<tr class=\"" + to_string(outcome.status) + "\"><th scope=\"row\" data-v=\"" + shown + "\">";
-  row += done ? "<a href=\"" + link_text(OutFolder("").report(name).generic_string()) + "\">" + shown + "</a>"
-              : shown;
-  row += "</th>";
+std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request, bool shown) {
+  std::string row = "<tr class=\"" + to_string(outcome.status) + (shown ? "\">" : "\" hidden>") +
+                    name_cell(outcome, request);
   if (request.thumbnails)
     for (const char* which : {"first", "last"}) row += picture_cell(outcome, request, which);
   row += "<td class=\"text\" data-v=\"" + to_string(outcome.status) + "\">" + to_string(outcome.status);
   if (outcome.status == Status::failed)
-    row += "<br><small>" + markup_text(valid_text(outcome.state.error->message)) + "</small>";
+    row += "<small>" + markup_text(valid_text(outcome.state.error->message)) + "</small>";
   row += "</td>";
   const std::size_t methods = request.comparison.methods.size();
-  if (!done) {
+  if (outcome.status != Status::done) {
     for (std::size_t i = 0; i < 1 + 2 * methods; ++i) row += "<td></td>";
     return row + "</tr>\n";
   }
@@ -102,8 +129,13 @@ std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request) {
   return row + "</tr>\n";
 }
 
-std::string sort_head(const std::string& label) {
-  return "<th scope=\"col\"><button type=\"button\">" + label + "</button></th>";
+std::string method_head(const std::string& method) {
+  return breakable(markup_text(valid_text(method)), ",:+");
+}
+
+std::string sort_head(const std::string& label, const char* attributes = "") {
+  return std::string("<th scope=\"col\"") + attributes + "><button type=\"button\">" + label +
+         "</button></th>";
 }
 
 std::string table_head(const BatchRequest& request) {
@@ -111,24 +143,22 @@ std::string table_head(const BatchRequest& request) {
   const std::vector<std::string>& methods = request.comparison.methods;
   if (request.thumbnails)
     for (const std::string& method : {methods.front(), methods.back()})
-      head += "<th scope=\"col\">" + markup_text(valid_text(method)) + "</th>";
-  head += sort_head("status") + sort_head("vertices");
+      head += "<th scope=\"col\" class=\"picture\">" + method_head(method) + "</th>";
+  head += sort_head("status", " class=\"text\"") + sort_head("vertices");
   for (const std::string& method : methods)
-    head += sort_head(markup_text(valid_text(method)) + "<br>total") +
-            sort_head(markup_text(valid_text(method)) + "<br>pairs &gt; 1&nbsp;%");
+    head += sort_head(method_head(method) + "<br>total") +
+            sort_head(method_head(method) + "<br>pairs &gt; 1&nbsp;%");
   return head + "</tr>\n";
 }
 
-/// What was asked for, as words of the command line.
+/// What was asked for, as words of the command line; not where it went, so that a page says the same wherever it is.
 std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
-  const ComparisonRequest& asked = request.comparison;
-  std::vector<std::string> words = {"morsel", "batch", options.collection, "--field", asked.field};
-  for (const std::string& method : asked.methods) words.insert(words.end(), {"--method", method});
-  if (asked.target) words.insert(words.end(), {"--target", std::to_string(*asked.target)});
-  if (asked.snap) words.emplace_back("--snap");
-  if (request.repair) words.emplace_back("--repair");
-  if (!request.items) words.emplace_back("--no-items");
+  std::vector<std::string> words = {"morsel", "batch", options.collection};
+  for (std::string& word : request_words(request)) words.push_back(std::move(word));
   if (!request.thumbnails) words.emplace_back("--no-thumbnails");
+  if (request.pages) words.emplace_back("--html");
+  if (request.figures) words.emplace_back("--figures");
+  if (request.exports) words.emplace_back("--export");
   return command_line(words);
 }
 
@@ -178,17 +208,28 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
     plots = write_plots(totals_of(outcomes, request.comparison.methods), out.root() / "plots", provenance);
   const std::string title = markup_text(valid_text("morsel batch: " + options.collection));
   core::FileWriter file(out.root() / "index.html");
-  file.write("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + title +
-             "</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<style>");
+  file.write(
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
+      title + "</title>\n<style>\n");
   file.write(kPageStyle);
-  file.write("</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n<p>" + counts_line(sums) +
+  file.write("</style>\n</head>\n<body>\n<header><h1>" + title + "</h1>\n<p>" + counts_line(sums) +
              ". The numbers are in <a href=\"summary.csv\">summary.csv</a> and "
-             "<a href=\"summary.json\">summary.json</a>.</p>\n");
+             "<a href=\"summary.json\">summary.json</a>.</p></header>\n<main>\n");
   file.write(plots);
-  file.write("<div class=\"scroll\"><table>\n<thead>" + table_head(request) + "</thead>\n<tbody>\n");
-  for (const MeshOutcome& outcome : outcomes) file.write(mesh_row(outcome, request));
-  file.write("</tbody>\n</table></div>\n<footer>morsel " + std::string(kVersion) + ": <code>" +
-             markup_text(valid_text(request_line(request, options))) + "</code></footer>\n<script>");
+  file.write(
+      "<p class=\"find\"><label>Find <input type=\"search\" id=\"find\" "
+      "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output> <button "
+      "type=\"button\" id=\"all\" hidden>Show all</button></p>\n"
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Meshes\"><table "
+      "class=\"collection\" data-first=\"" +
+      std::to_string(kShownFirst) + "\">\n<thead>" + table_head(request) + "</thead>\n<tbody>\n");
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    file.write(mesh_row(outcomes[i], request, i < kShownFirst));
+  file.write("</tbody>\n</table></div>\n</main>\n<footer><p>morsel " + markup_text(kVersion) +
+             "; what was asked for:</p><pre>" + markup_text(valid_text(request_line(request, options))) +
+             "</pre></footer>\n<script>\n");
   file.write(kPageScript);
   file.write("</script>\n</body>\n</html>\n");
   file.write(provenance.html_comment());

@@ -2,6 +2,7 @@
 /// The page that shows a collection.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "morsel/tools/batch/batch.h"
@@ -13,6 +14,10 @@ namespace morsel::tools::batch {
 /// with their pictures, sorted by a click on a column's head, that needs nothing but the folder. Throws WriteFailed.
 void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                 const SummaryOptions& options, const OutFolder& out);
+
+/// The page's style sheet and script, as the build embeds them (html/embed.cmake).
+extern const std::string_view kPageStyle;
+extern const std::string_view kPageScript;
 
 /// A relative path as a link: bytes that a URL does not hold as they are become %XX.
 std::string link_text(const std::string& path);

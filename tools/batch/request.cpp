@@ -1,22 +1,18 @@
 #include "morsel/tools/batch/request.h"
 
-#include <map>
+#include <algorithm>
 
 #include "morsel/core/error.h"
-#include "morsel/core/specification.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools::batch {
 namespace {
 
-/// A value that is the name of a file is taken for one: at worst a report is made again without need.
-void add_files(std::string_view specification, std::map<std::string, std::string>& hashes) {
-  for (const core::Specification& step : core::parse_chain(specification, "--method"))
-    for (const auto& [key, raw] : step.given)
-      if (const std::string value = core::unescape(raw); std::filesystem::is_regular_file(value))
-        hashes[value] = sha256_of_file(value);
-}
+namespace fs = std::filesystem;
+
+bool has_pictures(const BatchRequest& request) { return request.thumbnails || request.figures; }
 
 }  // namespace
 
@@ -24,27 +20,67 @@ std::string valid_text(const std::string& text) {
   return Json::parse(json_text(Json(text))).get<std::string>();
 }
 
+std::vector<Product> products_of(const std::string& name, const BatchRequest& request, const OutFolder& out) {
+  return {{true, "report.json", out.report(name)},
+          {request.thumbnails, "thumbnail.first.png", out.thumbnail(name, "first")},
+          {request.thumbnails, "thumbnail.last.png", out.thumbnail(name, "last")},
+          {request.pages, "page.html", out.page(name)},
+          {request.figures, "figures", out.figures(name)},
+          {request.exports, "exports", out.exports(name)}};
+}
+
+std::vector<std::string> made_files(const std::vector<Product>& products, const fs::path& work) {
+  std::vector<std::string> files;
+  for (const Product& product : products) {
+    if (!product.wanted) continue;
+    if (!fs::is_directory(work / product.made)) {
+      files.push_back(product.made);
+      continue;
+    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(work / product.made))
+      files.push_back(product.made + "/" + entry.path().filename().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+fs::path place_of(const std::string& made_file, const std::vector<Product>& products) {
+  for (const Product& product : products) {
+    if (made_file == product.made) return product.place;
+    if (made_file.starts_with(product.made + "/"))
+      return product.place / made_file.substr(product.made.size() + 1);
+  }
+  return {};
+}
+
 Json common_key(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
-  std::map<std::string, std::string> hashes;
-  add_files(asked.field, hashes);
-  for (const std::string& method : asked.methods) add_files(method, hashes);
-  Json files = Json::array();
-  for (const auto& [path, hash] : hashes) files.push_back({{"path", path}, {"sha256", hash}});
-  const Json key = {{"tool", tool_section()},
-                    {"request",
-                     {{"field", asked.field},
-                      {"methods", asked.methods},
-                      {"target", asked.target ? Json(*asked.target) : Json()},
-                      {"snap", asked.snap},
-                      {"repair", request.repair},
-                      {"items", request.items},
-                      {"thumbnails", request.thumbnails}}},
-                    {"files", std::move(files)}};
+  std::vector<std::string> specifications = asked.methods;
+  specifications.push_back(asked.field);
+  const render::FigureText& figure = request.figure;
+  const auto if_any = [](bool any, const std::string& text) { return any ? Json(text) : Json(); };
+  const Json key = {
+      {"tool", tool_section()},
+      {"request",
+       {{"field", asked.field},
+        {"methods", asked.methods},
+        {"target", asked.target ? Json(*asked.target) : Json()},
+        {"snap", asked.snap},
+        {"repair", request.repair},
+        {"items", request.items},
+        {"thumbnails", request.thumbnails},
+        {"html", request.pages},
+        {"figures", request.figures},
+        {"export", request.exports},
+        {"view", if_any(has_pictures(request), figure.camera.view)},
+        {"up", if_any(has_pictures(request), to_string(figure.camera.up))},
+        {"size", if_any(request.figures, figure.size)},
+        {"inset", if_any(request.figures && !figure.camera.inset.empty(), figure.camera.inset)}}},
+      {"files", files_section(input_files(specifications))}};
   return Json::parse(json_text(key));  // as it is read back from a state
 }
 
-Json mesh_key(const Json& common, const std::filesystem::path& mesh) {
+Json mesh_key(const Json& common, const fs::path& mesh) {
   Json key = common;
   key["sha256"] = nullptr;
   try {
@@ -54,20 +90,36 @@ Json mesh_key(const Json& common, const std::filesystem::path& mesh) {
   return key;
 }
 
-std::vector<std::string> compare_words(const BatchRequest& request, const std::filesystem::path& mesh,
-                                       const std::filesystem::path& report,
-                                       const std::filesystem::path& thumbnails, int threads) {
+std::vector<std::string> request_words(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
-  std::vector<std::string> words = {"morsel", "compare", "--quiet", "--threads=" + std::to_string(threads),
-                                    "--field=" + asked.field};
+  std::vector<std::string> words = {"--field=" + asked.field};
   for (const std::string& method : asked.methods) words.push_back("--method=" + method);
   if (asked.target) words.push_back("--target=" + std::to_string(*asked.target));
   if (asked.snap) words.emplace_back("--snap");
   if (request.repair) words.emplace_back("--repair");
   if (!request.items) words.emplace_back("--no-items");
-  words.push_back("--output=" + report.string());
-  if (request.thumbnails) words.push_back("--thumbnails=" + thumbnails.string());
-  words.insert(words.end(), {"--", mesh.string()});
+  const render::FigureText& figure = request.figure;
+  if (has_pictures(request))
+    words.insert(words.end(), {"--view=" + figure.camera.view, "--up=" + to_string(figure.camera.up)});
+  if (request.figures) {
+    words.push_back("--size=" + figure.size);
+    if (!figure.camera.inset.empty()) words.push_back("--inset=" + figure.camera.inset);
+  }
+  return words;
+}
+
+std::vector<std::string> compare_words(const BatchRequest& request, const CollectionMesh& mesh,
+                                       const fs::path& work, const OutFolder& out, int threads) {
+  std::vector<std::string> words = {"morsel", "compare", "--quiet", "--threads=" + std::to_string(threads)};
+  for (std::string& word : request_words(request)) words.push_back(std::move(word));
+  words.push_back("--output=" + (work / "report.json").string());
+  if (request.thumbnails) words.push_back("--thumbnails=" + (work / "thumbnail").string());
+  if (request.pages)
+    words.insert(words.end(),
+                 {"--html=" + (work / "page.html").string(), "--html-place=" + out.page(mesh.name).string()});
+  if (request.figures) words.push_back("--figures=" + (work / "figures").string());
+  if (request.exports) words.push_back("--export=" + (work / "exports").string());
+  words.insert(words.end(), {"--", mesh.path.string()});
   return words;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 /// What a collection is run with, and the key by which it is known whether a mesh's report is still right.
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "morsel/tools/batch/child.h"
+#include "morsel/tools/batch/collection.h"
+#include "morsel/tools/batch/out_folder.h"
 #include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/render/request_text.h"
 #include "morsel/tools/report/json_stream.h"
 
 namespace morsel::tools::batch {
@@ -16,9 +17,25 @@ namespace morsel::tools::batch {
 struct BatchRequest {
   ComparisonRequest comparison;
   bool repair = false;
-  bool items = true;       ///< whether reports list critical points and pairs
-  bool thumbnails = true;  ///< whether there is a picture of the first and of the last method
+  bool items = true;          ///< whether reports list critical points and pairs
+  bool thumbnails = true;     ///< whether there is a picture of the first and of the last method
+  bool pages = false;         ///< what `compare --html` writes
+  bool figures = false;       ///< --figures
+  bool exports = false;       ///< --export
+  render::FigureText figure;  ///< how pictures are taken, where there are any
 };
+
+/// One of the things that are made of a mesh, besides its state.
+struct Product {
+  bool wanted;
+  std::string made;             ///< its name in the folder where it is made
+  std::filesystem::path place;  ///< where it belongs: a file or a folder
+};
+std::vector<Product> products_of(const std::string& name, const BatchRequest& request, const OutFolder& out);
+/// The files of those that are wanted, as they are called in the folder `work` where they were made: "report.json", "figures/sheet.png".
+std::vector<std::string> made_files(const std::vector<Product>& products, const std::filesystem::path& work);
+/// Where such a file belongs; empty if it is none of these.
+std::filesystem::path place_of(const std::string& made_file, const std::vector<Product>& products);
 
 /// Valid UTF-8 of any bytes (a path, an error), as JSON documents have it: what is read back from one is the same text.
 std::string valid_text(const std::string& text);
@@ -30,9 +47,11 @@ Json common_key(const BatchRequest& request);
 /// `common` with the mesh's "sha256"; null for one that cannot be read.
 Json mesh_key(const Json& common, const std::filesystem::path& mesh);
 
-/// The arguments of the program that compare one mesh, the program's name first.
-std::vector<std::string> compare_words(const BatchRequest& request, const std::filesystem::path& mesh,
-                                       const std::filesystem::path& report,
-                                       const std::filesystem::path& thumbnails, int threads);
+/// What `compare` and `batch` are told in the same words.
+std::vector<std::string> request_words(const BatchRequest& request);
+
+/// The arguments of the program that compare one mesh, the program's name first; it writes its products into `work`.
+std::vector<std::string> compare_words(const BatchRequest& request, const CollectionMesh& mesh,
+                                       const std::filesystem::path& work, const OutFolder& out, int threads);
 
 }  // namespace morsel::tools::batch

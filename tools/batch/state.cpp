@@ -10,7 +10,6 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/report/report_reader.h"
 
 namespace morsel::tools::batch {
@@ -20,6 +19,16 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSchema = "morsel.batch-state/1";
 constexpr int kOutOfMemory = 5;  // of the program's exit codes
+constexpr int kInternalError = 70;
+
+/// Whether a child had no memory left: it says so, or a library ended it because no thread could be made.
+bool ran_out_of_memory(const ChildEnd& end) {
+  if (end.exit_code == kOutOfMemory) return true;
+  constexpr std::array kSaid = {"std::bad_alloc", "Resource temporarily unavailable"};
+  return (end.signal == SIGABRT || end.exit_code == kInternalError) &&
+         std::any_of(kSaid.begin(), kSaid.end(),
+                     [&](const char* text) { return end.message.find(text) != std::string::npos; });
+}
 
 MeshError error_from(const Json& json) {
   return {json.at("kind").get<std::string>(),
@@ -61,7 +70,7 @@ std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits
   if (end.timed_out) {
     error.kind = "time-limit";
     error.message = "longer than the time limit of " + core::shortest(limits.seconds) + " s";
-  } else if (end.exit_code == kOutOfMemory && limits.memory_mib > 0) {
+  } else if (limits.memory_mib > 0 && ran_out_of_memory(end)) {
     error.kind = "memory-limit";
     error.message = "more memory than the limit of " + std::to_string(limits.memory_mib) + " MiB";
   } else if (end.signal != 0) {
@@ -85,14 +94,12 @@ void take_result(const fs::path& report, MeshState& state) {
   }
 }
 
-bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits, const OutFolder& out,
-                const std::string& name) {
+bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits,
+                const std::vector<Product>& products) {
   if (state.key != key) return false;
   if (state.error) return state.limits == limits && !state.error->may_pass();
-  if (!fs::is_regular_file(out.report(name))) return false;
-  return !key.at("request").at("thumbnails").get<bool>() ||
-         (fs::is_regular_file(out.thumbnail(name, "first")) &&
-          fs::is_regular_file(out.thumbnail(name, "last")));
+  return std::all_of(state.files.begin(), state.files.end(),
+                     [&](const std::string& file) { return fs::is_regular_file(place_of(file, products)); });
 }
 
 Json to_json(const MeshError& error) {
@@ -113,11 +120,11 @@ void write_state(const fs::path& path, const MeshState& state) {
     json["error"] = to_json(*state.error);
     json["limits"] = to_json(state.limits);
   } else {
+    json["files"] = state.files;
     json["result"] = state.result;
     json["timings"] = state.timings;
   }
   json["seconds"] = state.seconds;
-  make_folder(path.parent_path());
   core::write_file(path, json_text(json, 2) + "\n");
 }
 
@@ -134,6 +141,7 @@ std::optional<MeshState> read_state(const fs::path& path) {
       state.error = error_from(json.at("error"));
       state.limits = limits_from(json.at("limits"));
     } else {
+      state.files = json.at("files").get<std::vector<std::string>>();
       state.result = json.at("result");
       state.timings = json.at("timings");
     }

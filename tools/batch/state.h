@@ -4,33 +4,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "morsel/tools/batch/child.h"
+#include "morsel/tools/batch/request.h"
 #include "morsel/tools/report/json_stream.h"
 
 namespace morsel::tools::batch {
-
-/// The files of a folder of results; none is made by asking for its path.
-class OutFolder {
- public:
-  explicit OutFolder(std::filesystem::path root) : root_(std::move(root)) {}
-
-  const std::filesystem::path& root() const { return root_; }
-  std::filesystem::path report(const std::string& name) const { return file("reports", name, ".json"); }
-  std::filesystem::path state(const std::string& name) const { return file("state", name, ".json"); }
-  /// `which`: "first" or "last"
-  std::filesystem::path thumbnail(const std::string& name, const std::string& which) const {
-    return file("thumbnails", name, "." + which + ".png");
-  }
-  /// A folder for what is not whole yet. Emptied before a mesh begins, so that what a killed run left does no harm.
-  std::filesystem::path work(const std::string& name) const { return file("state", name, ".part"); }
-
- private:
-  std::filesystem::path file(const char* folder, const std::string& name, const std::string& ending) const {
-    return root_ / folder / (name + ending);
-  }
-  std::filesystem::path root_;
-};
 
 /// Why a mesh has no report.
 struct MeshError {
@@ -50,6 +30,7 @@ struct MeshState {                 // NOLINT(bugprone-exception-escape): of the 
   ChildLimits limits;              ///< under which it failed
   Json result;                     ///< of the report: "mesh", "field", "methods" with their counts
   Json timings;                    ///< of the report
+  std::vector<std::string> files;  ///< that were made of it (request.h)
   double seconds = 0;              ///< from the child's start to its end
 };
 
@@ -59,10 +40,9 @@ std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits
 /// What the summary needs of a report, of which the report's items are the larger part. Throws BadInput.
 void take_result(const std::filesystem::path& report, MeshState& state);
 
-/// Whether the mesh may be passed over: its key is as it was, and its report (and pictures, if they are wanted) is there, or it failed within
-/// the same limits and would again.
-bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits, const OutFolder& out,
-                const std::string& name);
+/// Whether the mesh may be passed over: its key is as it was, and all its files are there, or it failed within the same limits and would again.
+bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits,
+                const std::vector<Product>& products);
 
 /// Throws WriteFailed.
 void write_state(const std::filesystem::path& path, const MeshState& state);

@@ -80,6 +80,9 @@ Json mesh_section(const MeshOutcome& outcome, const BatchRequest& request) {
   if (request.thumbnails)
     section["thumbnails"] = {beside.thumbnail(name, "first").generic_string(),
                              beside.thumbnail(name, "last").generic_string()};
+  if (request.pages) section["page"] = beside.page(name).generic_string();
+  if (request.figures) section["figures"] = beside.figures(name).generic_string();
+  if (request.exports) section["exports"] = beside.exports(name).generic_string();
   for (const char* key : {"mesh", "field", "methods"}) section[key] = outcome.state.result.at(key);
   section["mesh"].erase("sha256");
   return section;

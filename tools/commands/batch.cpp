@@ -1,10 +1,14 @@
 // morsel batch: a comparison of every mesh of a collection.
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -29,6 +33,7 @@ struct Options {
   bool no_thumbnails = false;
   bool no_summary = false;
   bool summary_only = false;
+  bool plan = false;
   bool with_timings = false;
 };
 
@@ -38,10 +43,11 @@ std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::Collec
                                                  const batch::OutFolder& out,
                                                  const core::Progress& progress) {
   if (ran.size() == all.size()) return ran;
+  std::set<std::string_view> names;
+  for (const batch::MeshOutcome& outcome : ran) names.insert(outcome.mesh.name);
   std::vector<batch::CollectionMesh> others;
   for (const batch::CollectionMesh& mesh : all)
-    if (std::none_of(ran.begin(), ran.end(), [&](const auto& one) { return one.mesh == mesh; }))
-      others.push_back(mesh);
+    if (!names.contains(mesh.name)) others.push_back(mesh);
   batch::RunOptions look = options.run;
   look.run = false;
   std::vector<batch::MeshOutcome> found = run_batch(others, options.request, look, out, progress);
@@ -51,6 +57,21 @@ std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::Collec
   for (const batch::CollectionMesh& mesh : all)
     whole.push_back(std::move(one != ran.end() && one->mesh == mesh ? *one++ : *other++));
   return whole;
+}
+
+/// A line for each of the meshes that a run would work on.
+void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options& options,
+                const batch::OutFolder& out, const core::Progress& progress) {
+  batch::RunOptions look = options.run;
+  look.run = false;
+  for (const batch::MeshOutcome& outcome : run_batch(meshes, options.request, look, out, progress)) {
+    if (outcome.status != batch::Status::not_run &&
+        !(outcome.status == batch::Status::failed && options.run.retry))
+      continue;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(outcome.mesh.path, error);
+    std::cout << (error ? 0 : size) << '\t' << outcome.mesh.name << '\n';
+  }
 }
 
 std::string last_line(const batch::Tally& sums, const Options& options) {
@@ -74,9 +95,15 @@ int run(Options& options, const CommonOptions& common, Console& console) {
                          ? options.jobs
                          : std::max<std::size_t>(cores / static_cast<unsigned>(options.run.threads), 1);
   static_cast<void>(prepare(options.request.comparison));
-  const std::vector<batch::CollectionMesh> all = batch::read_collection(options.collection);
-  const std::vector<batch::CollectionMesh> meshes = batch::chosen(all, options.only);
+  options.request.figure.check();
+  const std::vector<batch::CollectionMesh> meshes = batch::read_collection(options.collection, options.only);
+  const std::vector<batch::CollectionMesh> all =
+      options.only.empty() || options.no_summary ? meshes : batch::read_collection(options.collection);
   const batch::OutFolder out(options.out);
+  if (options.plan) {
+    print_plan(meshes, options, out, console.progress());
+    return kDone;
+  }
   make_folder(out.root());
   static_cast<void>(
       core::FileWriter(out.root() / "summary.json"));  // what cannot be written is told before the work
@@ -96,21 +123,19 @@ int run(Options& options, const CommonOptions& common, Console& console) {
 }
 
 void add_what_is_compared(CLI::App& command, Options& options) {
-  ComparisonRequest& asked = options.request.comparison;
-  command.add_option("--field", asked.field, "Morse function (below)")->type_name("F")->capture_default_str();
-  command
-      .add_option("--method", asked.methods,
-                  "A method or chain of methods (below); may be given several times\n"
-                  "(default: conventional, salient and tps)")
-      ->type_name("M")
-      ->allow_extra_args(false);
-  add_target_option(command, asked.target);
-  command.add_flag("--snap", asked.snap,
-                   "Report each critical point at the position of the one of the input field that it came\n"
-                   "from (its origin)");
+  batch::BatchRequest& request = options.request;
+  add_comparison_options(command, request.comparison);
   command.add_flag("--no-items", options.no_items,
                    "Leave what is listed point by point out of the reports; counts stay");
-  command.add_flag("--no-thumbnails", options.no_thumbnails, "Take no pictures");
+  command.add_flag("--no-thumbnails", options.no_thumbnails, "Take no small pictures");
+  command.add_flag("--html", request.pages, "Make a page of each mesh that shows all this in a browser");
+  command.add_flag("--figures", request.figures,
+                   "Make pictures of each mesh: of each method, diagrams and curves");
+  command.add_flag("--export", request.exports,
+                   "Write each mesh's surfaces, complexes (.vtp, for ParaView) and critical points (.csv)");
+  add_figure_options(command, request.figure);
+  command.get_option("--size")->needs("--figures");
+  command.get_option("--inset")->needs("--figures");
 }
 
 void add_how_it_is_run(CLI::App& command, Options& options) {
@@ -123,10 +148,11 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
   command
-      .add_option("--memory-limit", options.run.limits.memory_mib,
-                  "A mesh that needs more address space fails; a few hundred MiB are needed for\n"
-                  "the smallest (default: none)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40))
+      .add_option(
+          "--memory-limit", options.run.limits.memory_mib,
+          "A mesh that needs more writable memory of its own (heap and stacks; not code) fails, from\n"
+          "64 MiB on, of which the program itself takes 45 (default: none)")
+      ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 40))
       ->type_name("MIB");
   command.add_flag("--retry", options.run.retry, "Run what failed before again");
   command
@@ -135,8 +161,15 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   auto* without = command.add_flag("--no-summary", options.no_summary, "Leave the summary to a later call");
-  command.add_flag("--summary-only", options.summary_only, "Run nothing: write the summary of what is there")
-      ->excludes(without);
+  auto* only = command.add_flag("--summary-only", options.summary_only,
+                                "Run nothing: write the summary of what is there");
+  only->excludes(without);
+  command
+      .add_flag("--plan", options.plan,
+                "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
+                "in bytes, a tab, NAME")
+      ->excludes(without)
+      ->excludes(only);
   command.add_flag("--with-timings", options.with_timings,
                    "Give summary.csv a column of seconds, which differ from run to run");
 }
@@ -161,9 +194,9 @@ void add_batch(CLI::App& app, Invocation& invocation) {
       ->description("Number of threads of each mesh (default: 1); never changes a result");
   command.footer(
       "OUT gets reports/NAME.json, thumbnails/NAME.first.png and .last.png (the first and the last method),\n"
-      "state/NAME.json, and the summary: summary.csv, summary.json, plots/ and index.html. NAME is the "
-      "mesh's\n"
-      "path within the collection. What is done is not done again unless the mesh, the options, a file that "
+      "pages/NAME.html, figures/NAME/ and exports/NAME/ if they are asked for, state/NAME.json, and the\n"
+      "summary: summary.csv, summary.json, plots/ and index.html. NAME is the mesh's path within the\n"
+      "collection. What is done is not done again unless the mesh, the options, a file that "
       "they\n"
       "name or the program's version changed; what failed, unless these or the limits did, or with --retry.\n"
       "Exit code: 0 if all meshes are done, 1 if any failed.\n" +

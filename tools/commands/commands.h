@@ -10,6 +10,7 @@
 
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/console.h"
+#include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/render/request_text.h"
 
@@ -52,6 +53,10 @@ void add_target_option(CLI::App& command, std::optional<std::size_t>& target);
 void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request);
 /// --view, --up and --inset of the commands that take pictures.
 void add_camera_options(CLI::App& command, render::CameraText& camera);
+/// --field, --method, --target and --snap of the commands that run several methods.
+void add_comparison_options(CLI::App& command, ComparisonRequest& request);
+/// --size and the camera options of a comparison's pictures.
+void add_figure_options(CLI::App& command, render::FigureText& figure);
 /// Says why a wanted number of critical points was not reached.
 void tell_target(const MadeField& made, Console& console);
 
@@ -68,6 +73,7 @@ void add_quads(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);
 void add_stability(CLI::App& app, Invocation& invocation);
+void add_sweep(CLI::App& app, Invocation& invocation);
 
 /// Help texts that more than one command shows.
 std::string specification_help();

@@ -61,6 +61,29 @@ void add_camera_options(CLI::App& command, render::CameraText& camera) {
       ->type_name("VERTEX[:RADIUS]");
 }
 
+void add_comparison_options(CLI::App& command, ComparisonRequest& request) {
+  command.add_option("--field", request.field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
+  command
+      .add_option("--method", request.methods,
+                  "A method or chain of methods (below); may be given several times\n"
+                  "(default: conventional, salient and tps)")
+      ->type_name("M")
+      ->allow_extra_args(false);
+  add_target_option(command, request.target);
+  command.add_flag("--snap", request.snap,
+                   "Report each critical point at the position of the one of the input field that it came\n"
+                   "from (its origin)");
+}
+
+void add_figure_options(CLI::App& command, render::FigureText& figure) {
+  command.add_option("--size", figure.size, "Width and height of each method's picture in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  add_camera_options(command, figure.camera);
+}
+
 void tell_target(const MadeField& made, Console& console) {
   if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
 }

@@ -31,9 +31,9 @@ struct Options {
   bool no_items = false;
   std::string export_folder;
   std::string figure_folder;
-  std::string figure_size = "1200x840";
-  render::CameraText camera;
+  render::FigureText figure;
   std::string page;
+  std::string page_place;
   std::string thumbnails;
 };
 
@@ -72,7 +72,7 @@ std::string page_command(const Options& options, const CommonOptions& common) {
   if (request.target) words.insert(words.end(), {"--target", std::to_string(*request.target)});
   if (request.snap) words.emplace_back("--snap");
   if (common.repair) words.emplace_back("--repair");
-  words.insert(words.end(), {"--html", options.page});
+  words.insert(words.end(), {"--html", options.page_place.empty() ? options.page : options.page_place});
   return command_line(words);
 }
 
@@ -83,7 +83,7 @@ class Outputs {
   Outputs(const Options& options, const CommonOptions& common)
       : options_(options),
         common_(common),
-        figure_size_(render::parse_size(options.figure_size)),
+        figure_size_(render::parse_size(options.figure.size)),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
     if (!options.figure_folder.empty()) {
@@ -109,11 +109,11 @@ class Outputs {
     if (!options_.figure_folder.empty()) files_.add(plots_.emplace(options_.figure_folder, provenance));
     sinks.push_back(&files_);
     if (!options_.figure_folder.empty())
-      sinks.push_back(&figures_.emplace(options_.figure_folder, loaded, options_.camera, figure_size_,
+      sinks.push_back(&figures_.emplace(options_.figure_folder, loaded, options_.figure.camera, figure_size_,
                                         provenance, progress));
     if (!options_.thumbnails.empty())
-      sinks.push_back(
-          &thumbnails_.emplace(options_.thumbnails, comparison.chains.size(), loaded, provenance, progress));
+      sinks.push_back(&thumbnails_.emplace(options_.thumbnails, comparison.chains.size(),
+                                           options_.figure.camera, loaded, provenance, progress));
     run_comparison(loaded, comparison, sinks, progress);
     if (figures_) figures_->finish();
     if (plots_) plots_->finish();
@@ -151,7 +151,7 @@ class Outputs {
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedComparison comparison = prepare(options.request);
-  options.camera.check();
+  options.figure.check();
   Outputs outputs(options, common);
 
   const Stopwatch load_watch;
@@ -174,19 +174,7 @@ void add_compare(CLI::App& app, Invocation& invocation) {
                           "Run methods on a field and hold their critical points, diagrams and complexes\n"
                           "against each other");
   command.add_option("MESH", options->mesh, kMeshHelp)->required();
-  command.add_option("--field", options->request.field, "Morse function (below)")
-      ->type_name("F")
-      ->capture_default_str();
-  command
-      .add_option("--method", options->request.methods,
-                  "A method or chain of methods (below); may be given several times\n"
-                  "(default: conventional, salient and tps)")
-      ->type_name("M")
-      ->allow_extra_args(false);
-  add_target_option(command, options->request.target);
-  command.add_flag("--snap", options->request.snap,
-                   "Report each critical point at the position of the one of the input field that it came\n"
-                   "from (its origin)");
+  add_comparison_options(command, options->request);
   command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
       ->type_name("REPORT.json");
   command.add_flag("--no-items", options->no_items,
@@ -202,10 +190,7 @@ void add_compare(CLI::App& app, Invocation& invocation) {
           "Write pictures here: one of each method, a sheet with them side by side (.png), persistence\n"
           "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
       ->type_name("DIR");
-  command.add_option("--size", options->figure_size, "Width and height of each method's picture in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
-  add_camera_options(command, options->camera);
+  add_figure_options(command, options->figure);
   command
       .add_option("--thumbnails", options->thumbnails,
                   "Write a small picture of the first and one of the last method: PREFIX.first.png and\n"
@@ -217,6 +202,10 @@ void add_compare(CLI::App& app, Invocation& invocation) {
           "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers;\n"
           "one file, for which no network is needed")
       ->type_name("REPORT.html");
+  command
+      .add_option("--html-place", options->page_place,
+                  "Where the page will be moved to, for the command line that it shows")
+      ->type_name("PATH");
   add_common_options(command, invocation.common);
   command.footer(specification_help());
   command.callback([options, &invocation] {

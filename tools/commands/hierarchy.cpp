@@ -20,6 +20,7 @@ struct Options {
   std::string mesh;
   HierarchyRequest request;
   std::string output;
+  bool no_items = false;
   std::string export_folder;
 };
 
@@ -43,7 +44,7 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const core::LoadedMesh& loaded = input.loaded;
-  const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
+  const ReportInput about{options.mesh, input.sha256, common.repair, !options.no_items, load_watch.seconds()};
 
   TargetTeller teller(console);
   HierarchyTable table(prepared);
@@ -57,7 +58,7 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   if (!options.export_folder.empty()) {
     exports.emplace(
         options.export_folder, loaded,
-        Provenance(common.command, request_section(request, common.repair), {{options.mesh, input.sha256}}));
+        Provenance(common.command, request_section(request, about), {{options.mesh, input.sha256}}));
     sinks.push_back(&*exports);
   }
   run_hierarchy(loaded, prepared, sinks, console.progress());
@@ -105,6 +106,9 @@ void add_hierarchy(CLI::App& app, Invocation& invocation) {
       .add_option("-o,--output", options->output,
                   "Write the levels and their links here, as JSON; - is standard output")
       ->type_name("HIERARCHY.json");
+  command.add_flag("--no-items", options->no_items,
+                   "Leave what is listed one by one out of the document: cancellations, and each level's\n"
+                   "critical points, arcs and cells; their counts stay");
   command
       .add_option("--export", options->export_folder,
                   "Write each level's surface and complex (.vtp, for ParaView) here: surface.0.vtp is the\n"

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/table_target.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/stability_table.h"
 #include "morsel/tools/report/stability_writer.h"
+#include "morsel/tools/report/trial_journal.h"
 
 namespace morsel::tools {
 namespace {
@@ -25,38 +24,27 @@ struct Options {
   std::string output;
 };
 
-void write(std::ostream& out, bool as_csv, const StabilityReport& report) {
-  if (as_csv) {
-    write_stability_csv(out, report);
-    return;
-  }
-  JsonStream json(out);
-  write_stability(json, report);
-}
-
 int measure_stability(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedStability prepared = prepare(options.request);
   const StabilityRequest request = with_defaults(options.request);
-  const bool to_stdout = options.output == "-";
-  const std::string extension = core::file_extension(options.output);
-  if (!options.output.empty() && !to_stdout && extension != ".json" && extension != ".csv")
-    throw core::InvalidArgument("cannot write " + options.output + ": the output is a .json or a .csv file");
-  std::optional<core::FileWriter> file;
-  if (!options.output.empty() && !to_stdout) file.emplace(options.output);
+  TableTarget target(options.output);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
-  const StabilityResult result = run_stability(input.loaded, prepared, console.progress());
+  std::optional<TrialJournal> trials;
+  if (Journal* journal = target.open_journal(trials_key(request, about))) trials.emplace(*journal);
+  if (trials && trials->count() > 0)
+    console.message("going on with " + std::to_string(trials->count()) +
+                    " perturbed surfaces done: " + options.output + ".journal");
+  const StabilityResult result =
+      run_stability(input.loaded, prepared, console.progress(), trials ? &*trials : nullptr);
   const StabilityReport report{input.loaded, about, request, prepared, result};
-  if (to_stdout) write(std::cout, false, report);
-  if (file) {
-    write(file->stream(), extension == ".csv", report);
-    file->commit();
-  }
-  if (!to_stdout) std::cout << stability_table(prepared, result);
-  if (file) console.message("stability: " + options.output);
+  target.write([&](JsonSink& json) { write_stability(json, report); },
+               [&](std::ostream& out) { write_stability_csv(out, report); });
+  if (!target.is_stdout()) std::cout << stability_table(prepared, result);
+  if (target.is_file()) console.message("stability: " + options.output);
   return kDone;
 }
 
@@ -158,7 +146,8 @@ void add_stability(CLI::App& app, Invocation& invocation) {
       .add_option(
           "-o,--output", options->output,
           "Write every trial (.json) or a row for each method and perturbation (.csv) here; - is JSON\n"
-          "on standard output")
+          "on standard output. Should it be interrupted, OUT.journal holds the trials that are done, and\n"
+          "the same command goes on from there")
       ->type_name("OUT");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

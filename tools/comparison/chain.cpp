@@ -10,22 +10,6 @@
 namespace morsel::tools {
 namespace {
 
-core::MethodContext context_of(const core::LoadedMesh& loaded, const NamedFunction& function,
-                               const core::Progress& progress) {
-  core::MethodContext context;
-  context.progress = progress;
-  context.morse_function = [&](const core::TriangleMesh& mesh) {
-    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
-  };
-  context.persistent_extrema = [&](const core::ScalarField& field, std::size_t count) {
-    return persistence::persistent_extrema(persistence::pair_extrema(field, progress), count);
-  };
-  context.cancel = [&](const core::ScalarField& field, double threshold) {
-    return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}, progress).field;
-  };
-  return context;
-}
-
 bool is_same(const core::ScalarField& a, const core::ScalarField& b) {
   return std::ranges::equal(a.values(), b.values()) && std::ranges::equal(a.ranks(), b.ranks());
 }
@@ -84,10 +68,26 @@ class StepWatcher {
 
 }  // namespace
 
+core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFunction& function,
+                                   const core::Progress& progress) {
+  core::MethodContext context;
+  context.progress = progress;
+  context.morse_function = [&, progress](const core::TriangleMesh& mesh) {
+    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
+  };
+  context.persistent_extrema = [&, progress](const core::ScalarField& field, std::size_t count) {
+    return persistence::persistent_extrema(persistence::pair_extrema(field, progress), count);
+  };
+  context.cancel = [&, progress](const core::ScalarField& field, double threshold) {
+    return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}, progress).field;
+  };
+  return context;
+}
+
 ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
                          const NamedFunction& function, const core::ScalarField& field,
                          const ChainOptions& options, const core::Progress& progress) {
-  core::MethodContext context = context_of(loaded, function, progress);
+  core::MethodContext context = method_context(loaded, function, progress);
   context.count_iterations = options.count_iterations;
   ChainOutcome outcome{field, {}, {}};
   for (const MethodStep& step : chain.steps) {

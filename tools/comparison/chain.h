@@ -15,6 +15,10 @@
 
 namespace morsel::tools {
 
+/// What methods need besides the field, from the other modules. Refers to all of it.
+core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFunction& function,
+                                   const core::Progress& progress = {});
+
 /// One step of a chain, as it came out on this mesh.
 struct StepOutcome {
   std::string name;

@@ -18,16 +18,14 @@ using core::Index;
 using core::InvalidArgument;
 using core::ScalarField;
 
-bool is_iterative(const MethodEntry& entry) {
-  core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
-  entry.make(reader);
-  return std::ranges::any_of(reader.declared(), [](const auto& info) { return info.key == "iterations"; });
+bool is_iterative(const std::string& method) {
+  return std::ranges::count(keys_of_method(method), "iterations") > 0;
 }
 
 std::string iterative_methods() {
   std::string names;
   for (const MethodEntry& entry : methods())
-    if (is_iterative(entry)) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    if (is_iterative(std::string(entry.name))) names += (names.empty() ? "" : ", ") + std::string(entry.name);
   return names;
 }
 
@@ -118,8 +116,7 @@ std::string with_iterations(const std::string& method, int needed) {
   make_method(method);  // refuses unknown names and keys before anything else is said
   const std::vector<core::Specification> chain = core::parse_chain(method, "--method");
   const core::Specification& last = chain.back();
-  const auto entry = std::ranges::find_if(methods(), [&](const auto& e) { return e.name == last.name; });
-  if (!is_iterative(*entry))
+  if (!is_iterative(last.name))
     throw InvalidArgument(
         last.name + " has no iterations that could be levels; the methods that have: " + iterative_methods());
   for (const auto& [key, value] : last.given) {

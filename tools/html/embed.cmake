@@ -1,37 +1,50 @@
-# cmake -DPAGE=FOLDER -DTHREE=three.min.js -DOUTPUT=FILE.cpp -P embed.cmake: the page's sources as string literals.
-# Everything in PAGE is put where page.html names it, so that what is served is one file.
-file(READ ${PAGE}/page.html page)
-file(READ ${PAGE}/style.css style)
-file(READ ${PAGE}/three-licence.txt licence)
-set(scripts "")
-# in this order: each uses what those before it declare
-foreach(name IN ITEMS data colors surface lines spheres camera picking viewer plot_parts plots summary selection main)
-  file(READ ${PAGE}/${name}.js text)
-  string(APPEND scripts "${text}\n")
-endforeach()
-string(REPLACE "/*STYLE*/" "${style}" page "${page}")
-string(REPLACE "THREE_LICENCE" "${licence}" page "${page}")
+# Texts that the program holds: style sheets, scripts, pages.
+#
+# morsel_embed(OUTPUT FILE.cpp HEADER NAME.h NAMESPACE NAMESPACE LITERALS NAME=FILE[,FILE…]… [DEPENDS FILE…]): makes FILE.cpp, which defines each
+# NAME (that HEADER declares as a std::string_view) as the texts of its files one after the other. Where a text has EMBED(FILE FILE…), these files,
+# which are beside it, are put there; DEPENDS names them.
+if(NOT CMAKE_SCRIPT_MODE_FILE)
+  set(MORSEL_EMBED ${CMAKE_CURRENT_LIST_FILE})
+  function(morsel_embed)
+    cmake_parse_arguments(PARSE_ARGV 0 asked "" "OUTPUT;HEADER;NAMESPACE" "LITERALS;DEPENDS")
+    string(REGEX REPLACE "[^;=]*=|," ";" files "${asked_LITERALS}")
+    list(REMOVE_ITEM files "")
+    add_custom_command(
+      OUTPUT ${asked_OUTPUT}
+      COMMAND ${CMAKE_COMMAND} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DLITERALS=${asked_LITERALS}" -DHEADER=${asked_HEADER}
+              -DNAMESPACE=${asked_NAMESPACE} -DOUTPUT=${asked_OUTPUT} -P ${MORSEL_EMBED}
+      DEPENDS ${MORSEL_EMBED} ${files} ${asked_DEPENDS}
+      VERBATIM)
+  endfunction()
+  return()
+endif()
 
-string(FIND "${page}" "<!--DATA-->" place)
-string(SUBSTRING "${page}" 0 ${place} begin)
-math(EXPR place "${place} + 11")
-string(SUBSTRING "${page}" ${place} -1 end)
-string(REPLACE "/*SCRIPTS*/" "${scripts}" end "${end}")
-file(READ ${THREE} three)
-
-set(source "#include \"morsel/tools/html/page_sources.h\"\n\nnamespace morsel::tools::html {\n")
-foreach(part IN ITEMS Begin End Three)
-  string(TOLOWER ${part} variable)
-  if(part STREQUAL "Three")
-    set(name kThree)
-  else()
-    set(name kPage${part})
-  endif()
-  string(FIND "${${variable}}" ")source\"" place)
+set(source "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n")
+foreach(literal IN LISTS LITERALS)
+  string(REGEX MATCH "^([^=]*)=(.*)$" parts "${literal}")
+  set(name ${CMAKE_MATCH_1})
+  string(REPLACE "," ";" files "${CMAKE_MATCH_2}")
+  set(text "")
+  foreach(file IN LISTS files)
+    get_filename_component(file ${file} ABSOLUTE BASE_DIR ${FOLDER})
+    get_filename_component(beside ${file} DIRECTORY)
+    file(READ ${file} part)
+    while(part MATCHES "EMBED\\(([^)]*)\\)")
+      set(place "${CMAKE_MATCH_0}")
+      string(REPLACE " " ";" embedded "${CMAKE_MATCH_1}")
+      set(inner "")
+      foreach(one IN LISTS embedded)
+        file(READ ${beside}/${one} text_of_one)
+        string(APPEND inner "${text_of_one}\n")
+      endforeach()
+      string(REPLACE "${place}" "${inner}" part "${part}")
+    endwhile()
+    string(APPEND text "${part}")
+  endforeach()
+  string(FIND "${text}" ")text\"" place)
   if(NOT place EQUAL -1)
     message(FATAL_ERROR "${name} holds the end of its own literal")
   endif()
-  string(APPEND source "const std::string_view ${name} = R\"source(${${variable}})source\";\n")
+  string(APPEND source "const std::string_view ${name} = R\"text(${text})text\";\n")
 endforeach()
-string(APPEND source "}  // namespace morsel::tools::html\n")
-file(WRITE ${OUTPUT} "${source}")
+file(WRITE ${OUTPUT} "${source}}  // namespace ${NAMESPACE}\n")

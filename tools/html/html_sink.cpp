@@ -61,7 +61,7 @@ void HtmlSink::field(const FieldOutcome& outcome) {
   State& s = *state_;
   s.report.field(outcome);
   s.provenance.set_field(outcome);
-  s.file.write(html::kPageBegin);
+  s.file.write(html::kPage.substr(0, html::kPage.find(html::kPagePlace)));
   s.file.write("<script type=\"application/octet-stream\" id=\"buffers\">");
   s.packed.emplace(s.file);
   s.buffers.emplace(*s.packed);
@@ -92,7 +92,7 @@ void HtmlSink::finish() {
   text.pop_back();  // the closing brace: the report, which is text already, comes in front of it
   s.file.write(without_markup(text + ",\"report\":" + s.report_text.str() + "}"));
   s.file.write("</script>\n");
-  s.file.write(html::kPageEnd);
+  s.file.write(html::kPage.substr(html::kPage.find(html::kPagePlace) + html::kPagePlace.size()));
   s.file.write(s.provenance.html_comment());
 }
 

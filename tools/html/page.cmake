@@ -7,9 +7,9 @@ if(NOT three_revision)
 endif()
 file(GLOB page_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/page/*)
 set(MORSEL_PAGE_SOURCE ${PROJECT_BINARY_DIR}/generated/page_sources.cpp)
-add_custom_command(
+morsel_embed(
   OUTPUT ${MORSEL_PAGE_SOURCE}
-  COMMAND ${CMAKE_COMMAND} -DPAGE=${CMAKE_CURRENT_LIST_DIR}/page -DTHREE=${MORSEL_THREE_JS} -DOUTPUT=${MORSEL_PAGE_SOURCE} -P
-          ${CMAKE_CURRENT_LIST_DIR}/embed.cmake
-  DEPENDS ${CMAKE_CURRENT_LIST_DIR}/embed.cmake ${page_sources} ${MORSEL_THREE_JS}
-  VERBATIM)
+  HEADER morsel/tools/html/page_sources.h
+  NAMESPACE morsel::tools::html
+  LITERALS kPage=html/page/page.html kThree=${MORSEL_THREE_JS}
+  DEPENDS ${page_sources})

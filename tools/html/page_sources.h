@@ -5,9 +5,9 @@
 
 namespace morsel::tools::html {
 
-/// The document up to where its data belong, and what follows them: markup with style and scripts in it.
-extern const std::string_view kPageBegin;
-extern const std::string_view kPageEnd;
+/// The document: markup with style and scripts in it. Its data belong where kPagePlace is.
+extern const std::string_view kPage;
+inline constexpr std::string_view kPagePlace = "<!--DATA-->";
 
 /// three.js, a classic script.
 extern const std::string_view kThree;

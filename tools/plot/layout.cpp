@@ -85,6 +85,12 @@ class Layouter {
     return true;
   }
 
+  /// Names, each to the room between its neighbours.
+  void shorten(Ticks& ticks) {
+    const double room = frame_width_ / ranges_.x.size() - kNumberGap;
+    for (Tick& tick : ticks.major) tick.label = lettering_.shortened(tick.label, kTickSize, room);
+  }
+
   /// From 0 at the lower end of the axis to 1 at the upper.
   static double place(double value, Interval range, const Axis& axis) {
     const double lower = along(range.lower, axis);
@@ -106,6 +112,7 @@ class Layouter {
       int count = plot_.diagonal ? std::max(2, static_cast<int>(finite_height_ / 22)) : 10;
       do x_ticks_ = make_ticks(ranges_.x, plot_.x, count);
       while (!fit(x_ticks_, frame_width_) && --count > 1);
+      if (!plot_.x.names.empty() && !fit(x_ticks_, frame_width_)) shorten(x_ticks_);
       if (plot_.diagonal) y_ticks_ = x_ticks_;
       left_ = kMargin + (plot_.y.label.empty() && axis_text(plot_.y, y_ticks_).empty() ? 0 : kLabelSize + 4) +
               widest(y_ticks_) + kTickGap + kTickLength;

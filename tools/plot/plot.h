@@ -31,6 +31,8 @@ struct Axis {
   /// What is shown; by default what the values need, and a little air around them.
   std::optional<double> lower = {};
   std::optional<double> upper = {};
+  /// Of a linear axis of kinds in place of numbers: the i-th stands at i, shortened where it has no room.
+  std::vector<std::string> names = {};
 };
 
 enum class Draw {

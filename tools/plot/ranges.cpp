@@ -47,6 +47,10 @@ Interval shown(const Bounds& data, const Axis& axis) {
     if (limit && (!(std::abs(*limit) <= kLargest) || (log && *limit <= 0)))
       refuse("a limit of the axis '" + axis.label +
              "' is not finite, beyond 1e300, or 0 or less with a logarithmic scale");
+  if (!axis.names.empty()) {
+    if (axis.scale != Scale::linear) refuse("the axis '" + axis.label + "' has names, but is not linear");
+    return {axis.lower.value_or(-0.5), axis.upper.value_or(static_cast<double>(axis.names.size()) - 0.5)};
+  }
   const bool empty = data.lower > data.upper;
   Interval interval =
       empty ? (log ? Interval{1, 10} : Interval{0, 1}) : padded({data.lower, data.upper}, axis);

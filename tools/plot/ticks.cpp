@@ -191,6 +191,14 @@ Ticks symmetric_ticks(Interval shown, double linear, int count) {
   return ticks;
 }
 
+Ticks name_ticks(Interval shown, const std::vector<std::string>& names) {
+  Ticks ticks;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto place = static_cast<double>(i); place >= shown.lower && place <= shown.upper)
+      ticks.major.push_back({place, names[i]});
+  return ticks;
+}
+
 }  // namespace
 
 std::string power_of_ten(int exponent) {
@@ -241,6 +249,7 @@ Interval padded(Interval data, const Axis& axis) {
 }
 
 Ticks make_ticks(Interval shown, const Axis& axis, int count) {
+  if (!axis.names.empty()) return name_ticks(shown, axis.names);
   switch (axis.scale) {
     case Scale::log:
       return log_ticks(shown, count);

@@ -41,7 +41,8 @@ double along(double value, const Axis& axis);
 /// Multiples of 1, 2 or 5 times a power of ten within `shown`, at most `count` + 1 of them (or 5). On a logarithmic axis powers of
 /// ten, not all of them if they are more than `count`; with few powers in the interval also their multiples by 2 and 5, and
 /// as on a linear axis where even these are few. On a symmetric axis 0 and powers of ten of both signs, from where it ceases
-/// to be linear on, or as on a linear axis if these are few. `shown` is as padded() makes it: finite, lower < upper, positive on a
+/// to be linear on, or as on a linear axis if these are few. On an axis
+/// of names, these. `shown` is as padded() makes it: finite, lower < upper, positive on a
 /// logarithmic axis.
 Ticks make_ticks(Interval shown, const Axis& axis, int count);
 

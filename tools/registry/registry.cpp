@@ -83,14 +83,26 @@ auto make_entry(const Entry& entry, core::Specification specification) {
   return made;
 }
 
+template <class Entry>
+std::vector<core::ParameterInfo> declared_by(const Entry& entry) {
+  core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
+  entry.make(reader);
+  return reader.declared();
+}
+
+template <class Entry>
+std::vector<std::string> keys_of(const Entry& entry) {
+  std::vector<std::string> keys;
+  for (const core::ParameterInfo& info : declared_by(entry)) keys.push_back(info.key);
+  return keys;
+}
+
 template <class Entries>
 std::string describe(const Entries& entries) {
   std::string text;
   for (const auto& entry : entries) {
     text += "  " + std::string(entry.name) + "  " + std::string(entry.summary) + "\n";
-    core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
-    entry.make(reader);
-    for (const core::ParameterInfo& info : reader.declared()) {
+    for (const core::ParameterInfo& info : declared_by(entry)) {
       std::string key = "      " + info.key + "=" + (info.default_value.empty() ? "…" : info.default_value);
       key.resize(std::max<std::size_t>(key.size() + 2, 30), ' ');
       text += key + info.description + "\n";
@@ -125,6 +137,14 @@ MethodChain make_method(std::string_view specification) {
     chain.steps.push_back(std::move(step));
   }
   return chain;
+}
+
+std::vector<std::string> keys_of_function(const std::string& name) {
+  return keys_of(find_entry(kFunctions, name, "Morse function"));
+}
+
+std::vector<std::string> keys_of_method(const std::string& name) {
+  return keys_of(find_entry(kMethods, name, "method"));
 }
 
 std::string describe_functions() { return describe(kFunctions); }

@@ -66,6 +66,10 @@ struct MethodChain {
 NamedFunction make_function(std::string_view specification);
 MethodChain make_method(std::string_view specification);
 
+/// The keys that a Morse function or method has. Throw InvalidArgument if there is none of that name.
+std::vector<std::string> keys_of_function(const std::string& name);
+std::vector<std::string> keys_of_method(const std::string& name);
+
 /// All entries with their keys, defaults and descriptions, as help shows them.
 std::string describe_functions();
 std::string describe_methods();

@@ -54,6 +54,8 @@ std::array<double, 2> turn(double degrees) {
 
 }  // namespace
 
+std::string to_string(UpAxis up) { return up == UpAxis::x ? "x" : up == UpAxis::y ? "y" : "z"; }
+
 View view_at(double azimuth, double elevation, UpAxis up) {
   if (!std::isfinite(azimuth) || !(elevation >= -90 && elevation <= 90))
     throw core::InvalidArgument("a view's azimuth is a number of degrees, its elevation one from -90 to 90");

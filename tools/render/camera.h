@@ -12,6 +12,7 @@ namespace morsel::tools::render {
 
 /// Which way a mesh stands.
 enum class UpAxis { x, y, z };
+std::string to_string(UpAxis up);
 
 /// Unit vectors: from the surface to the camera, and what is up in the picture (perpendicular to it).
 struct View {

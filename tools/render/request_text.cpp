@@ -65,6 +65,11 @@ void CameraText::check() const {
   if (!inset.empty()) parse_inset(inset);
 }
 
+void FigureText::check() const {
+  parse_size(size);
+  camera.check();
+}
+
 std::string to_string(Show show) {
   switch (show) {
     case Show::field:
@@ -80,8 +85,6 @@ std::string to_string(Show show) {
   }
   return "plain";
 }
-
-std::string to_string(UpAxis up) { return up == UpAxis::x ? "x" : up == UpAxis::y ? "y" : "z"; }
 
 Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
                      const core::VertexNumbering& numbering) {

@@ -32,10 +32,17 @@ struct CameraText {
   void check() const;
 };
 
+/// How the pictures of a comparison are taken.
+struct FigureText {
+  std::string size = "1200x840";
+  CameraText camera;
+
+  /// Throws InvalidArgument, too, on a size that parse_size() refuses.
+  void check() const;
+};
+
 /// "field", "descending", "ascending", "morse-smale", "plain"
 std::string to_string(Show show);
-/// "x", "y", "z"
-std::string to_string(UpAxis up);
 
 /// All that a picture's looks follow from besides the subject, vertices by their numbers in the input file. `caption`: as it is drawn.
 Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,

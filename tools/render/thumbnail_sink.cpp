@@ -6,19 +6,15 @@
 #include "morsel/tools/drawing/png_comment.h"
 
 namespace morsel::tools::render {
-namespace {
-
-const CameraText kCamera;  // the best view
-
-}  // namespace
-
-ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods,
+ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
                              const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress)
     : prefix_(std::move(prefix)),
       methods_(methods),
+      camera_(std::move(camera)),
       loaded_(loaded),
       provenance_(std::move(provenance)),
       progress_(std::move(progress)) {
+  camera_.check();
   const core::FileWriter probe(path("first"));
 }
 
@@ -26,7 +22,7 @@ void ThumbnailSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
   provenance_.set_field(outcome);
   studio_.emplace(outcome.field.mesh());
-  view_ = studio_->view(kCamera.view, kCamera.up, progress_);
+  view_ = studio_->view(camera_.view, camera_.up, progress_);
 }
 
 void ThumbnailSink::method(const MethodOutcome& outcome) {
@@ -36,7 +32,7 @@ void ThumbnailSink::method(const MethodOutcome& outcome) {
   request.size = {240, 180};
   request.legend = false;
   Provenance provenance = provenance_.with_method(outcome.steps);
-  provenance.set("picture", picture_section(request, kCamera, "", loaded_.source.numbering));
+  provenance.set("picture", picture_section(request, camera_, "", loaded_.source.numbering));
   const Image image = studio_->take(view_, subject_of(outcome, field_name_), request, progress_);
   const std::string bytes = drawing::with_png_comment(encode_png(image), provenance.json());
   if (seen_ == 1) core::write_file(path("first"), bytes);

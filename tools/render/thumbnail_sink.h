@@ -13,13 +13,14 @@
 
 namespace morsel::tools::render {
 
-/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface from its best side, coloured by the method's field, with its
-/// critical points. Of a single method both are there, and equal.
+/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface coloured by the method's field, with its critical points. Of a
+/// single method both are there, and equal.
 class ThumbnailSink : public ComparisonSink {
  public:
-  /// `methods`: how many there will be. Throws WriteFailed if the files cannot be written. Refers to `loaded`.
-  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, const core::LoadedMesh& loaded,
-                Provenance provenance, core::Progress progress = {});
+  /// `methods`: how many there will be. Of `camera` the inset is left out. Throws WriteFailed if the files cannot be written, InvalidArgument on
+  /// a wrong view. Refers to `loaded`.
+  ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
+                const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
 
@@ -29,6 +30,7 @@ class ThumbnailSink : public ComparisonSink {
   std::filesystem::path prefix_;
   std::size_t methods_;
   std::size_t seen_ = 0;
+  CameraText camera_;
   const core::LoadedMesh& loaded_;
   Provenance provenance_;
   core::Progress progress_;

@@ -1,12 +1,36 @@
 #pragma once
-/// Tables of comma-separated values.
+/// Tables of comma-separated values (RFC 4180).
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "morsel/tools/report/json_stream.h"
+
 namespace morsel::tools {
 
-/// A field of a CSV file: in quotes where it has a comma, a quote or a line's end (RFC 4180).
+/// A field: in quotes where it has a comma, a quote or a line's end.
 std::string csv_field(std::string_view text);
+
+/// A line of fields.
+class CsvLine {
+ public:
+  void add(std::string_view text) { add_raw(csv_field(text)); }
+  void add(const char* text) { add(std::string_view(text)); }
+  void add(double value);
+  void add(const std::optional<double>& value) { value ? add(*value) : add_raw(""); }
+  void add(std::uint64_t value) { add_raw(std::to_string(value)); }
+  /// Nothing for null, a text as it is, all else as JSON.
+  void add_json(const Json& value);
+  /// Without the line's end.
+  const std::string& text() const { return line_; }
+
+ private:
+  void add_raw(std::string_view field);
+
+  std::string line_;
+  bool first_ = true;
+};
 
 }  // namespace morsel::tools

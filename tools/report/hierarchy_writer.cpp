@@ -30,11 +30,12 @@ struct SharedCells {
 
 }  // namespace
 
-Json request_section(const HierarchyRequest& request, bool repair) {
+Json request_section(const HierarchyRequest& request, const ReportInput& input) {
   Json asked = {{"field", request.field.field},
                 {"method", request.field.method},
                 {"by", to_string(request.kind)},
-                {"repair", repair}};
+                {"repair", input.repair}};
+  if (!input.items) asked["items"] = false;
   if (!request.levels.empty()) asked["levels"] = request.levels;
   if (!request.counts.empty()) asked["counts"] = request.counts;
   if (request.field.target) asked["target"] = *request.field.target;
@@ -43,11 +44,15 @@ Json request_section(const HierarchyRequest& request, bool repair) {
 
 HierarchyWriter::HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
                                  const HierarchyRequest& request, const PreparedHierarchy& prepared)
-    : json_(json), loaded_(loaded), prepared_(prepared), timings_({{"load", input.load_seconds}}) {
+    : json_(json),
+      loaded_(loaded),
+      prepared_(prepared),
+      items_(input.items),
+      timings_({{"load", input.load_seconds}}) {
   json_.begin_object();
   json_.member("schema", "morsel.hierarchy/1");
   json_.member("tool", tool_section());
-  json_.member("request", request_section(request, input.repair));
+  json_.member("request", request_section(request, input));
   json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
 }
 
@@ -58,7 +63,7 @@ void HierarchyWriter::begin(const HierarchyBasis& basis) {
   timings_["method"] = basis.made.method_seconds;
   if (basis.hierarchy != nullptr) {
     timings_["hierarchy"] = basis.hierarchy_seconds;
-    write_cancellations(*basis.hierarchy);
+    if (items_) write_cancellations(*basis.hierarchy);
   }
   timings_["levels"] = Json::array();
   json_.begin_array("levels");
@@ -94,11 +99,7 @@ void HierarchyWriter::level(const Level& level) {
                          {"moved", level.count(PointStatus::moved)},
                          {"new", level.count(PointStatus::fresh)}});
   json_.member("ms_complex", complex_section(level.complex, level.segmentation));
-  write_points(level);
-  write_arcs(level);
-  json_.begin_object("cells");
-  for (const CellKind kind : kCellKinds) write_cells(level, kind);
-  json_.end_object();
+  if (items_) write_items(level);
   json_.end_object();
   Json seconds = {{"level", level.place}};
   seconds.update(timings_section(level.timings));
@@ -118,6 +119,14 @@ void HierarchyWriter::write_name(const Level& level) {
   json_.member("cancellations", cancelled.cancellations);
   json_.member("largest_cancelled", cancelled.largest);
   json_.member("note", level.name.note);
+}
+
+void HierarchyWriter::write_items(const Level& level) {
+  write_points(level);
+  write_arcs(level);
+  json_.begin_object("cells");
+  for (const CellKind kind : kCellKinds) write_cells(level, kind);
+  json_.end_object();
 }
 
 void HierarchyWriter::write_points(const Level& level) {

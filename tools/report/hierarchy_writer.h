@@ -8,9 +8,9 @@
 namespace morsel::tools {
 
 /// What was asked for, `request` with its defaults.
-Json request_section(const HierarchyRequest& request, bool repair);
+Json request_section(const HierarchyRequest& request, const ReportInput& input);
 
-/// Writes the document while the levels are made.
+/// Writes the document while the levels are made. Without ReportInput::items it leaves out what grows with the mesh: cancellations, points, arcs, cells.
 class HierarchyWriter : public HierarchySink {
  public:
   /// Refers to all but `input`, which must outlive the writer. `request` with its defaults.
@@ -24,6 +24,7 @@ class HierarchyWriter : public HierarchySink {
  private:
   void write_cancellations(const mscomplex::PersistenceHierarchy& hierarchy);
   void write_name(const Level& level);
+  void write_items(const Level& level);
   void write_points(const Level& level);
   void write_arcs(const Level& level);
   void write_cells(const Level& level, CellKind kind);
@@ -32,6 +33,7 @@ class HierarchyWriter : public HierarchySink {
   JsonSink& json_;
   const core::LoadedMesh& loaded_;
   const PreparedHierarchy& prepared_;
+  bool items_;
   Json timings_;
   Stopwatch watch_;
 };

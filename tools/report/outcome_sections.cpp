@@ -68,6 +68,21 @@ Json counts_section(const morse::CriticalPoints& points) {
           {"total", points.total()}};
 }
 
+Json persistence_section(const persistence::Diagram& diagram, double extent) {
+  std::size_t essential_saddles = 0;
+  for (const auto& saddle : diagram.essential_saddles) essential_saddles += saddle.count;
+  const std::size_t infinite = diagram.cap_pairs().size();
+  Json above = Json::array();
+  for (const double percent : {0.1, 1.0, 5.0})
+    above.push_back(
+        {{"percent", percent}, {"pairs", diagram.count_above(percent / 100 * extent) + infinite}});
+  return {{"pairs", diagram.pairs.size()},
+          {"infinite_pairs", infinite},
+          {"essential_saddles", essential_saddles},
+          {"max", diagram.finite_count == 0 ? Json() : Json(diagram.largest())},
+          {"above", std::move(above)}};
+}
+
 Json complex_section(const mscomplex::MorseSmaleComplex& complex,
                      const mscomplex::Segmentation& segmentation) {
   return {{"minima", complex.minimum_count()},

@@ -6,6 +6,7 @@
 
 #include "morsel/core/file_bytes.h"
 #include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -15,12 +16,6 @@ constexpr std::string_view kBegin = R"({"schema":"morsel.provenance/1")";
 constexpr std::string_view kBeginInTable = R"({""schema"":""morsel.provenance/1"")";
 constexpr std::size_t kLine = 150;
 constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; what follows in a file may be large
-
-Json inputs_section(const std::vector<HashedFile>& files) {
-  Json list = Json::array();
-  for (const HashedFile& file : files) list.push_back({{"path", file.path}, {"sha256", file.sha256}});
-  return list;
-}
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
@@ -87,7 +82,7 @@ Provenance::Provenance(std::string_view command, Json request, const std::vector
     : document_({{"schema", "morsel.provenance/1"},
                  {"tool", tool_section()},
                  {"command", command},
-                 {"inputs", inputs_section(inputs)},
+                 {"inputs", files_section(inputs)},
                  {"request", std::move(request)}}) {}
 
 Provenance::Provenance(std::string_view command, Json request, const FieldSource& source)
@@ -98,7 +93,7 @@ Provenance::Provenance(std::string_view command, Json request, const FieldSource
 
 void Provenance::set_field(const FieldOutcome& field) {
   document_["field"] = {{"name", field.name}, {"parameters", to_json(field.parameters)}};
-  for (Json& file : inputs_section(field.files)) document_["inputs"].push_back(std::move(file));
+  for (Json& file : files_section(field.files)) document_["inputs"].push_back(std::move(file));
 }
 
 void Provenance::add_method(const std::vector<StepOutcome>& steps) {

@@ -76,21 +76,8 @@ void ReportWriter::write_target(const TargetOutcome& target) {
 }
 
 void ReportWriter::write_persistence(const MethodOutcome& outcome) {
-  const persistence::Diagram& diagram = outcome.measurement.diagram;
-  std::size_t essential_saddles = 0;
-  for (const auto& saddle : diagram.essential_saddles) essential_saddles += saddle.count;
-
   json_.begin_object("persistence");
-  json_.member("pairs", diagram.pairs.size());
-  json_.member("infinite_pairs", diagram.cap_pairs().size());
-  json_.member("essential_saddles", essential_saddles);
-  json_.member("max", diagram.finite_count == 0 ? Json() : Json(diagram.largest()));
-  Json above = Json::array();
-  for (const double percent : {0.1, 1.0, 5.0})
-    above.push_back({{"percent", percent},
-                     {"pairs", diagram.count_above(percent / 100 * outcome.field.extent()) +
-                                   diagram.cap_pairs().size()}});
-  json_.member("above", above);
+  add_members(persistence_section(outcome.measurement.diagram, outcome.field.extent()));
   if (items_) write_diagram(outcome);
   json_.end_object();
 }

@@ -1,12 +1,12 @@
 #include "morsel/tools/report/stability_writer.h"
 
+#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "morsel/core/parameters.h"
 #include "morsel/tools/report/csv.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/version.h"
@@ -111,32 +111,25 @@ void write_outcome(JsonSink& json, const StabilityReport& report, const Stabilit
   json.end_object();
 }
 
-/// A line of comma-separated values.
-class CsvLine {
- public:
-  void add(std::string_view text) {
-    next();
-    line_ += csv_field(text);
-  }
-  void add(double value) { add(core::shortest(value)); }
-  void add(const std::optional<double>& value) { value ? add(*value) : next(); }
-  void add(std::uint64_t value) { add(std::to_string(value)); }
-  void add(const Estimate& estimate) {
-    add(estimate.count > 0 ? std::optional(estimate.mean) : std::nullopt);
-    add(estimate.half_width);
-  }
-  const std::string& text() const { return line_; }
-
- private:
-  void next() {
-    if (!first_) line_ += ',';
-    first_ = false;
-  }
-  std::string line_;
-  bool first_ = true;
-};
+void add(CsvLine& line, const Estimate& estimate) {
+  line.add(estimate.count > 0 ? std::optional(estimate.mean) : std::nullopt);
+  line.add(estimate.half_width);
+}
 
 }  // namespace
+
+Json trials_key(const StabilityRequest& request, const ReportInput& input) {
+  Json asked = request_section(request, input.repair);
+  for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
+  std::vector<std::string> specifications = request.methods;
+  specifications.insert(specifications.end(), request.fields.begin(), request.fields.end());
+  specifications.insert(specifications.end(), {request.reference, request.reference_field});
+  return {{"schema", "morsel.stability/1"},
+          {"tool", tool_section()},
+          {"mesh", input.mesh_sha256},
+          {"request", std::move(asked)},
+          {"files", files_section(input_files(specifications))}};
+}
 
 void write_stability(JsonSink& json, const StabilityReport& report) {
   const StabilityResult& result = report.result;
@@ -191,9 +184,9 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(result.radius);
       line.add(to_string(report.prepared.points));
       line.add(report.prepared.functions[outcome.field].specification);
-      line.add(json_text(to_json(result.fields[outcome.field].parameters)));
+      line.add_json(to_json(result.fields[outcome.field].parameters));
       line.add(report.prepared.chains[outcome.method].specification);
-      line.add(json_text(parameters_section(outcome.clean.steps)));
+      line.add_json(parameters_section(outcome.clean.steps));
       line.add(outcome.target ? std::to_string(*outcome.target) : "");
       line.add(std::uint64_t{outcome.with_reference.found});
       line.add(outcome.agreement());
@@ -202,12 +195,12 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(perturbation.amount);
       line.add(is_noise ? to_string(perturbation.direction) : "");
       line.add(std::uint64_t{perturbed.trials.size()});
-      line.add(perturbed.found());
-      line.add(perturbed.f_score());
-      line.add(perturbed.recall());
-      line.add(perturbed.precision());
-      line.add(in_edges(perturbed.drift(), result.mean_edge_length));
-      line.add(perturbed.chance());
+      add(line, perturbed.found());
+      add(line, perturbed.f_score());
+      add(line, perturbed.recall());
+      add(line, perturbed.precision());
+      add(line, in_edges(perturbed.drift(), result.mean_edge_length));
+      add(line, perturbed.chance());
       out << line.text() << '\n';
     }
 }

@@ -19,6 +19,9 @@ struct StabilityReport {
   const StabilityResult& result;
 };
 
+/// What the trials of a run follow from, besides their perturbation and number: the key of their journal.
+Json trials_key(const StabilityRequest& request, const ReportInput& input);
+
 /// The whole document, every trial included.
 void write_stability(JsonSink& json, const StabilityReport& report);
 

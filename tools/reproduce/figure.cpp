@@ -102,7 +102,7 @@ std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutco
     add({"--view=" + options.camera.view});
   else
     add({"--view", options.camera.view});
-  if (options.camera.up != render::UpAxis::y) add({"--up", render::to_string(options.camera.up)});
+  if (options.camera.up != render::UpAxis::y) add({"--up", to_string(options.camera.up)});
   add({"--size", std::to_string(request.size.width) + "x" + std::to_string(request.size.height), "--samples",
        std::to_string(request.samples), "-o", panel.file});
   return words;

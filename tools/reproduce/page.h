@@ -12,7 +12,7 @@ namespace morsel::tools::reproduce {
 /// words and numbers beside ours, and the command lines. No script.
 std::string make_page(const Prepared& prepared, const Reproduction& reproduction);
 
-/// The page's style sheet, as the build embeds it (embed.cmake).
+/// The page's style sheet, as the build embeds it (html/embed.cmake).
 extern const std::string_view kStyle;
 
 }  // namespace morsel::tools::reproduce

@@ -13,6 +13,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
+#include "morsel/core/rethrow.h"
 #include "morsel/tools/stability/point_matching.h"
 #include "morsel/tools/stability/random_stream.h"
 
@@ -88,28 +89,12 @@ double ratio(std::size_t part, std::size_t whole) {
   return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// The error again, with where it came up in front.
-[[noreturn]] void rethrow_at(const core::Error& error, const std::string& where) {
-  const std::string message = where + ": " + error.what();
-  switch (error.kind()) {
-    case core::ErrorKind::invalid_argument:
-      throw core::InvalidArgument(message);
-    case core::ErrorKind::bad_input:
-      throw core::BadInput(message);
-    case core::ErrorKind::write_failed:
-      throw core::WriteFailed(message);
-    case core::ErrorKind::cancelled:
-      break;
-  }
-  throw core::Cancelled();
-}
-
 /// The trials of one run, all perturbations' in a row.
 class Trials {
  public:
   Trials(const core::LoadedMesh& clean, const PreparedStability& prepared, StabilityResult& result,
-         std::vector<CleanPoints> points)
-      : clean_(clean), prepared_(prepared), result_(result), points_(std::move(points)) {
+         std::vector<CleanPoints> points, TrialStore* store)
+      : clean_(clean), prepared_(prepared), result_(result), points_(std::move(points)), store_(store) {
     for (std::size_t p = 0; p < prepared.perturbations.size(); ++p)
       for (std::size_t t = 0; t < prepared.trials_of(prepared.perturbations[p]); ++t)
         trials_.emplace_back(p, t);
@@ -146,6 +131,12 @@ class Trials {
  private:
   void run_trial(std::size_t p, std::size_t t, const core::Progress& progress) {
     const Perturbation& perturbation = prepared_.perturbations[p];
+    if (const std::optional<std::vector<Trial>> known =
+            store_ == nullptr ? std::nullopt : store_->find(perturbation, t)) {
+      take(p, t, *known);
+      return;
+    }
+    std::vector<Trial> trials(result_.outcomes.size());
     std::string where = to_string(perturbation);
     if (perturbation.is_random()) where += ", trial " + std::to_string(t + 1);
     try {
@@ -156,13 +147,12 @@ class Trials {
         where += ", " + function.specification;
         const core::ScalarField field = evaluate_field(mesh.loaded, function, progress).field;
         for (std::size_t i = 0; i < result_.outcomes.size(); ++i) {
-          StabilityOutcome& outcome = result_.outcomes[i];
+          const StabilityOutcome& outcome = result_.outcomes[i];
           if (outcome.field != f) continue;
           const MethodChain& chain = prepared_.chains[outcome.method];
           const std::size_t length = where.size();
           where += ", " + chain.specification;
-          outcome.perturbations[p].trials[t] =
-              measured(mesh, function, field, outcome, points_[i], perturbation, t, progress);
+          trials[i] = measured(mesh, function, field, outcome, points_[i], perturbation, t, progress);
           where.resize(length);
         }
         where.resize(where.size() - function.specification.size() - 2);
@@ -170,8 +160,15 @@ class Trials {
     } catch (const core::Cancelled&) {
       throw;
     } catch (const core::Error& error) {
-      rethrow_at(error, where);
+      core::rethrow_at(error, where);
     }
+    take(p, t, trials);
+    if (store_ != nullptr) store_->add(perturbation, t, trials);
+  }
+
+  void take(std::size_t p, std::size_t t, const std::vector<Trial>& trials) {
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      result_.outcomes[i].perturbations[p].trials[t] = trials[i];
   }
 
   Trial measured(const PerturbedMesh& mesh, const NamedFunction& function, const core::ScalarField& field,
@@ -196,6 +193,7 @@ class Trials {
   const PreparedStability& prepared_;
   StabilityResult& result_;
   std::vector<CleanPoints> points_;  // by outcome
+  TrialStore* store_;                // or null
   std::vector<std::pair<std::size_t, std::size_t>> trials_;
 };
 
@@ -312,7 +310,7 @@ PreparedStability prepare(const StabilityRequest& given) {
 }
 
 StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
-                              const core::Progress& progress) {
+                              const core::Progress& progress, TrialStore* store) {
   StabilityResult result;
   result.radius = prepared.radius.on(clean.mesh);
   result.mean_edge_length = core::mean_edge_length(clean.mesh);
@@ -322,7 +320,7 @@ StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStabi
   std::vector<CleanPoints> points = run_clean(clean, prepared, result, progress);
   result.clean_seconds = clean_watch.seconds();
   const Stopwatch trial_watch;
-  Trials(clean, prepared, result, std::move(points)).run(progress);
+  Trials(clean, prepared, result, std::move(points), store).run(progress);
   result.trial_seconds = trial_watch.seconds();
   return result;
 }

@@ -138,6 +138,17 @@ struct StabilityResult {
 /// Random placements that each chance level is the mean of.
 inline constexpr std::size_t kPlacements = 10;
 
+/// Trials that are known, and who hears of those that are made: what an interrupted run goes on from.
+class TrialStore {
+ public:
+  virtual ~TrialStore() = default;
+  /// A trial for each outcome, in their order, or nothing if it is not known. May be called from several threads at once, as add().
+  virtual std::optional<std::vector<Trial>> find(const Perturbation& perturbation,
+                                                 std::size_t number) const = 0;
+  virtual void add(const Perturbation& perturbation, std::size_t number,
+                   const std::vector<Trial>& trials) = 0;
+};
+
 /// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their critical
 /// points with the clean ones (PointMatcher, type by type) by where they lie on the clean surface
 /// (PerturbedMesh::places): a point that stays at its vertex has not moved. Points of a subdivided surface lie where
@@ -148,8 +159,9 @@ inline constexpr std::size_t kPlacements = 10;
 ///
 /// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it is the
 /// same whatever else runs and at any number of threads. Throws what functions and methods throw; an error in a trial
-/// names the perturbation, trial, field and method, and of several it is that of the first.
+/// names the perturbation, trial, field and method, and of several it is that of the first. What the `store`, if there is
+/// one, has of trials is taken from it.
 StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
-                              const core::Progress& progress = {});
+                              const core::Progress& progress = {}, TrialStore* store = nullptr);
 
 }  // namespace morsel::tools

@@ -1,0 +1,171 @@
+// morsel sweep: a field and a method with every combination of some parameters' values.
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/file_writer.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/table_target.h"
+#include "morsel/tools/export/folder.h"
+#include "morsel/tools/plot/plot_files.h"
+#include "morsel/tools/plot/sweep_plots.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/input_files.h"
+#include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/sweep_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+struct Options {
+  std::string mesh;
+  SweepRequest request;
+  std::string output;
+  std::string figure_folder;
+};
+
+/// The rows that an interrupted run has left, and a place for those to come.
+class KnownRows {
+ public:
+  KnownRows(Journal* journal, const PreparedSweep& prepared) : journal_(journal), prepared_(prepared) {
+    if (journal == nullptr) return;
+    std::map<std::string, const Json*> entries;
+    for (const Json& entry : journal->entries()) entries[entry.at("combination")] = &entry;
+    for (std::size_t i = 0; i < prepared.combinations.size(); ++i)
+      if (const auto entry = entries.find(name(i)); entry != entries.end()) {
+        rows_.resize(prepared.combinations.size());
+        rows_[i] = {entry->second->at("result"), entry->second->at("seconds")};
+        ++count_;
+      }
+  }
+
+  std::size_t count() const { return count_; }
+
+  SweepOptions options() const {
+    SweepOptions options{.known = rows_};
+    if (journal_ != nullptr)
+      options.on_row = [this](std::size_t i, const SweepRow& row) {
+        journal_->add({{"combination", name(i)}, {"result", row.result}, {"seconds", row.seconds}});
+      };
+    return options;
+  }
+
+ private:
+  std::string name(std::size_t i) const {
+    return to_string(prepared_.combinations[i].field) + " " + to_string(prepared_.combinations[i].steps);
+  }
+
+  Journal* journal_;
+  const PreparedSweep& prepared_;
+  std::vector<std::optional<SweepRow>> rows_;
+  std::size_t count_ = 0;
+};
+
+std::vector<HashedFile> files_of(const PreparedSweep& prepared) {
+  std::vector<std::string> specifications;
+  for (const Combination& combination : prepared.combinations) {
+    specifications.push_back(to_string(combination.field));
+    specifications.push_back(to_string(combination.steps));
+  }
+  return input_files(specifications);
+}
+
+std::vector<plot::NamedPlot> plots_of(const SweepReport& report, const std::string& folder) {
+  std::vector<plot::NamedPlot> plots;
+  for (std::size_t k = 0; k < report.prepared.variations.size(); ++k)
+    if (std::optional<plot::Plot> plot = plot::sweep_plot(report.prepared, report.rows, k))
+      plots.emplace_back(std::filesystem::path(folder) / report.prepared.variations[k].key, std::move(*plot));
+  return plots;
+}
+
+int sweep(const Options& options, const CommonOptions& common, Console& console) {
+  // Wrong names and unwritable targets are told before the work, not after it.
+  const PreparedSweep prepared = prepare(options.request);
+  TableTarget target(options.output);
+  if (!options.figure_folder.empty()) {
+    make_folder(options.figure_folder);
+    const core::FileWriter probe(std::filesystem::path(options.figure_folder) /
+                                 (prepared.variations.front().key + ".svg"));
+  }
+
+  const Stopwatch load_watch;
+  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
+  const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
+  const std::vector<HashedFile> files = files_of(prepared);
+  const KnownRows known(target.open_journal({{"schema", "morsel.sweep/1"},
+                                             {"tool", tool_section()},
+                                             {"mesh", input.sha256},
+                                             {"repair", common.repair},
+                                             {"files", files_section(files)}}),
+                        prepared);
+  if (known.count() > 0)
+    console.message("going on with " + std::to_string(known.count()) + " of " +
+                    std::to_string(prepared.combinations.size()) + " combinations done: " + options.output +
+                    ".journal");
+  const std::vector<SweepRow> rows = run_sweep(input.loaded, prepared, known.options(), console.progress());
+
+  const SweepReport report{input.loaded, about, options.request, prepared, rows};
+  target.write([&](JsonSink& json) { write_sweep(json, report); },
+               [&](std::ostream& out) { write_sweep_csv(out, report); });
+  if (!options.figure_folder.empty()) {
+    std::vector<HashedFile> inputs = {{options.mesh, input.sha256}};
+    inputs.insert(inputs.end(), files.begin(), files.end());
+    plot::write_plots(
+        plots_of(report, options.figure_folder),
+        Provenance(common.command, request_section(options.request, prepared, common.repair), inputs));
+  }
+  if (!target.is_stdout()) std::cout << sweep_table(report);
+  if (target.is_file()) console.message("sweep: " + options.output);
+  if (!options.figure_folder.empty()) console.message("plots: " + options.figure_folder);
+  return kDone;
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Invocation& invocation) {
+  auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(
+      "sweep", "How the numbers of critical points depend on parameters: every combination of their values");
+  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_option("--field", options->request.field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
+  command.add_option("--method", options->request.method, "A method or chain of methods (below)")
+      ->type_name("M")
+      ->capture_default_str();
+  command
+      .add_option(
+          "--vary", options->request.vary,
+          "A parameter and its values, separated by commas; may be given several times. A..B stands for\n"
+          "A, A + 1 and so on to B; A..B..S goes by S, A..B..xF by the factor F; numbers may have a unit\n"
+          "(2eps..16eps..x2). KEY is one of the method or of the field; where several have it, it is\n"
+          "field.KEY, NAME.KEY or, with the number of the step, 2.KEY")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUES");
+  command
+      .add_option("-o,--output", options->output,
+                  "Write a row for each combination (.json or .csv) here; - is JSON on standard output.\n"
+                  "Should it be interrupted, OUT.journal holds what is done, and the same command goes on\n"
+                  "from there")
+      ->type_name("OUT");
+  command
+      .add_option("--figures", options->figure_folder,
+                  "Write a plot of critical points against each varied parameter (.svg and .png) here")
+      ->type_name("DIR");
+  add_common_options(command, invocation.common);
+  command.footer(specification_help());
+  command.callback([options, &invocation] {
+    invocation.action = [options, &invocation](Console& console) {
+      return sweep(*options, invocation.common, console);
+    };
+  });
+}
+
+}  // namespace morsel::tools

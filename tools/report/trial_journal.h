@@ -1,0 +1,29 @@
+#pragma once
+/// The trials of an interrupted stability run.
+
+#include <map>
+#include <string>
+
+#include "morsel/tools/report/journal.h"
+#include "morsel/tools/stability/stability.h"
+
+namespace morsel::tools {
+
+/// Keeps trials in a journal; an entry has those of one perturbed surface.
+class TrialJournal : public TrialStore {
+ public:
+  /// Refers to the journal.
+  explicit TrialJournal(Journal& journal);
+
+  std::optional<std::vector<Trial>> find(const Perturbation& perturbation, std::size_t number) const override;
+  void add(const Perturbation& perturbation, std::size_t number, const std::vector<Trial>& trials) override;
+
+  /// Surfaces that the journal has.
+  std::size_t count() const { return known_.size(); }
+
+ private:
+  Journal& journal_;
+  std::map<std::string, std::vector<Trial>> known_;
+};
+
+}  // namespace morsel::tools

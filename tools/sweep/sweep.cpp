@@ -1,0 +1,277 @@
+#include "morsel/tools/sweep/sweep.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/core/parameters.h"
+#include "morsel/core/rethrow.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/persistence/pairing.h"
+#include "morsel/tools/comparison/chain.h"
+#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/report/outcome_sections.h"
+
+namespace morsel::tools {
+namespace {
+
+using core::ScalarField;
+
+/// Numbers of combinations.
+using Members = std::vector<std::size_t>;
+
+/// The members with equal texts, in the order of their first ones.
+template <class Text>
+std::vector<Members> grouped_by(const Members& members, const Text& text) {
+  std::vector<Members> groups;
+  std::map<std::string, std::size_t> places;
+  for (const std::size_t member : members) {
+    const auto [place, is_new] = places.emplace(text(member), groups.size());
+    if (is_new) groups.emplace_back();
+    groups[place->second].push_back(member);
+  }
+  return groups;
+}
+
+core::Specification without_iterations(core::Specification step) {
+  std::erase_if(step.given, [](const auto& entry) { return entry.first == "iterations"; });
+  return step;
+}
+
+std::optional<int> iterations_of(const core::Specification& step) {
+  for (const auto& [key, raw] : step.given)
+    if (key == "iterations")
+      return static_cast<int>(core::parse_integer(core::unescape(raw), step.name + ":iterations"));
+  return std::nullopt;
+}
+
+std::optional<int> iterations_run(const StepOutcome& step) {
+  for (const auto& [name, value] : step.details)
+    if (name == "iterations_run") return static_cast<int>(std::get<std::int64_t>(value));
+  return std::nullopt;
+}
+
+/// A stopwatch that can be held.
+class HeldWatch {
+ public:
+  double seconds() const { return watch_.seconds() - held_; }
+  template <class Work>
+  void hold(const Work& work) {
+    const Stopwatch pause;
+    work();
+    held_ += pause.seconds();
+  }
+
+ private:
+  Stopwatch watch_;
+  double held_ = 0;
+};
+
+class SweepRun {
+ public:
+  SweepRun(const core::LoadedMesh& loaded, const PreparedSweep& prepared, const SweepOptions& options,
+           const core::Progress& progress)
+      : loaded_(loaded), prepared_(prepared), options_(options), progress_(progress) {
+    rows_.resize(prepared.combinations.size());
+    for (std::size_t i = 0; i < options.known.size(); ++i)
+      if (options.known[i]) {
+        rows_[i] = *options.known[i];
+        ++done_;
+      }
+  }
+
+  std::vector<SweepRow> run() {
+    Members members;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (options_.known.empty() || !options_.known[i]) members.push_back(i);
+    const auto field_text = [&](std::size_t i) { return to_string(prepared_.combinations[i].field); };
+    for (const Members& group : grouped_by(members, field_text)) {
+      show_progress();
+      const NamedFunction function = make_function(field_text(group.front()));
+      const FieldOutcome field =
+          named(group.front(), [&] { return evaluate_field(loaded_, function, progress_); });
+      function_ = &function;
+      field_ = &field;
+      descend(field.field, group, 0);
+    }
+    return std::move(rows_);
+  }
+
+ private:
+  /// What is known of a combination before its row is whole.
+  struct Draft {  // NOLINT(bugprone-exception-escape): of the JSON library
+    std::vector<StepOutcome> steps;
+    std::vector<double> seconds;  // of each step
+    Json measured;
+    double measuring_seconds = 0;
+  };
+
+  /// The step and those after it, on `input`.
+  void descend(const ScalarField& input, const Members& members, std::size_t step) {
+    if (step == prepared_.combinations[members.front()].steps.size()) {
+      measure(input, members.front());
+      return;
+    }
+    const auto specification = [&](std::size_t i) -> const core::Specification& {
+      return prepared_.combinations[i].steps[step];
+    };
+    const auto readable = [&](std::size_t i) {
+      return iterations_of(specification(i)) &&
+             make_method(to_string(specification(i))).steps.front().method->tells_results();
+    };
+    const auto text = [&](std::size_t i) {
+      return to_string(readable(i) ? without_iterations(specification(i)) : specification(i));
+    };
+    for (const Members& group : grouped_by(members, text))
+      readable(group.front()) ? read_out(input, group, step) : apply(input, group, step);
+  }
+
+  void apply(const ScalarField& input, const Members& members, std::size_t step) {
+    show_progress();
+    const core::Specification& specification = prepared_.combinations[members.front()].steps[step];
+    const MethodChain chain = make_method(to_string(specification));
+    const HeldWatch watch;
+    core::MethodResult result = named(members.front(), [&] {
+      return chain.steps.front().method->apply(input, method_context(loaded_, *function_, progress_));
+    });
+    const StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
+    for (const std::size_t i : members) finish_step(i, step, outcome, watch.seconds());
+    descend(result.field, members, step + 1);
+  }
+
+  /// One run with the largest number of iterations.
+  void read_out(const ScalarField& input, const Members& members, std::size_t step) {
+    std::map<int, Members> by_iterations;
+    const auto specification = [&](std::size_t i) { return prepared_.combinations[i].steps[step]; };
+    for (const std::size_t i : members) by_iterations[*iterations_of(specification(i))].push_back(i);
+    show_progress();
+    const std::size_t longest = by_iterations.rbegin()->second.front();
+    const MethodChain chain = make_method(to_string(specification(longest)));
+    HeldWatch watch;
+    std::map<int, double> seconds;
+    const auto read = [&](int iterations, const ScalarField& field) {
+      seconds[iterations] = watch.seconds();
+      watch.hold([&] { descend(field, by_iterations.at(iterations), step + 1); });
+    };
+    ++open_runs_;
+    core::MethodContext context = method_context(loaded_, *function_, progress_);
+    context.tells_iteration = [&](int iteration) { return by_iterations.contains(iteration); };
+    context.on_iteration = [&](int iteration, const ScalarField& field) {
+      read(iteration, field);
+      return true;
+    };
+    core::MethodResult result =
+        named(longest, [&] { return chain.steps.front().method->apply(input, context); });
+    StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
+    const int run = iterations_run(outcome).value_or(0);
+    for (const auto& [iterations, group] : by_iterations) {
+      // Of the input a method tells only if it is not the one it was given; and it may have ended by itself.
+      if (!seconds.contains(iterations)) read(iterations, iterations == 0 && run > 0 ? input : result.field);
+      set(outcome.parameters, "iterations", iterations);
+      set(outcome.details, "iterations_run", std::min(iterations, run));
+      for (const std::size_t i : group) finish_step(i, step, outcome, seconds.at(iterations));
+    }
+    --open_runs_;
+    emit();
+  }
+
+  static void set(core::Parameters& parameters, std::string_view key, int value) {
+    for (auto& [name, held] : parameters)
+      if (name == key) held = std::int64_t{value};
+  }
+
+  /// Steps are finished in any order: those inside a run that is read out come first.
+  void finish_step(std::size_t i, std::size_t step, const StepOutcome& outcome, double seconds) {
+    Draft& draft = drafts_[i];
+    draft.steps.resize(prepared_.combinations[i].steps.size());
+    draft.seconds.resize(draft.steps.size());
+    draft.steps[step] = outcome;
+    draft.seconds[step] = seconds;
+  }
+
+  void measure(const ScalarField& field, std::size_t i) {
+    const Stopwatch watch;
+    const morse::CriticalPoints points = morse::classify(field, progress_);
+    const persistence::Diagram diagram = persistence::pair_extrema(field, progress_);
+    Draft& draft = drafts_[i];
+    draft.measured = {{"min", field.min()},
+                      {"max", field.max()},
+                      {"critical_points", counts_section(points)},
+                      {"persistence", persistence_section(diagram, field.extent())}};
+    draft.measuring_seconds = watch.seconds();
+    emit();
+  }
+
+  /// The rows that are whole, unless a run is open that has yet to tell its parameters.
+  void emit() {
+    if (open_runs_ > 0) return;
+    for (auto& [i, draft] : drafts_) {
+      std::int64_t iterations = 0;
+      bool iterates = false;
+      for (const StepOutcome& step : draft.steps)
+        if (const std::optional<int> run = iterations_run(step)) {
+          iterations += *run;
+          iterates = true;
+        }
+      std::string name;
+      for (const StepOutcome& step : draft.steps) name += (name.empty() ? "" : "+") + step.name;
+      SweepRow& row = rows_[i];
+      row.result = {{"field", field_section(*field_)},
+                    {"method",
+                     {{"name", name},
+                      {"parameters", parameters_section(draft.steps)},
+                      {"min", draft.measured["min"]},
+                      {"max", draft.measured["max"]}}},
+                    {"iterations_run", iterates ? Json(iterations) : Json()},
+                    {"critical_points", draft.measured["critical_points"]},
+                    {"persistence", draft.measured["persistence"]}};
+      row.seconds = {{"field", field_->seconds},
+                     {"method", std::reduce(draft.seconds.begin(), draft.seconds.end())},
+                     {"measuring", draft.measuring_seconds}};
+      ++done_;
+      if (options_.on_row) options_.on_row(i, row);
+    }
+    drafts_.clear();
+  }
+
+  /// Does the work; an error of it names the combination, unless work within it has named its own.
+  template <class Work>
+  std::invoke_result_t<const Work&> named(std::size_t i, const Work& work) {
+    const Combination& combination = prepared_.combinations[i];
+    try {
+      return work();
+    } catch (const core::Error& error) {
+      if (error.kind() == core::ErrorKind::cancelled || std::exchange(error_is_named_, true)) throw;
+      core::rethrow_at(error, to_string(combination.field) + ", " + to_string(combination.steps));
+    }
+  }
+
+  void show_progress() const {
+    progress_.update("sweep", static_cast<double>(done_) / static_cast<double>(rows_.size()));
+  }
+
+  const core::LoadedMesh& loaded_;
+  const PreparedSweep& prepared_;
+  const SweepOptions& options_;
+  const core::Progress& progress_;
+  std::vector<SweepRow> rows_;
+  std::map<std::size_t, Draft> drafts_;
+  int open_runs_ = 0;
+  bool error_is_named_ = false;
+  std::size_t done_ = 0;
+  const NamedFunction* function_ = nullptr;
+  const FieldOutcome* field_ = nullptr;
+};
+
+}  // namespace
+
+std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const PreparedSweep& prepared,
+                                const SweepOptions& options, const core::Progress& progress) {
+  return SweepRun(loaded, prepared, options, progress).run();
+}
+
+}  // namespace morsel::tools
