@@ -146,9 +146,9 @@ std::string Provenance::html_comment() const {
 }
 
 std::string shaping_command(const std::vector<std::string>& words) {
-  constexpr std::array<std::string_view, 10> kWithValue = {"-o",       "--output",  "--json", "--graph",
-                                                           "--export", "--figures", "--html", "--thumbnails",
-                                                           "--out",    "--threads"};
+  constexpr std::array<std::string_view, 11> kWithValue = {
+      "-o",     "--output",     "--json", "--graph",   "--export",    "--figures",
+      "--html", "--thumbnails", "--out",  "--threads", "--html-place"};
   std::vector<std::string> kept;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
