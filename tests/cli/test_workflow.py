@@ -217,6 +217,15 @@ class Pieces(ProgramTest):
                 sizes = [sum(meshes[name] for name in part) for part in parts]
                 self.assertLess(max(sizes) - min(sizes), 1100)
 
+    def test_a_part_that_slurm_has_in_its_queue_is_not_submitted_twice(self):
+        for queued, said in (("", "sbatch --parsable --job-name=morsel-deal-x-0007 --mem=5 script\n"), ("12", "12\n")):
+            self.file("squeue", f"#!/bin/sh\n[ \"$3\" = --name=morsel-deal-x-0007 ] && printf '{queued}'\n").chmod(0o755)
+            self.file("sbatch", "#!/bin/sh\necho sbatch \"$@\"\n").chmod(0o755)
+            result = subprocess.run([WORKFLOW / "profiles/slurm/slurm-submit", "work/deal-x/0007", "--mem=5", "script"],
+                                    capture_output=True, text=True, check=True,
+                                    env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
+            self.assertEqual(result.stdout, said)
+
     def test_the_status_of_a_job_of_slurm(self):
         """With stand-ins for Slurm's programs: a controller that knows the job, does not know it or does not answer; a database or none."""
         def status(controller, database="exit 1"):
