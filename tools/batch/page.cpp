@@ -219,8 +219,8 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
              "<a href=\"summary.json\">summary.json</a>.</p></header>\n<main>\n");
   file.write(plots);
   file.write(
-      "<p class=\"find\"><label>Find <input type=\"search\" id=\"find\" "
-      "placeholder=\"a name, a status, an error\"></label> <output id=\"found\"></output> <button "
+      "<p class=\"find\"><label>Find a name, a status, an error: <input type=\"search\" "
+      "id=\"find\"></label> <output id=\"found\"></output> <button "
       "type=\"button\" id=\"all\" hidden>Show all</button></p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Meshes\"><table "
       "class=\"collection\" data-first=\"" +
