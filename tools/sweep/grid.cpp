@@ -33,9 +33,8 @@ class Links {
 
   Place place(const std::string& key) const {
     const std::size_t dot = key.find('.');
-    const Place found = dot == std::string::npos
-                            ? place_of(key)
-                            : Place{link_of(key, key.substr(0, dot)), key.substr(dot + 1)};
+    Place found = dot == std::string::npos ? place_of(key)
+                                           : Place{link_of(key, key.substr(0, dot)), key.substr(dot + 1)};
     if (std::ranges::count(keys_[found.link], found.key) == 0)
       throw refused(key, links_[found.link].name + " has no key \"" + found.key +
                              "\"; it has: " + listed(keys_[found.link]));
