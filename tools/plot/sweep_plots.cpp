@@ -83,6 +83,7 @@ std::string name_of(const PreparedSweep& prepared, const Combination& combinatio
 std::vector<double> counts_of(const std::vector<SweepRow>& rows, const std::vector<std::size_t>& line,
                               const char* count) {
   std::vector<double> counts;
+  counts.reserve(line.size());
   for (const std::size_t row : line) counts.push_back(count_of(rows[row], count));
   return counts;
 }
@@ -118,6 +119,7 @@ std::optional<Plot> sweep_plot(const PreparedSweep& prepared, const std::vector<
     std::vector<double> median, least, most;
     for (std::size_t i = 0; i < variation.values.size(); ++i) {
       std::vector<double> counts;
+      counts.reserve(lines.size());
       for (const auto& [others, line] : lines) counts.push_back(count_of(rows[line[i]], "total"));
       std::ranges::sort(counts);
       median.push_back(counts[(counts.size() - 1) / 2]);

@@ -16,6 +16,7 @@ std::vector<HashedFile> input_files(const std::vector<std::string>& specificatio
             !hashes.contains(value) && std::filesystem::is_regular_file(value))
           hashes[value] = sha256_of_file(value);
   std::vector<HashedFile> files;
+  files.reserve(hashes.size());
   for (const auto& [path, hash] : hashes) files.push_back({path, hash});
   return files;
 }
