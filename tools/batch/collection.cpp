@@ -63,8 +63,10 @@ std::vector<CollectionMesh> of_list(const fs::path& list, const Names& files) {
 std::optional<CollectionMesh> in_folder(const fs::path& folder, const std::string& name) {
   if (name.empty() || mesh_name(name) != name || !is_mesh(name)) return std::nullopt;
   fs::path path = folder;
-  for (const fs::path& part : fs::path(name).parent_path())
-    if (fs::is_symlink(path /= part)) return std::nullopt;
+  for (const fs::path& part : fs::path(name).parent_path()) {
+    path /= part;
+    if (fs::is_symlink(path)) return std::nullopt;
+  }
   path = folder / name;
   return fs::is_regular_file(path) ? std::optional(CollectionMesh{name, path}) : std::nullopt;
 }
