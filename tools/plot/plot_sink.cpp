@@ -7,6 +7,7 @@
 #include "morsel/tools/plot/plot_files.h"
 
 namespace morsel::tools {
+
 PlotSink::PlotSink(std::filesystem::path folder, Provenance provenance)
     : folder_(std::move(folder)), provenance_(std::move(provenance)), all_(provenance_) {
   make_folder(folder_);

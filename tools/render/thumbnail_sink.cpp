@@ -6,6 +6,7 @@
 #include "morsel/tools/drawing/png_comment.h"
 
 namespace morsel::tools::render {
+
 ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
                              const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress)
     : prefix_(std::move(prefix)),

@@ -11,6 +11,7 @@
 #include "morsel/tools/report/version.h"
 
 namespace morsel::tools::reproduce {
+
 std::string method_of(const TableRow& row, const TableSetting& setting) {
   if (row.iterations == 0) return "conventional";
   return "salient:iterations=" + std::to_string(row.iterations) + "," + std::string(setting.keys);
