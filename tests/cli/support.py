@@ -44,15 +44,20 @@ DAMAGED = """OFF
 """
 
 
+def until(condition, seconds=60):
+    """Waits for what other processes bring about."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "nothing happened"
+        time.sleep(0.005)
+
+
 def interrupted(folder, arguments, how, code, ready):
     """Runs the program until `ready`, then sends it the signal `how`, of which it must end with `code`. The number of
     entries that journals in the folder have then."""
     with subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=folder, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE) as process:
-        end = time.monotonic() + 60
-        while not ready():
-            assert process.poll() is None and time.monotonic() < end, "nothing happened"
-            time.sleep(0.005)
+        until(lambda: process.poll() is not None or ready())
         process.send_signal(how)
         _, errors = process.communicate(timeout=60)
     assert process.returncode == code, (process.returncode, errors)

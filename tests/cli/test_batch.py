@@ -12,7 +12,7 @@ import unittest
 
 import jsonschema
 
-from support import OCTAHEDRON, PROGRAM, SAMPLES, SCHEMA, ProgramTest
+from support import OCTAHEDRON, PROGRAM, SAMPLES, SCHEMA, ProgramTest, until
 
 BATCH_SCHEMA = SCHEMA.parent / "batch.schema.json"
 QUICK = ("--method", "conventional", "--method", "salient:iterations=2")
@@ -295,12 +295,6 @@ class AtWork(BatchTest):
         except OSError:
             return False
 
-    def until(self, condition, seconds=60):
-        end = time.monotonic() + seconds
-        while not condition():
-            self.assertLess(time.monotonic(), end, "nothing happened")
-            time.sleep(0.005)
-
 
 class Interruptions(AtWork):
     def started(self):
@@ -316,22 +310,22 @@ class Interruptions(AtWork):
         self.arguments = LONG
         for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             with self.started() as process:
-                self.until(self.children)
+                until(self.children)
                 process.send_signal(how)
                 process.communicate(timeout=60)
-            self.until(lambda: not self.children(), 10)
+            until(lambda: not self.children(), 10)
 
     def test_a_run_that_is_ended_in_any_way_can_be_completed(self):
         whole = None
         for how, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)):
             shutil.rmtree(self.out, ignore_errors=True)
             with self.started() as process:
-                self.until(lambda: (self.out / "state/meshes/octahedron.off.json").exists()
+                until(lambda: (self.out / "state/meshes/octahedron.off.json").exists()
                            and (self.out / "work").exists() and self.children())
                 process.send_signal(how)
                 process.communicate(timeout=60)
             self.assertEqual(process.returncode, code)
-            self.until(lambda: not self.children(), 10)
+            until(lambda: not self.children(), 10)
             self.assertEqual(sorted(path.name for path in (self.out / "reports").rglob("*.json")), ["octahedron.off.json"])
             json.loads((self.out / "reports/meshes/octahedron.off.json").read_text())
             if how != signal.SIGKILL:  # then not even what is not whole is left

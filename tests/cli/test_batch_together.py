@@ -8,7 +8,7 @@ import signal
 import subprocess
 import unittest
 
-from support import PROGRAM
+from support import PROGRAM, until
 from test_batch import AtWork, contents
 
 LONG_ENOUGH = ("--method", "conventional", "--method", "salient:iterations=400")
@@ -24,7 +24,7 @@ class Together(AtWork):
 
     def in_work(self, count):
         """Until so many meshes are in work."""
-        self.until(lambda: len(self.children()) == count)
+        until(lambda: len(self.children()) == count)
 
     def ends(self, process, code=0):
         out, errors = process.communicate(timeout=240)
@@ -67,7 +67,7 @@ class Together(AtWork):
         self.in_work(1)
         killed.kill()
         self.ends(killed, -signal.SIGKILL)
-        self.until(lambda: not self.children())
+        until(lambda: not self.children())
         left, = (self.out / "work").iterdir()
         live = self.start("--only", "sphere.off", "--no-summary", *LONG_ENOUGH)
         self.in_work(1)

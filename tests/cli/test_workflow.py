@@ -6,11 +6,10 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 import unittest
 import warnings
 
-from support import OCTAHEDRON, PROGRAM, SAMPLES, SCHEMA, ProgramTest
+from support import OCTAHEDRON, PROGRAM, SAMPLES, SCHEMA, ProgramTest, until
 
 WORKFLOW = SCHEMA.parent.parent / "workflow"
 SNAKEMAKE = "/usr/bin/snakemake"  # Debian's, whatever is first on the PATH
@@ -133,26 +132,20 @@ class Interruptions(WorkflowTest):
         except OSError:
             return False
 
-    def until(self, condition, seconds=60):
-        end = time.monotonic() + seconds
-        while not condition():
-            self.assertLess(time.monotonic(), end, "nothing happened")
-            time.sleep(0.01)
-
     def test_a_run_that_is_ended_in_any_way_can_be_completed(self):
         self.plain(options=SLOW)
         for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             shutil.rmtree(self.out, ignore_errors=True)
             with subprocess.Popen(self.command(options=SLOW, snakemake=("--cores", "1")), cwd=self.folder, text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True) as process:
-                self.until(lambda: (self.out / "state/deeper/an anchor.off.json").exists() and self.workers())
+                until(lambda: (self.out / "state/deeper/an anchor.off.json").exists() and self.workers())
                 if how == signal.SIGINT:
                     os.killpg(process.pid, how)  # as Ctrl-C does
                 else:
                     process.send_signal(how)
                 process.communicate(timeout=60)
             self.assertNotEqual(process.returncode, 0)
-            self.until(lambda: not self.workers(), 10)
+            until(lambda: not self.workers(), 10)
             self.assertFalse((self.out / "summary.csv").exists())
             before = self.times()
             self.assertEqual("sphere.off.json" in before, how == signal.SIGTERM)  # which lets jobs end
@@ -164,11 +157,11 @@ class Interruptions(WorkflowTest):
     def test_two_runs_do_not_get_in_each_others_way(self):
         with subprocess.Popen(self.command(options=LONG), cwd=self.folder, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, start_new_session=True) as process:
-            self.until(self.workers)
+            until(self.workers)
             self.assertIn("another run of this workflow is at work on out", self.workflow(options=LONG, code=1))
             os.killpg(process.pid, signal.SIGINT)
             process.communicate(timeout=60)
-        self.until(lambda: not self.workers(), 10)
+        until(lambda: not self.workers(), 10)
 
 
 class WrongInput(WorkflowTest):

@@ -55,8 +55,6 @@ fs::path place_of(const std::string& made_file, const std::vector<Product>& prod
 
 Json common_key(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
-  std::vector<std::string> specifications = asked.methods;
-  specifications.push_back(asked.field);
   const render::FigureText& figure = request.figure;
   const auto if_any = [](bool any, const std::string& text) { return any ? Json(text) : Json(); };
   const Json key = {
@@ -76,7 +74,7 @@ Json common_key(const BatchRequest& request) {
         {"up", if_any(has_pictures(request), to_string(figure.camera.up))},
         {"size", if_any(request.figures, figure.size)},
         {"inset", if_any(request.figures && !figure.camera.inset.empty(), figure.camera.inset)}}},
-      {"files", files_section(input_files(specifications))}};
+      {"files", files_section(input_files({asked.field}))}};
   return Json::parse(json_text(key));  // as it is read back from a state
 }
 

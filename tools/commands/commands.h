@@ -53,6 +53,8 @@ void add_target_option(CLI::App& command, std::optional<std::size_t>& target);
 void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request);
 /// --view, --up and --inset of the commands that take pictures.
 void add_camera_options(CLI::App& command, render::CameraText& camera);
+/// --method, any number of times.
+void add_methods_option(CLI::App& command, std::vector<std::string>& methods);
 /// --field, --method, --target and --snap of the commands that run several methods.
 void add_comparison_options(CLI::App& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures.

@@ -61,16 +61,20 @@ void add_camera_options(CLI::App& command, render::CameraText& camera) {
       ->type_name("VERTEX[:RADIUS]");
 }
 
-void add_comparison_options(CLI::App& command, ComparisonRequest& request) {
-  command.add_option("--field", request.field, "Morse function (below)")
-      ->type_name("F")
-      ->capture_default_str();
+void add_methods_option(CLI::App& command, std::vector<std::string>& methods) {
   command
-      .add_option("--method", request.methods,
+      .add_option("--method", methods,
                   "A method or chain of methods (below); may be given several times\n"
                   "(default: conventional, salient and tps)")
       ->type_name("M")
       ->allow_extra_args(false);
+}
+
+void add_comparison_options(CLI::App& command, ComparisonRequest& request) {
+  command.add_option("--field", request.field, "Morse function (below)")
+      ->type_name("F")
+      ->capture_default_str();
+  add_methods_option(command, request.methods);
   add_target_option(command, request.target);
   command.add_flag("--snap", request.snap,
                    "Report each critical point at the position of the one of the input field that it came\n"

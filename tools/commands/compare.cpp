@@ -12,11 +12,11 @@
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
-#include "morsel/tools/html/command_line.h"
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
 #include "morsel/tools/render/thumbnail_sink.h"
+#include "morsel/tools/report/command_line.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
@@ -86,10 +86,7 @@ class Outputs {
         figure_size_(render::parse_size(options.figure.size)),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
-    if (!options.figure_folder.empty()) {
-      make_folder(options.figure_folder);
-      const core::FileWriter probe(std::filesystem::path(options.figure_folder) / "diagrams.svg");
-    }
+    if (!options.figure_folder.empty()) make_writable_folder(options.figure_folder);
   }
 
   /// `sinks` are told, too. Refers to `input`.

@@ -111,12 +111,7 @@ void add_stability(CLI::App& app, Invocation& invocation) {
       ->type_name("F")
       ->allow_extra_args(false)
       ->default_str("mean-curvature");
-  command
-      .add_option("--method", request.methods,
-                  "A method or chain of methods (below); may be given several times\n"
-                  "(default: conventional, salient and tps)")
-      ->type_name("M")
-      ->allow_extra_args(false);
+  add_methods_option(command, request.methods);
   add_perturbation_options(command, request);
   add_target_option(command, request.target);
   command.get_option("--target")

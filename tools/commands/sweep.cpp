@@ -1,15 +1,14 @@
 // morsel sweep: a field and a method with every combination of some parameters' values.
 
-#include <algorithm>
+#include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/table_target.h"
 #include "morsel/tools/export/folder.h"
@@ -17,7 +16,7 @@
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/input_files.h"
-#include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/row_journal.h"
 #include "morsel/tools/report/sweep_writer.h"
 
 namespace morsel::tools {
@@ -30,50 +29,10 @@ struct Options {
   std::string figure_folder;
 };
 
-/// The rows that an interrupted run has left, and a place for those to come.
-class KnownRows {
- public:
-  KnownRows(Journal* journal, const PreparedSweep& prepared) : journal_(journal), prepared_(prepared) {
-    if (journal == nullptr) return;
-    std::map<std::string, const Json*> entries;
-    for (const Json& entry : journal->entries()) entries[entry.at("combination")] = &entry;
-    for (std::size_t i = 0; i < prepared.combinations.size(); ++i)
-      if (const auto entry = entries.find(name(i)); entry != entries.end()) {
-        rows_.resize(prepared.combinations.size());
-        rows_[i] = {entry->second->at("result"), entry->second->at("seconds")};
-        ++count_;
-      }
-  }
-
-  std::size_t count() const { return count_; }
-
-  SweepOptions options() const {
-    SweepOptions options{.known = rows_};
-    if (journal_ != nullptr)
-      options.on_row = [this](std::size_t i, const SweepRow& row) {
-        journal_->add({{"combination", name(i)}, {"result", row.result}, {"seconds", row.seconds}});
-      };
-    return options;
-  }
-
- private:
-  std::string name(std::size_t i) const {
-    return to_string(prepared_.combinations[i].field) + " " + to_string(prepared_.combinations[i].steps);
-  }
-
-  Journal* journal_;
-  const PreparedSweep& prepared_;
-  std::vector<std::optional<SweepRow>> rows_;
-  std::size_t count_ = 0;
-};
-
 std::vector<HashedFile> files_of(const PreparedSweep& prepared) {
-  std::vector<std::string> specifications;
-  for (const Combination& combination : prepared.combinations) {
-    specifications.push_back(to_string(combination.field));
-    specifications.push_back(to_string(combination.steps));
-  }
-  return input_files(specifications);
+  std::set<std::string> fields;
+  for (const Combination& combination : prepared.combinations) fields.insert(to_string(combination.field));
+  return input_files({fields.begin(), fields.end()});
 }
 
 std::vector<plot::NamedPlot> plots_of(const SweepReport& report, const std::string& folder) {
@@ -88,27 +47,20 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedSweep prepared = prepare(options.request);
   TableTarget target(options.output);
-  if (!options.figure_folder.empty()) {
-    make_folder(options.figure_folder);
-    const core::FileWriter probe(std::filesystem::path(options.figure_folder) /
-                                 (prepared.variations.front().key + ".svg"));
-  }
+  if (!options.figure_folder.empty()) make_writable_folder(options.figure_folder);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
   const std::vector<HashedFile> files = files_of(prepared);
-  const KnownRows known(target.open_journal({{"schema", "morsel.sweep/1"},
-                                             {"tool", tool_section()},
-                                             {"mesh", input.sha256},
-                                             {"repair", common.repair},
-                                             {"files", files_section(files)}}),
-                        prepared);
-  if (known.count() > 0)
-    console.message("going on with " + std::to_string(known.count()) + " of " +
+  std::optional<RowJournal> done;
+  if (Journal* journal = target.open_journal(rows_key(about, files))) done.emplace(*journal, prepared);
+  if (done && done->count() > 0)
+    console.message("going on with " + std::to_string(done->count()) + " of " +
                     std::to_string(prepared.combinations.size()) + " combinations done: " + options.output +
                     ".journal");
-  const std::vector<SweepRow> rows = run_sweep(input.loaded, prepared, known.options(), console.progress());
+  const std::vector<SweepRow> rows =
+      run_sweep(input.loaded, prepared, done ? done->options() : SweepOptions(), console.progress());
 
   const SweepReport report{input.loaded, about, options.request, prepared, rows};
   target.write([&](JsonSink& json) { write_sweep(json, report); },

@@ -4,17 +4,19 @@
 #include <map>
 
 #include "morsel/core/specification.h"
+#include "morsel/tools/registry/registry.h"
 
 namespace morsel::tools {
 
-std::vector<HashedFile> input_files(const std::vector<std::string>& specifications) {
+std::vector<HashedFile> input_files(const std::vector<std::string>& fields) {
   std::map<std::string, std::string> hashes;
-  for (const std::string& specification : specifications)
-    for (const core::Specification& step : core::parse_chain(specification, "--method"))
-      for (const auto& [key, raw] : step.given)
-        if (const std::string value = core::unescape(raw);
-            !hashes.contains(value) && std::filesystem::is_regular_file(value))
-          hashes[value] = sha256_of_file(value);
+  for (const std::string& field : fields) {
+    const std::string file_key = make_function(field).file_key;
+    for (const auto& [key, raw] : core::parse_specification(field, "--field").given)
+      if (const std::string value = core::unescape(raw);
+          key == file_key && !hashes.contains(value) && std::filesystem::is_regular_file(value))
+        hashes[value] = sha256_of_file(value);
+  }
   std::vector<HashedFile> files;
   files.reserve(hashes.size());
   for (const auto& [path, hash] : hashes) files.push_back({path, hash});

@@ -9,9 +9,9 @@
 
 namespace morsel::tools {
 
-/// Each file that a value in these fields and methods names, by path. A value that happens to be the name of a file is taken for one.
-/// Throws BadInput on one that cannot be read.
-std::vector<HashedFile> input_files(const std::vector<std::string>& specifications);
+/// Each file that these Morse functions, in the words of the command line, are to read, by path; not one that is missing, of which
+/// the function has more to tell. Throws InvalidArgument as make_function(), BadInput on one that cannot be read.
+std::vector<HashedFile> input_files(const std::vector<std::string>& fields);
 
 /// [{"path", "sha256"}]
 Json files_section(const std::vector<HashedFile>& files);

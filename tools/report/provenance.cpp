@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "morsel/core/file_bytes.h"
-#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/command_line.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 

@@ -121,14 +121,13 @@ void add(CsvLine& line, const Estimate& estimate) {
 Json trials_key(const StabilityRequest& request, const ReportInput& input) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
-  std::vector<std::string> specifications = request.methods;
-  specifications.insert(specifications.end(), request.fields.begin(), request.fields.end());
-  specifications.insert(specifications.end(), {request.reference, request.reference_field});
+  std::vector<std::string> fields = request.fields;
+  fields.push_back(request.reference_field);
   return {{"schema", "morsel.stability/1"},
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},
           {"request", std::move(asked)},
-          {"files", files_section(input_files(specifications))}};
+          {"files", files_section(input_files(fields))}};
 }
 
 void write_stability(JsonSink& json, const StabilityReport& report) {

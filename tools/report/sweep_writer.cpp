@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "morsel/tools/report/csv.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/text_table.h"
@@ -49,6 +50,14 @@ Json request_section(const SweepRequest& request, const PreparedSweep& prepared,
           {"vary", request.vary},
           {"variations", std::move(variations)},
           {"repair", repair}};
+}
+
+Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files) {
+  return {{"schema", "morsel.sweep/1"},
+          {"tool", tool_section()},
+          {"mesh", input.mesh_sha256},
+          {"repair", input.repair},
+          {"files", files_section(files)}};
 }
 
 void write_sweep(JsonSink& json, const SweepReport& report) {

@@ -8,6 +8,7 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/report/json_stream.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/report/sha256.h"
 #include "morsel/tools/sweep/sweep.h"
 
 namespace morsel::tools {
@@ -23,6 +24,9 @@ struct SweepReport {
 
 /// What was asked for, and with which ranges.
 Json request_section(const SweepRequest& request, const PreparedSweep& prepared, bool repair);
+
+/// What rows follow from, besides their combination: the key of their journal. `files` are those that fields read.
+Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files);
 
 /// Of its members only "timings" differs when it is run again.
 void write_sweep(JsonSink& json, const SweepReport& report);

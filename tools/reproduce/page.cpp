@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "morsel/tools/html/command_line.h"
 #include "morsel/tools/html/markup.h"
 #include "morsel/tools/report/base64.h"
+#include "morsel/tools/report/command_line.h"
 #include "morsel/tools/report/text_table.h"
 #include "morsel/tools/report/version.h"
 #include "morsel/tools/reproduce/document.h"

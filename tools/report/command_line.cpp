@@ -1,4 +1,4 @@
-#include "morsel/tools/html/command_line.h"
+#include "morsel/tools/report/command_line.h"
 
 #include <string_view>
 
