@@ -58,7 +58,7 @@ TEST_CASE("every file of the corpus has its expected outcome") {
   if (const char* path = std::getenv("MORSEL_ACTUAL")) std::ofstream(path) << actual;
 
   std::istringstream got(actual);
-  std::istringstream expected(contents(MORSEL_CORPUS "/expected.txt"));
+  std::istringstream expected(contents(corpus_folder() + "/expected.txt"));
   std::string got_line, expected_line;
   while (std::getline(expected, expected_line)) {
     std::getline(got, got_line);

@@ -8,14 +8,18 @@
 
 namespace morsel::test {
 
-std::vector<CorpusFile> mesh_corpus() {
+std::string corpus_folder() { return MORSEL_CORPUS; }
+
+std::vector<CorpusFile> corpus(const std::string& folder, std::size_t least) {
+  const std::string path = corpus_folder() + "/" + folder;
   std::vector<CorpusFile> files;
-  for (const auto& entry : std::filesystem::directory_iterator(MORSEL_CORPUS "/meshes"))
+  for (const auto& entry : std::filesystem::directory_iterator(path))
     files.push_back({entry.path().filename().string(), entry.path().string(), contents(entry.path())});
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  if (files.size() < 100)
-    throw std::runtime_error("the corpus " MORSEL_CORPUS "/meshes is missing or has shrunk");
+  if (files.size() < least) throw std::runtime_error("the corpus " + path + " is missing or has shrunk");
   return files;
 }
+
+std::vector<CorpusFile> mesh_corpus() { return corpus("meshes", 100); }
 
 }  // namespace morsel::test

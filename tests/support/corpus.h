@@ -1,6 +1,7 @@
 #pragma once
 /// The corpus of small files in tests/corpus, shared by unit tests and fuzzers.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,14 @@ struct CorpusFile {
   std::string bytes;
 };
 
-/// The files in tests/corpus/meshes, by name. Throws if there are none.
+/// The folder tests/corpus.
+std::string corpus_folder();
+
+/// The files in tests/corpus/FOLDER, by name. Throws if there are fewer than `least`: a corpus that reads as
+/// empty tests nothing.
+std::vector<CorpusFile> corpus(const std::string& folder, std::size_t least = 1);
+
+/// The files in tests/corpus/meshes.
 std::vector<CorpusFile> mesh_corpus();
 
 }  // namespace morsel::test
