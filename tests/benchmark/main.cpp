@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   if (argc > 2 && argv[1] == std::string_view(kWatch)) return watch_process(argv + 2);
   CLI::App app("Times every step beside its baselines");
   std::vector<std::string> suites = {"steps",   "memory", "structures", "salient",
-                                     "methods", "files",  "scaling"};
+                                     "methods", "files",  "scaling",    "adversarial"};
   const std::vector<std::string> known = suites;
   std::string output;
   Plan plan;
@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
       if (suite == "methods") run_methods(plan, report);
       if (suite == "files") run_files(plan, report);
       if (suite == "scaling") run_scaling(plan, report);
+      if (suite == "adversarial") run_adversarial(plan, report);
       std::cout << '\n' << suite << '\n' << table(rows, machine) << std::flush;
     }
     if (!output.empty()) std::ofstream(output) << json.dump(1) << '\n';

@@ -41,6 +41,7 @@ nlohmann::ordered_json to_json(const Row& row, const Machine& machine) {
     json["bandwidth_share"] = bandwidth_share(row, machine);
   }
   if (row.error) json["error"] = *row.error;
+  if (row.growth) json["growth"] = *row.growth;
   for (const Baseline& baseline : row.baselines)
     json["baselines"].push_back({{"name", baseline.name},
                                  {"seconds", baseline.seconds},
@@ -59,7 +60,7 @@ std::string table(const std::vector<Row>& rows, const Machine& machine) {
     cells[0].push_back(name);
     cells[0].emplace_back("ratio");
   }
-  for (const char* title : {"ns/vertex", "ns/pair", "bandwidth", "error", "peak MB", "note"})
+  for (const char* title : {"ns/vertex", "ns/pair", "bandwidth", "error", "peak MB", "growth", "note"})
     cells[0].emplace_back(title);
   for (const Row& row : rows) {
     std::vector<std::string> line = {row.step,
@@ -80,6 +81,7 @@ std::string table(const std::vector<Row>& rows, const Machine& machine) {
     line.push_back(row.bytes_moved > 0 ? printed("%.0f %%", 100 * bandwidth_share(row, machine)) : "");
     line.push_back(row.error ? printed("%.1e", *row.error) : "");
     line.push_back(printed("%.0f", 1e-6 * static_cast<double>(row.cost.peak)));
+    line.push_back(row.growth ? printed("%.2f", *row.growth) : "");
     line.push_back(row.note);
     cells.push_back(std::move(line));
   }

@@ -30,6 +30,8 @@ struct Row {
       0;             ///< that the step cannot avoid: input read once and result written once; 0: not counted
   double pairs = 0;  ///< (v, x) that salient smoothing visits in all iterations; 0: not counted
   std::optional<double> error;  ///< largest difference to the reference, as a share of the field's extent
+  std::optional<double>
+      growth;  ///< exponent of the growth of seconds with size, from a smaller size to this one
   std::string note;
 };
 
