@@ -34,7 +34,7 @@ bool is_shown(std::uint32_t code) {
     return code >= first && code <= last;
   };
   return !(code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) ||
-           within(0x2028, 0x202e) || within(0x2066, 0x2069));
+           within(0x2028, 0x202e) || within(0x2066, 0x2069) || within(0xfffe, 0xffff));
 }
 
 std::string escaped(const char* format, std::uint32_t number) {
@@ -52,7 +52,7 @@ std::string escaped(std::uint32_t code) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
+std::string printable(std::string_view text, std::string_view but) {
   std::string shown;
   shown.reserve(text.size());
   while (!text.empty()) {
@@ -60,7 +60,7 @@ std::string printable(std::string_view text) {
     const std::size_t size = first.size == 0 ? 1 : first.size;
     if (first.size == 0)
       shown += escaped("\\x%02x", static_cast<unsigned char>(text.front()));
-    else if (is_shown(first.code))
+    else if (is_shown(first.code) || but.find(text.front()) != std::string_view::npos)
       shown += text.substr(0, size);
     else
       shown += escaped(first.code);

@@ -129,7 +129,9 @@ class Builder {
     constexpr int kNumberOverflow = 406;
     const std::string at = "byte " + std::to_string(position);
     if (error.id == kNumberOverflow) bytes_.refuse("the number that ends at " + at + " is too large");
-    if (bytes_.is_at_end()) bytes_.refuse("it ends in the middle or is wrong at " + at + ", its last");
+    if (bytes_.is_at_end())
+      bytes_.refuse("it is cut off, or wrong at its end, after " + std::to_string(bytes_.position()) +
+                    " bytes");
     bytes_.refuse(at + " cannot stand there");
   }
 
