@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/printable.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/report/provenance.h"
@@ -33,7 +34,7 @@ int exit_code(core::ErrorKind kind) {
 }
 
 int fail(int code, const std::string& message) {
-  std::cerr << "morsel: " << message << '\n';
+  std::cerr << "morsel: " << core::printable(message) << '\n';
   return code;
 }
 

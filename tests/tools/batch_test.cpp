@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <string>
@@ -203,19 +204,55 @@ TEST_CASE("a stop ends the children at once", "[batch]") {
   CHECK(std::chrono::duration<double>(batch::Child::Clock::now() - begin).count() < 10);
 }
 
-TEST_CASE("a state is read back as it was written; anything else is none", "[batch]") {
+namespace {
+
+Json result_of_a_mesh() {
+  return Json::parse(R"({
+    "mesh": {"path": "a.off", "sha256": "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef", "vertices": 6,
+      "edges": 12, "faces": 8, "components": 1, "boundary_loops": 0, "euler_characteristic": 2, "genus": 0,
+      "bbox_diagonal": 3.5, "repairs": [{"action": "drop", "count": 1}]},
+    "field": {"name": "height", "parameters": {"axis": "z"}, "min": -1.0, "max": 1.0},
+    "methods": [{"name": "conventional", "parameters": {}, "field": {"min": -1.0, "max": 1.0},
+      "critical_points": {"minima": 1, "saddles": 0, "saddle_multiplicity": 0, "maxima": 1, "total": 2},
+      "ms_complex": {"minima": 1, "saddles": 0, "maxima": 1, "caps": 0, "arcs": 0, "quads": 0,
+        "segments": {"descending": 1, "ascending": 1, "morse_smale": 1}},
+      "compared_to_first": {"kept": 2, "moved": 0, "added": 0, "removed": 0},
+      "persistence": {"pairs": 0, "infinite_pairs": 0, "essential_saddles": 0, "max": null,
+        "above": [{"percent": 0.1, "pairs": 0}, {"percent": 1.0, "pairs": 0}, {"percent": 5.0, "pairs": 0}]}}]})");
+}
+
+/// Calls `visit` with each value within a document, and what sets it.
+void for_each_value(Json& document,
+                    const std::function<void(Json& value, const std::string& key, Json& parent)>& visit) {
+  if (document.is_array())
+    for (std::size_t i = 0; i < document.size(); ++i) {
+      for_each_value(document[i], visit);
+      visit(document[i], "", document);
+    }
+  if (!document.is_object()) return;
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : document.items()) keys.push_back(key);
+  for (const std::string& key : keys) {
+    for_each_value(document[key], visit);
+    visit(document[key], key, document);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a state is read back as it was written; another one is none", "[batch]") {
   const test::Scratch folder;
   const batch::OutFolder out(folder.path());
-  const Json key = {{"request", {{"thumbnails", true}}}, {"sha256", "ab"}};
+  const Json key = {{"request", {{"methods", {"conventional"}}}}, {"sha256", "ab"}};
   batch::BatchRequest request;
   request.figures = true;
   const auto products = batch::products_of("sub/a.off", request, out);
   batch::MeshState state;
   state.key = key;
   state.seconds = 1.5;
-  state.result = {{"mesh", {{"vertices", 3}}}};
-  state.timings = {{"load", 0.5}};
-  state.files = {"figures/sheet.png", "report.json", "thumbnail.last.png"};
+  state.result = result_of_a_mesh();
+  state.timings = {{"load", 0.5}, {"methods", {{{"name", "conventional"}, {"method", 0.25}}}}};
+  state.files = {"figures/sheet.png", "report.json", "thumbnail.first.png", "thumbnail.last.png"};
   fs::create_directories(folder.path() / "state/sub");
   batch::write_state(out.state("sub/a.off"), state);
   auto read = batch::read_state(folder.path() / "state/sub/a.off.json");
@@ -228,13 +265,18 @@ TEST_CASE("a state is read back as it was written; anything else is none", "[bat
   CHECK(read->files == state.files);
 
   // done is what has its files
-  for (const char* file :
-       {"reports/sub/a.off.json", "thumbnails/sub/a.off.last.png", "figures/sub/a.off/sheet.png"}) {
+  for (const char* file : {"reports/sub/a.off.json", "thumbnails/sub/a.off.first.png",
+                           "thumbnails/sub/a.off.last.png", "figures/sub/a.off/sheet.png"}) {
     CHECK_FALSE(batch::is_settled(*read, key, {}, products));
     folder.file(file);
   }
   CHECK(batch::is_settled(*read, key, {}, products));
   CHECK(batch::is_settled(*read, key, {1, 1}, products));
+  for (std::size_t i = 0; i < state.files.size(); ++i) {
+    batch::MeshState less = *read;
+    less.files.erase(less.files.begin() + static_cast<std::ptrdiff_t>(i));
+    CHECK_FALSE(batch::is_settled(less, key, {}, products));
+  }
   Json other = key;
   other["sha256"] = "cd";
   CHECK_FALSE(batch::is_settled(*read, other, {}, products));
@@ -252,8 +294,53 @@ TEST_CASE("a state is read back as it was written; anything else is none", "[bat
   CHECK_FALSE(batch::is_settled(*read, key, {3, 0}, products));
 
   CHECK_FALSE(batch::read_state(folder.path() / "absent"));
-  CHECK_FALSE(batch::read_state(folder.file("damaged", "{\"schema\": \"morsel.batch-state/1\"")));
+  CHECK_THROWS_AS(batch::read_state(folder.file("damaged", "{\"schema\": \"morsel.batch-state/1\"")),
+                  core::BadInput);
   CHECK_FALSE(batch::read_state(folder.file("other", "{\"schema\": \"other\"}")));
+}
+
+TEST_CASE("bug: a state whose result lacked a member was an internal error, for good", "[batch]") {
+  Json state = {{"schema", "morsel.batch-state/1"},
+                {"key", {{"request", {{"methods", {"conventional"}}}}}},
+                {"status", "done"},
+                {"files", {"report.json"}},
+                {"result", result_of_a_mesh()},
+                {"timings", {{"methods", {{{"name", "conventional"}, {"method", 0.25}}}}}},
+                {"seconds", 1.5}};
+  REQUIRE(batch::parse_state(state.dump(), "s"));
+  std::size_t refused = 0;
+  const auto tried = [&] {
+    try {
+      static_cast<void>(batch::parse_state(state.dump(), "s"));
+    } catch (const core::BadInput& error) {
+      ++refused;
+      CHECK(std::string(error.what()).find("json.exception") == std::string::npos);
+    }
+  };
+  std::size_t without = 0;
+  for_each_value(state["result"], [&](Json& value, const std::string& key, Json& parent) {
+    const Json whole = parent;
+    for (const Json& other : {Json(), Json(5), Json("x"), Json::array(), Json::object()}) {
+      value = other;
+      tried();
+    }
+    parent = whole;
+    if (key.empty()) return;
+    const std::size_t before = refused;
+    parent.erase(key);
+    tried();
+    without += refused - before;
+    parent = whole;
+  });
+  CHECK(without == 48);  // all members but "axis", which another field does not have
+  CHECK(refused > 200);
+  REQUIRE(batch::parse_state(state.dump(), "s"));
+  for (const char* file : {"", "/etc/passwd", "../x", "figures/../../x", "figures//x", "."}) {
+    state["files"] = {"report.json", file};
+    CHECK_THROWS_WITH(batch::parse_state(state.dump(), "s"),
+                      Catch::Contains("files[1] is not a file of the mesh's own"));
+  }
+  CHECK_THROWS_WITH(batch::parse_state(std::string(105'000, '['), "s"), Catch::Contains("nested deeper"));
 }
 
 TEST_CASE("the key has all that a report follows from", "[batch]") {

@@ -39,20 +39,91 @@ TEST_CASE("a journal gives back the entries of the same key") {
 TEST_CASE("a journal that was cut off is read to where it is whole") {
   const test::Scratch folder;
   const Json key = "k";
-  const std::string whole = "\"k\"\n1\n2\n";
+  const std::string head = "{\"schema\":\"morsel.journal/1\",\"key\":\"k\"}\n";
+  const std::string whole = head + "1\n2\n";
   for (std::size_t length = 0; length <= whole.size(); ++length) {
     const std::filesystem::path path = folder.file("j", whole.substr(0, length));
     {
       Journal journal(path, key);
-      CHECK(journal.entries().size() == (length < 6 ? 0 : length < 8 ? 1 : 2));
+      CHECK(journal.entries().size() == (length < head.size() + 2 ? 0 : length < head.size() + 4 ? 1 : 2));
+      CHECK(journal.warnings().empty());
       journal.add(7);
     }
     Journal journal(path, key);
     CHECK(journal.entries().back() == 7);
     journal.finish();
   }
-  CHECK(Journal(folder.file("j", "\"k\"\n1\n{no json\n2\n"), key).entries().size() == 1);
-  CHECK(Journal(folder.file("j", std::string("\0\1\2\n", 4)), key).entries().empty());
+}
+
+TEST_CASE("a damaged line of a journal counts as absent, is told once, and the others stay") {
+  const test::Scratch folder;
+  const std::filesystem::path path = folder / "j";
+  { Journal(path, "k").add(1); }
+  const std::string begin = test::contents(path);
+  for (const std::string& line : {std::string("{no json"), std::string(105'000, '['),
+                                  std::string("\0\xff", 2), std::string(200'000, 'x'), std::string("2 3")}) {
+    folder.file("j", begin + line + "\n3\n");
+    {
+      Journal journal(path, "k");
+      CHECK(journal.entries() == std::vector<Json>{1, 3});
+      REQUIRE(journal.warnings().size() == 1);
+      CHECK_THAT(journal.warnings()[0], Contains("1 damaged entry counts as absent"));
+      journal.add(4);
+    }
+    Journal journal(path, "k");
+    CHECK(journal.entries() == std::vector<Json>{1, 3, 4});
+    CHECK(journal.warnings().empty());
+    CHECK(test::contents(path).starts_with(begin));
+  }
+}
+
+TEST_CASE("an entry that its reader refuses is dropped") {
+  const test::Scratch folder;
+  const std::filesystem::path path = folder / "j";
+  {
+    Journal journal(path, "k");
+    for (const Json& entry : {Json(5), Json{{"a", 1}}, Json{{"a", "x"}}, Json{{"a", 2}}}) journal.add(entry);
+  }
+  std::vector<std::uint64_t> taken;
+  const auto take = [&](const tools::JsonView& entry) { taken.push_back(entry["a"].count()); };
+  {
+    Journal journal(path, "k");
+    journal.take_entries(take);
+    REQUIRE(journal.warnings().size() == 1);
+    CHECK_THAT(journal.warnings()[0],
+               Contains("2 damaged entries count as absent") && Contains("it is not an object"));
+  }
+  Journal journal(path, "k");
+  CHECK(journal.entries().size() == 2);
+  journal.take_entries(take);
+  CHECK(journal.warnings().empty());
+  CHECK(taken == std::vector<std::uint64_t>{1, 2, 1, 2});
+}
+
+TEST_CASE("a journal of another key is begun anew and that is told") {
+  const test::Scratch folder;
+  { Journal(folder / "j", 1).add(1); }
+  Journal journal(folder / "j", 2);
+  CHECK(journal.entries().empty());
+  REQUIRE(journal.warnings().size() == 1);
+  CHECK_THAT(journal.warnings()[0], Contains("begun anew"));
+}
+
+TEST_CASE("bug: a file with a journal's name was emptied whatever it was") {
+  const test::Scratch folder;
+  for (const std::string& text :
+       {std::string("\"k\"\n1\n"), std::string("my notes\n"), std::string("no line's end"),
+        std::string("\0\1\2\n", 4), std::string("{}\n"), std::string(105'000, '['),
+        std::string("{\"schema\":\"morsel.sweep/1\"}\n"), std::string("{\"schema\":5}\n"),
+        std::string("\n")}) {
+    const std::filesystem::path path = folder.file("j", text);
+    CHECK_THROWS_AS(Journal(path, "k"), core::InvalidArgument);
+    CHECK(test::contents(path) == text);
+  }
+  std::filesystem::create_symlink("j", folder / "link");
+  CHECK_THROWS_WITH(Journal(folder / "link", "k"), Contains("is a link"));
+  std::filesystem::create_directory(folder / "d");
+  CHECK_THROWS_AS(Journal(folder / "d", "k"), core::Error);
 }
 
 TEST_CASE("a journal is gone once its run is done, and stays if it is not") {
@@ -100,10 +171,10 @@ TEST_CASE("trials come back from their journal as they were") {
   const tools::Perturbation other{tools::PerturbationKind::noise, 0.15, tools::NoiseKind::isotropic};
   {
     Journal journal(folder / "j", 1);
-    tools::TrialJournal(journal).add(noise, 2, {trial, {}});
+    tools::TrialJournal(journal, 2).add(noise, 2, {trial, {}});
   }
   Journal journal(folder / "j", 1);
-  const tools::TrialJournal trials(journal);
+  const tools::TrialJournal trials(journal, 2);
   CHECK(trials.count() == 1);
   CHECK_FALSE(trials.find(noise, 1));
   CHECK_FALSE(trials.find(other, 2));
@@ -116,4 +187,32 @@ TEST_CASE("trials come back from their journal as they were") {
   CHECK(back.agreement.distances == trial.agreement.distances);
   CHECK(back.agreement.matched == 7);
   CHECK(back.chance == trial.chance);
+}
+
+TEST_CASE("bug: trials in a journal were taken whatever they were") {
+  const test::Scratch folder;
+  const Json right = {3, 4, 5, 6, 10, 13, 7, 0.5, 0.25};
+  const auto count = [&](const Json& entry, std::size_t outcomes) {
+    std::filesystem::remove(folder / "j");
+    { Journal(folder / "j", 1).add(entry); }
+    Journal journal(folder / "j", 1);
+    const std::size_t known = tools::TrialJournal(journal, outcomes).count();
+    CHECK(journal.warnings().size() == 1 - known);
+    return known;
+  };
+  CHECK(count({{"surface", "s"}, {"trials", Json::array({right})}}, 1) == 1);
+  CHECK(count({{"surface", "s"}, {"trials", Json::array({right})}}, 2) == 0);
+  CHECK(count({{"surface", 5}, {"trials", Json::array({right})}}, 1) == 0);
+  CHECK(count(5, 1) == 0);
+  CHECK(count({{"surface", "s"}}, 1) == 0);
+  for (std::size_t i = 0; i < right.size(); ++i)
+    for (const Json& wrong : {Json(-1), Json("1"), Json(), Json(1e300), Json::array(), Json::object()}) {
+      if (i == 7 && wrong == Json(1e300)) continue;  // distances are any
+      Json trial = right;
+      trial[i] = wrong;
+      CHECK(count({{"surface", "s"}, {"trials", Json::array({trial})}}, 1) == 0);
+    }
+  Json matched_too_often = right;
+  matched_too_often[6] = 11;
+  CHECK(count({{"surface", "s"}, {"trials", Json::array({matched_too_often})}}, 1) == 0);
 }

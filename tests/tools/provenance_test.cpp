@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/tools/report/csv.h"
 
 using namespace morsel;
+using Catch::Contains;
 using tools::Json;
 using tools::Provenance;
 
@@ -82,17 +84,52 @@ TEST_CASE("an HTML comment holds nothing that ends it") {
   CHECK(comment.find("--", 4) == comment.size() - 4);
 }
 
-TEST_CASE("what has none or a damaged one gives null") {
+TEST_CASE("what has none gives null, a damaged one is refused") {
   const std::string json = awkward().json();
   CHECK(tools::find_provenance("").is_null());
   CHECK(tools::find_provenance("OFF\n0 0 0\n").is_null());
+  const std::size_t known = std::string_view("{\"schema\":\"morsel.provenance/1\"").size();
   for (std::size_t size = 0; size < json.size(); ++size) {
-    CHECK(tools::find_provenance(json.substr(0, size)).is_null());
-    CHECK(tools::find_provenance("1," + tools::csv_field(json.substr(0, size))).is_null());
+    const std::string cut = json.substr(0, size);
+    const std::string in_table = "1," + tools::csv_field(cut);
+    if (size < known) {
+      CHECK(tools::find_provenance(cut).is_null());
+      CHECK(tools::find_provenance(in_table).is_null());
+    } else {
+      CHECK_THROWS_AS(tools::find_provenance(cut), core::BadInput);
+      CHECK_THROWS_AS(tools::find_provenance(in_table), core::BadInput);
+    }
   }
   std::string damaged = json;
   damaged.replace(damaged.find("\"tool\""), 6, "tool\"\"");
-  CHECK(tools::find_provenance(damaged).is_null());
+  CHECK_THROWS_AS(tools::find_provenance(damaged), core::BadInput);
+}
+
+TEST_CASE("bug: a provenance nested 105,000 deep ended the program") {
+  const std::string deep = "{\"schema\":\"morsel.provenance/1\",\"x\":" + std::string(105'000, '[') +
+                           std::string(105'000, ']') + "}";
+  for (const std::string& text : {deep, "# " + deep + "\n0\n", "comment " + deep + "\r\n",
+                                  "<!-- " + deep + " -->", "1," + tools::csv_field(deep)})
+    CHECK_THROWS_WITH(tools::find_provenance(text), Contains("nested deeper than 64 levels"));
+  const std::string long_one =
+      "{\"schema\":\"morsel.provenance/1\",\"x\":\"" + std::string(1 << 20, 'x') + "\"}";
+  CHECK_THROWS_AS(tools::find_provenance(long_one), core::BadInput);
+}
+
+TEST_CASE("a provenance has all members that it is read for, with their types") {
+  const Json whole = Json::parse(awkward().json());
+  for (const auto& [key, value] : whole.items()) {
+    if (key == "schema") continue;
+    Json without = whole;
+    without.erase(key);
+    if (key != "methods" && key != "field")
+      CHECK_THROWS_AS(tools::find_provenance(without.dump()), core::BadInput);
+    for (const Json& other : {Json(), Json(5), Json(true)}) {
+      Json wrong = whole;
+      wrong[key] = other;
+      CHECK_THROWS_AS(tools::find_provenance(wrong.dump()), core::BadInput);
+    }
+  }
 }
 
 TEST_CASE("a command without what leaves the contents of files as they are") {

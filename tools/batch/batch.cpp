@@ -46,7 +46,7 @@ class Run {
       outcome.mesh = meshes[i];
       Json key = mesh_key(common, meshes[i].path);
       outcome.sha256 = key["sha256"];
-      std::optional<MeshState> state = read_state(out_.state(meshes[i].name));
+      std::optional<MeshState> state = known_state(outcome);
       if (state && !(state->error && options_.retry && options_.run) &&
           is_settled(*state, key, options_.limits, products_of(meshes[i].name, request_, out_))) {
         outcome.state = std::move(*state);
@@ -55,6 +55,16 @@ class Run {
       }
       outcome.state.key = std::move(key);
     });
+  }
+
+  /// A damaged one counts as none.
+  std::optional<MeshState> known_state(MeshOutcome& outcome) const {
+    try {
+      return read_state(out_.state(outcome.mesh.name));
+    } catch (const core::BadInput& error) {
+      outcome.state_damage = error.what();
+      return std::nullopt;
+    }
   }
 
   std::vector<std::string> begin(const MeshOutcome& outcome, const fs::path& work) const {

@@ -31,6 +31,7 @@ struct MeshOutcome {  // NOLINT(bugprone-exception-escape): of the JSON library
   CollectionMesh mesh;
   Status status = Status::not_run;
   bool was_settled = false;  ///< by an earlier run
+  std::string state_damage;  ///< what is wrong with the state that was there; empty if nothing is
   Json sha256;               ///< of its file; null if it cannot be read
   MeshState state;           ///< unless it was not run
 };

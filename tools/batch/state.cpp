@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
-#include <fstream>
+#include <system_error>
 #include <utility>
 
+#include "morsel/core/error.h"
+#include "morsel/core/file_bytes.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
 #include "morsel/tools/batch/request.h"
+#include "morsel/tools/report/json_view.h"
 #include "morsel/tools/report/report_reader.h"
+#include "morsel/tools/report/result_shapes.h"
 
 namespace morsel::tools::batch {
 namespace {
@@ -20,6 +25,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view kSchema = "morsel.batch-state/1";
 constexpr int kOutOfMemory = 5;  // of the program's exit codes
 constexpr int kInternalError = 70;
+constexpr int kMostExitCode = 255;
+constexpr int kMostSignal = 64;
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // a thousand times what a state has
 
 /// Whether a child had no memory left: it says so, or a library ended it because no thread could be made.
 bool ran_out_of_memory(const ChildEnd& end) {
@@ -30,27 +38,79 @@ bool ran_out_of_memory(const ChildEnd& end) {
                      [&](const char* text) { return end.message.find(text) != std::string::npos; });
 }
 
-MeshError error_from(const Json& json) {
-  return {json.at("kind").get<std::string>(),
-          json.at("exit_code").is_null() ? -1 : json["exit_code"].get<int>(),
-          json.at("signal").is_null() ? 0 : json["signal"].get<int>(), json.at("message").get<std::string>()};
+std::optional<JsonView> unless_null(const JsonView& value) {
+  return value.is_null() ? std::nullopt : std::optional(value);
 }
 
-ChildLimits limits_from(const Json& json) {
+MeshError error_from(const JsonView& json) {
+  check_members(json, {"kind", "exit_code", "signal", "message"});
+  MeshError error;
+  error.kind = json["kind"].text_of({"exit-code", "signal", "time-limit", "memory-limit"});
+  if (const auto code = unless_null(json["exit_code"]))
+    error.exit_code = static_cast<int>(code->integer(0, kMostExitCode));
+  if (const auto signal = unless_null(json["signal"]))
+    error.signal = static_cast<int>(signal->integer(1, kMostSignal));
+  error.message = json["message"].text();
+  return error;
+}
+
+ChildLimits limits_from(const JsonView& json) {
+  check_members(json, {"seconds", "memory_mib"});
   ChildLimits limits;
-  if (!json.at("seconds").is_null()) limits.seconds = json["seconds"].get<double>();
-  if (!json.at("memory_mib").is_null()) limits.memory_mib = json["memory_mib"].get<std::uint64_t>();
+  if (const auto seconds = unless_null(json["seconds"])) limits.seconds = seconds->number(0);
+  if (const auto memory = unless_null(json["memory_mib"])) limits.memory_mib = memory->count();
   return limits;
 }
 
+/// Whether a made file stays within the folders that are made.
+bool is_made_file(const std::string& file) {
+  const fs::path path = file;
+  return !file.empty() && file.find('\0') == std::string::npos && path.is_relative() &&
+         std::none_of(path.begin(), path.end(),
+                      [](const fs::path& part) { return part.empty() || part == "." || part == ".."; });
+}
+
+std::vector<std::string> files_from(const JsonView& json) {
+  std::vector<std::string> files;
+  for (const JsonView& file : json.list(1)) {
+    if (!is_made_file(file.text())) file.refuse("is not a file of the mesh's own");
+    files.push_back(file.text());
+  }
+  return files;
+}
+
+void check_method(const JsonView& method) {
+  check_members(method, {"name", "parameters", "field", "critical_points", "ms_complex", "compared_to_first",
+                         "persistence"});
+  static_cast<void>(method["name"].text());
+  check_parameters(method["parameters"]);
+  check_range(method["field"]);
+  check_critical_points(method["critical_points"]);
+  check_counts(method["ms_complex"], {"minima", "saddles", "maxima", "caps", "arcs", "quads"});
+  check_counts(method["ms_complex"]["segments"], {"descending", "ascending", "morse_smale"});
+  check_members(method["compared_to_first"], {"kept", "moved", "added", "removed"});
+  check_counts(method["compared_to_first"], {"kept", "moved", "added", "removed"});
+  check_persistence(method["persistence"]);
+}
+
+/// All that the summary, its page and its plots take from a state's result and timings.
+void check_result(const JsonView& result, const JsonView& timings, std::size_t methods) {
+  check_members(result, {"mesh", "field", "methods"});
+  check_mesh(result["mesh"]);
+  check_field(result["field"]);
+  for (const JsonView& method : result["methods"].list(methods, methods)) check_method(method);
+  for (const JsonView& method : timings["methods"].list(methods, methods))
+    for (const auto& [step, seconds] : method.members())
+      step == "name" ? static_cast<void>(seconds.text()) : static_cast<void>(seconds.number(0));
+}
+
 /// A method of a report without what is listed of it.
-Json method_result(const Json& method) {
+Json method_result(const JsonView& method) {
   Json kept;
   for (const char* key :
-       {"name", "parameters", "field", "critical_points", "ms_complex", "compared_to_first"})
-    kept[key] = method.at(key);
-  kept["persistence"] = method.at("persistence");
-  kept["persistence"].erase("diagram");
+       {"name", "parameters", "field", "critical_points", "ms_complex", "compared_to_first", "persistence"})
+    kept[key] = method[key].json();
+  if (kept["persistence"].is_object()) kept["persistence"].erase("diagram");
   return kept;
 }
 
@@ -83,23 +143,33 @@ std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits
   return error;
 }
 
-void take_result(const fs::path& report, MeshState& state) {
-  const Json head = std::move(read_report(report).document.head);
-  try {
-    state.result = {{"mesh", head.at("mesh")}, {"field", head.at("field")}, {"methods", Json::array()}};
-    for (const Json& method : head.at("methods")) state.result["methods"].push_back(method_result(method));
-    state.timings = head.at("timings");
-  } catch (const Json::exception& error) {
-    throw core::BadInput(report.string() + " is a damaged report: " + error.what());
-  }
+void take_result(const fs::path& path, MeshState& state) {
+  const LoadedReport report = read_report(path);
+  const JsonView head(report.document.head, path.string() + " is a damaged report");
+  state.result = {{"mesh", head["mesh"].json()}, {"field", head["field"].json()}, {"methods", Json::array()}};
+  for (const JsonView& method : head["methods"].list())
+    state.result["methods"].push_back(method_result(method));
+  state.timings = head["timings"].json();
+  check_result({state.result, path.string() + " is a damaged report"}, head["timings"],
+               report.request.methods.size());
 }
 
 bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits,
                 const std::vector<Product>& products) {
   if (state.key != key) return false;
   if (state.error) return state.limits == limits && !state.error->may_pass();
-  return std::all_of(state.files.begin(), state.files.end(),
-                     [&](const std::string& file) { return fs::is_regular_file(place_of(file, products)); });
+  const auto is_there = [&](const std::string& file) {
+    std::error_code error;
+    return fs::is_regular_file(place_of(file, products), error);
+  };
+  const auto has_files = [&](const Product& product) {
+    return std::any_of(state.files.begin(), state.files.end(), [&](const std::string& file) {
+      return file == product.made || file.starts_with(product.made + "/");
+    });
+  };
+  return std::all_of(state.files.begin(), state.files.end(), is_there) &&
+         std::all_of(products.begin(), products.end(),
+                     [&](const Product& product) { return !product.wanted || has_files(product); });
 }
 
 Json to_json(const MeshError& error) {
@@ -129,26 +199,32 @@ void write_state(const fs::path& path, const MeshState& state) {
 }
 
 std::optional<MeshState> read_state(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
-  try {
-    const Json json = Json::parse(in);
-    if (json.at("schema") != kSchema) return std::nullopt;
-    MeshState state;
-    state.key = json.at("key");
-    state.seconds = json.at("seconds").get<double>();
-    if (json.at("status") == "failed") {
-      state.error = error_from(json.at("error"));
-      state.limits = limits_from(json.at("limits"));
-    } else {
-      state.files = json.at("files").get<std::vector<std::string>>();
-      state.result = json.at("result");
-      state.timings = json.at("timings");
-    }
-    return state;
-  } catch (const Json::exception&) {
-    return std::nullopt;
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return std::nullopt;
+  if (const std::uintmax_t size = fs::file_size(path, error); !error && size > kMostBytes)
+    throw core::BadInput(path.string() + " is no state: it has " + std::to_string(size) + " bytes");
+  const core::FileBytes bytes(path, path.string());
+  return parse_state(bytes.view(), path.string());
+}
+
+std::optional<MeshState> parse_state(std::string_view text, const std::string& name) {
+  const Json document = read_json(text, name, {.bytes = kMostBytes});
+  const JsonView json(document, name + " is a damaged state");
+  if (json["schema"].text() != kSchema) return std::nullopt;
+  MeshState state;
+  state.key = json["key"].json();
+  const std::size_t methods = json["key"]["request"]["methods"].list(1).size();
+  state.seconds = json["seconds"].number(0);
+  if (json["status"].text_of({"done", "failed"}) == "failed") {
+    state.error = error_from(json["error"]);
+    state.limits = limits_from(json["limits"]);
+  } else {
+    state.files = files_from(json["files"]);
+    check_result(json["result"], json["timings"], methods);
+    state.result = json["result"].json();
+    state.timings = json["timings"].json();
   }
+  return state;
 }
 
 }  // namespace morsel::tools::batch

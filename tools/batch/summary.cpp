@@ -32,7 +32,7 @@ std::string csv_rows(const MeshOutcome& outcome, const ComparisonRequest& reques
   const bool done = outcome.status == Status::done;
   std::string rows;
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    std::vector<std::string> fields = {csv_field(outcome.mesh.name), field_of(outcome.sha256),
+    std::vector<std::string> fields = {csv_path(outcome.mesh.name), field_of(outcome.sha256),
                                        to_string(outcome.status)};
     const Json result = done ? outcome.state.result : Json();
     for (const char* key :

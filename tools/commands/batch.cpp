@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "morsel/core/file_writer.h"
+#include "morsel/core/printable.h"
 #include "morsel/tools/batch/batch.h"
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/commands/commands.h"
@@ -59,18 +60,30 @@ std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::Collec
   return whole;
 }
 
+void warn_of_damaged_states(const std::vector<batch::MeshOutcome>& outcomes, Console& console) {
+  const auto is_damaged = [](const batch::MeshOutcome& outcome) { return !outcome.state_damage.empty(); };
+  const auto first = std::find_if(outcomes.begin(), outcomes.end(), is_damaged);
+  if (first == outcomes.end()) return;
+  const auto count = static_cast<std::size_t>(std::count_if(first, outcomes.end(), is_damaged));
+  console.warning(grouped(count) + (count == 1 ? " damaged state counts" : " damaged states count") +
+                  " as absent: " + first->state_damage);
+}
+
 /// A line for each of the meshes that a run would work on.
 void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options& options,
-                const batch::OutFolder& out, const core::Progress& progress) {
+                const batch::OutFolder& out, Console& console) {
   batch::RunOptions look = options.run;
   look.run = false;
-  for (const batch::MeshOutcome& outcome : run_batch(meshes, options.request, look, out, progress)) {
+  const std::vector<batch::MeshOutcome> outcomes =
+      run_batch(meshes, options.request, look, out, console.progress());
+  warn_of_damaged_states(outcomes, console);
+  for (const batch::MeshOutcome& outcome : outcomes) {
     if (outcome.status != batch::Status::not_run &&
         !(outcome.status == batch::Status::failed && options.run.retry))
       continue;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(outcome.mesh.path, error);
-    std::cout << (error ? 0 : size) << '\t' << outcome.mesh.name << '\n';
+    std::cout << (error ? 0 : size) << '\t' << core::quoted_if_needed(outcome.mesh.name) << '\n';
   }
 }
 
@@ -101,7 +114,7 @@ int run(Options& options, const CommonOptions& common, Console& console) {
       options.only.empty() || options.no_summary ? meshes : batch::read_collection(options.collection);
   const batch::OutFolder out(options.out);
   if (options.plan) {
-    print_plan(meshes, options, out, console.progress());
+    print_plan(meshes, options, out, console);
     return kDone;
   }
   make_folder(out.root());
@@ -114,11 +127,12 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   };
   std::vector<batch::MeshOutcome> outcomes =
       run_batch(meshes, options.request, options.run, out, console.progress(), tell);
+  warn_of_damaged_states(outcomes, console);
   const batch::Tally sums = tally(outcomes);
   if (!options.no_summary)
     write_summary(whole_collection(all, std::move(outcomes), options, out, console.progress()),
                   options.request, {options.collection, options.with_timings}, out);
-  std::cout << last_line(sums, options) << '\n';
+  std::cout << core::printable(last_line(sums, options)) << '\n';
   return sums.failed + sums.not_run > 0 ? kDifferences : kDone;
 }
 
@@ -165,9 +179,10 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
                                 "Run nothing: write the summary of what is there");
   only->excludes(without);
   command
-      .add_flag("--plan", options.plan,
-                "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
-                "in bytes, a tab, NAME")
+      .add_flag(
+          "--plan", options.plan,
+          "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
+          "in bytes, a tab, NAME (in double quotes, with \\n, \\xff and the like, if it has such bytes)")
       ->excludes(without)
       ->excludes(only);
   command.add_flag("--with-timings", options.with_timings,

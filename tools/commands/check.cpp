@@ -5,9 +5,11 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/printable.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/report/report_check.h"
 #include "morsel/tools/report/report_reader.h"
@@ -22,6 +24,11 @@ struct Options {
   std::vector<std::string> paths;
   bool all = false;
 };
+
+bool is_folder(const std::string& path) {
+  std::error_code error;  // of which the reader of reports has more to tell
+  return std::filesystem::is_directory(path, error);
+}
 
 std::string counted(std::size_t count, const std::string& what) {
   return grouped(count) + " " + what + (count == 1 ? "" : "s");
@@ -39,11 +46,14 @@ std::string left_out(std::size_t count) { return "… and " + grouped(count) + "
 
 int check_one(const std::string& path, bool all, Console& console) {
   const ReportCheck check = check_report(path, console.progress());
-  std::cout << path << ": " << verdict(check) << '\n';
+  std::cout << core::printable(path + ": " + verdict(check)) << '\n';
   const std::size_t shown = all ? check.differences.size() : std::min(kShown, check.differences.size());
-  for (std::size_t i = 0; i < shown; ++i)
-    std::cout << "  " << check.differences[i].where << ": " << check.differences[i].before << " -> "
-              << check.differences[i].after << '\n';
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Difference& difference = check.differences[i];
+    std::cout << "  "
+              << core::printable(difference.where + ": " + difference.before + " -> " + difference.after)
+              << '\n';
+  }
   if (shown < check.differences.size())
     std::cout << "  " << left_out(check.differences.size() - shown) << '\n';
   return check.is_unchanged() ? kDone : kDifferences;
@@ -87,7 +97,7 @@ class ManyReports {
 
  private:
   static void say(const std::string& path, const std::string& text) {
-    std::cout << path << ": " << text << std::endl;  // seen when it is known
+    std::cout << core::printable(path + ": " + text) << std::endl;  // seen when it is known
   }
   void fail(const std::string& path, const core::Error& error) {
     ++failed_;
@@ -109,11 +119,11 @@ class ManyReports {
 };
 
 int check(const Options& options, Console& console) {
-  if (options.paths.size() == 1 && !std::filesystem::is_directory(options.paths.front()))
+  if (options.paths.size() == 1 && !is_folder(options.paths.front()))
     return check_one(options.paths.front(), options.all, console);
   ManyReports reports(options.all, console);
   for (const std::string& path : options.paths) {
-    if (!std::filesystem::is_directory(path))
+    if (!is_folder(path))
       reports.check(path, true);
     else
       for (const std::filesystem::path& file : json_files(path)) reports.check(file.string(), false);

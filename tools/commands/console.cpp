@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iostream>
 
+#include "morsel/core/printable.h"
+
 namespace morsel::tools {
 
 Console::Console(bool quiet, std::stop_token stop)
@@ -21,8 +23,12 @@ core::Progress Console::progress() {
 void Console::message(std::string_view text) {
   if (quiet_) return;
   clear();
-  std::cerr << text << '\n';
+  std::cerr << core::printable(text) << '\n';
 }
+
+void Console::warning(std::string_view text) { message("warning: " + std::string(text)); }
+
+void Console::enter(std::string_view context) { context_ = core::printable(context); }
 
 void Console::draw(std::string_view step, double fraction) {
   constexpr auto kInterval = std::chrono::milliseconds(50);  // faster than the eye is only slower to print

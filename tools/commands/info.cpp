@@ -8,6 +8,7 @@
 #include "morsel/core/file_extension.h"
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/parameters.h"
+#include "morsel/core/printable.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -84,7 +85,7 @@ Json as_json(const std::string& path, const Findings& findings) {
 void line(std::string_view name, const std::string& value) {
   std::string label(name);
   label.resize(24, ' ');
-  std::cout << "  " << label << value << '\n';
+  std::cout << "  " << label << core::printable(value) << '\n';
 }
 
 void print_text(const Findings& findings, bool repair_tried) {
@@ -121,24 +122,32 @@ void print_text(const Findings& findings, bool repair_tried) {
   }
 }
 
-/// Of a document that may be somebody else's, what there is of the usual members; the rest in --json.
+/// The usual members; the rest in --json.
 void print_provenance(const Json& provenance) {
   const auto text = [](const Json& object, const char* key) {
-    if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return std::string("?");
-    const std::string quoted = json_text(object[key]);  // in which no control character reaches a terminal
-    return quoted.substr(1, quoted.size() - 2);
+    return object.at(key).get_ref<const std::string&>();
   };
-  const auto list = [&](const char* key) { return provenance.value(key, Json::array()); };
-  line("made by", "morsel " + text(provenance.value("tool", Json()), "version"));
-  line("command", text(provenance, "command"));
-  for (const Json& input : list("inputs"))
-    line("input", text(input, "path") + ", sha256 " + text(input, "sha256"));
   const auto with_parameters = [&](const char* label, const Json& made) {
-    line(label,
-         text(made, "name") + " " + json_text(made.is_object() ? made.value("parameters", Json()) : Json()));
+    line(label, text(made, "name") + " " + json_text(made.at("parameters")));
   };
+  line("made by", "morsel " + text(provenance.at("tool"), "version"));
+  line("command", text(provenance, "command"));
+  for (const Json& input : provenance.at("inputs"))
+    line("input", text(input, "path") + ", sha256 " + text(input, "sha256"));
   if (provenance.contains("field")) with_parameters("field", provenance["field"]);
-  for (const Json& method : list("methods")) with_parameters("method", method);
+  if (provenance.contains("methods"))
+    for (const Json& method : provenance["methods"]) with_parameters("method", method);
+}
+
+/// A mesh is described though what it holds of its provenance is damaged.
+Json provenance_of(const std::string& path, bool is_mesh, Console& console) {
+  try {
+    return read_provenance(path);
+  } catch (const core::BadInput& error) {
+    if (!is_mesh) throw core::BadInput(path + ": " + error.what());
+    console.warning(path + ": " + error.what());
+    return {};
+  }
 }
 
 bool is_mesh(const std::string& path) {
@@ -149,7 +158,7 @@ bool is_mesh(const std::string& path) {
 int inform(const Options& options, const CommonOptions& common, Console& console) {
   std::optional<Findings> findings;
   if (is_mesh(options.file)) findings = inspect(options.file, common.repair, console.progress());
-  const Json provenance = read_provenance(options.file);
+  const Json provenance = provenance_of(options.file, findings.has_value(), console);
   if (!findings && provenance.is_null())
     throw core::BadInput("\"" + options.file +
                          "\" is no mesh (.off, .obj, .ply or .stl) and does not tell where it comes from");
@@ -159,7 +168,7 @@ int inform(const Options& options, const CommonOptions& common, Console& console
     std::cout << json_text(document, 2) << '\n';
     return kDone;
   }
-  std::cout << options.file << '\n';
+  std::cout << core::printable(options.file) << '\n';
   if (findings) print_text(*findings, common.repair);
   if (!provenance.is_null()) print_provenance(provenance);
   return kDone;

@@ -34,7 +34,10 @@ int measure_stability(const Options& options, const CommonOptions& common, Conso
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
   std::optional<TrialJournal> trials;
-  if (Journal* journal = target.open_journal(trials_key(request, about))) trials.emplace(*journal);
+  if (Journal* journal = target.open_journal(trials_key(request, about))) {
+    trials.emplace(*journal, prepared.targets.size() * prepared.functions.size() * prepared.chains.size());
+    for (const std::string& warning : journal->warnings()) console.warning(warning);
+  }
   if (trials && trials->count() > 0)
     console.message("going on with " + std::to_string(trials->count()) +
                     " perturbed surfaces done: " + options.output + ".journal");

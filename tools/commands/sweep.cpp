@@ -54,7 +54,10 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
   const std::vector<HashedFile> files = files_of(prepared);
   std::optional<RowJournal> done;
-  if (Journal* journal = target.open_journal(rows_key(about, files))) done.emplace(*journal, prepared);
+  if (Journal* journal = target.open_journal(rows_key(about, files))) {
+    done.emplace(*journal, prepared);
+    for (const std::string& warning : journal->warnings()) console.warning(warning);
+  }
   if (done && done->count() > 0)
     console.message("going on with " + std::to_string(done->count()) + " of " +
                     std::to_string(prepared.combinations.size()) + " combinations done: " + options.output +

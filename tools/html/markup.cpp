@@ -1,11 +1,13 @@
 #include "morsel/tools/html/markup.h"
 
+#include "morsel/core/printable.h"
+
 namespace morsel::tools {
 
 std::string markup_text(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
-  for (const char c : text) switch (c) {
+  for (const char c : core::printable(text, "\n\t")) switch (c) {
       case '&':
         safe += "&amp;";
         break;

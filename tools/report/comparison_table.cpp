@@ -1,6 +1,7 @@
 #include "morsel/tools/report/comparison_table.h"
 
 #include "morsel/core/parameters.h"
+#include "morsel/core/printable.h"
 #include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
@@ -11,7 +12,7 @@ std::string field_line(const FieldOutcome& outcome) {
 }
 
 void ComparisonTable::field(const FieldOutcome& outcome) {
-  headline_ = field_line(outcome) + "\n";
+  headline_ = field_line(outcome);
   rows_ = {{"method", "minima", "saddles", "(mult.)", "maxima", "total", "pairs", ">1 %", "arcs", "cells",
             "kept", "moved", "added", "seconds"}};
 }
@@ -30,9 +31,11 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
        grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
        formatted(seconds, "%.2f")});
   if (outcome.target && !outcome.target->note.empty())
-    notes_ += outcome.specification + ": " + outcome.target->note + "\n";
+    notes_ += core::printable(outcome.specification + ": " + outcome.target->note) + "\n";
 }
 
-std::string ComparisonTable::text() const { return headline_ + text_table(rows_) + notes_; }
+std::string ComparisonTable::text() const {
+  return core::printable(headline_) + "\n" + text_table(rows_) + notes_;
+}
 
 }  // namespace morsel::tools

@@ -44,7 +44,7 @@ class Comparer {
       else
         compare_arrays(before, after, where);
     } else if (!same_value(before, after)) {
-      add(where, before.dump(), after.dump());
+      add(where, json_text(before), json_text(after));
     }
   }
 
@@ -99,7 +99,9 @@ class Comparer {
     for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
       std::string place = where + "[" + std::to_string(i) + "]";
       if (where == "methods" && before[i].is_object()) {
-        place += " (" + before[i].value("name", "?") + "): ";
+        const auto name = before[i].find("name");
+        const bool is_named = name != before[i].end() && name->is_string();
+        place += " (" + (is_named ? name->get<std::string>() : "?") + "): ";
         method_ = i;
         method_name_ = place;
       }
@@ -111,7 +113,7 @@ class Comparer {
     if (value.is_object()) return "{" + std::to_string(value.size()) + " members}";
     if (value.is_array())
       return "[" + std::to_string(rows != nullptr ? rows->size() : value.size()) + " entries]";
-    return value.dump();
+    return json_text(value);
   }
 
   const ReportDocument& before_;

@@ -1,5 +1,6 @@
 #include "morsel/tools/report/hierarchy_table.h"
 
+#include "morsel/core/printable.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/text_table.h"
 
@@ -7,7 +8,7 @@ namespace morsel::tools {
 
 void HierarchyTable::begin(const HierarchyBasis& basis) {
   headline_ = field_line(basis.made.input) + "; " + prepared_.recipe.chain.name + ", levels by " +
-              std::string(to_string(prepared_.kind)) + "\n";
+              std::string(to_string(prepared_.kind));
   const char* const first = prepared_.kind == HierarchyKind::iteration ? "iteration"
                             : prepared_.counts.empty()                 ? "threshold"
                                                                        : "count";
@@ -24,9 +25,11 @@ void HierarchyTable::level(const Level& level) {
                    grouped(level.points.total()), grouped(level.complex.arc_count()),
                    grouped(level.segmentation.morse_smale.count), counted(PointStatus::kept),
                    counted(PointStatus::moved), counted(PointStatus::fresh)});
-  if (!level.name.note.empty()) notes_ += level.name.note + "\n";
+  if (!level.name.note.empty()) notes_ += core::printable(level.name.note) + "\n";
 }
 
-std::string HierarchyTable::text() const { return headline_ + text_table(rows_) + notes_; }
+std::string HierarchyTable::text() const {
+  return core::printable(headline_) + "\n" + text_table(rows_) + notes_;
+}
 
 }  // namespace morsel::tools

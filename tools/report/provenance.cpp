@@ -4,10 +4,13 @@
 #include <array>
 #include <utility>
 
+#include "morsel/core/error.h"
 #include "morsel/core/file_bytes.h"
 #include "morsel/tools/report/command_line.h"
 #include "morsel/tools/report/input_files.h"
+#include "morsel/tools/report/json_view.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/result_shapes.h"
 
 namespace morsel::tools {
 namespace {
@@ -74,6 +77,25 @@ std::string table_field(std::string_view text) {
     field += text[i];
   }
   return field;
+}
+
+/// Whether it is what provenance.schema.json describes.
+void check(const JsonView& provenance) {
+  const auto check_made = [](const JsonView& made) {
+    static_cast<void>(made["name"].text());
+    check_parameters(made["parameters"]);
+  };
+  static_cast<void>(provenance["tool"]["name"].text());
+  static_cast<void>(provenance["tool"]["version"].text());
+  static_cast<void>(provenance["command"].text());
+  for (const JsonView& input : provenance["inputs"].list()) {
+    static_cast<void>(input["path"].text());
+    static_cast<void>(input["sha256"].text());
+  }
+  static_cast<void>(provenance["request"].members());
+  if (const auto field = provenance.find("field")) check_made(*field);
+  if (const auto methods = provenance.find("methods"))
+    for (const JsonView& method : methods->list()) check_made(method);
 }
 
 }  // namespace
@@ -169,11 +191,16 @@ std::string shaping_command(const std::vector<std::string>& words) {
 Json find_provenance(std::string_view bytes) {
   std::string text;
   if (const std::size_t at = bytes.find(kBegin); at != std::string_view::npos)
-    text = marked_lines(bytes.substr(0, at + kMost), at);
+    text = marked_lines(bytes.substr(0, at + std::min(kMost, bytes.size() - at)), at);
   else if (const std::size_t in_table = bytes.find(kBeginInTable); in_table != std::string_view::npos)
     text = table_field(bytes.substr(in_table, kMost));
-  const Json found = Json::parse(first_object(text), nullptr, false);
-  return found.is_object() ? found : Json();
+  else
+    return {};
+  const std::string_view object = first_object(text);
+  if (object.empty()) throw core::BadInput("the provenance in it is damaged: it is cut off");
+  Json found = read_json(object, "the provenance in it", {.bytes = kMost});
+  check(JsonView(found, "the provenance in it is damaged"));
+  return found;
 }
 
 Json read_provenance(const std::filesystem::path& path) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "morsel/tools/report/json_reader.h"
+
 namespace morsel::tools {
 namespace {
 
@@ -41,6 +43,39 @@ Json to_json(Row row) {
     object[std::string(member.key)] = std::visit(CellToJson{}, member.value);
   return object;
 }
+
+/// Takes rows out of a document that is being read.
+class ReportFollower : public JsonFollower {
+ public:
+  ReportFollower(ReportDocument& document, const std::string& name, std::string_view schema)
+      : finder_(document), name_(name), schema_(schema) {}
+
+  void key(std::size_t depth, std::string_view name) override {
+    finder_.key(depth, name);
+    if (depth == 1) is_schema_ = name == "schema";
+  }
+  void begin(std::size_t depth, bool is_array) override { finder_.begin(depth, is_array); }
+  bool end(std::size_t depth, const Json& value) override {
+    if (depth == 1 && is_schema_) check_schema(value);
+    PackedRows* rows = finder_.rows(depth);
+    if (rows != nullptr) rows->add(value);
+    finder_.end(depth);
+    return rows == nullptr;
+  }
+
+ private:
+  void check_schema(const Json& value) const {
+    const std::string told = value.is_string() ? value.get<std::string>() : "none";
+    if (!schema_.empty() && told != schema_)
+      throw OtherDocument(name_ + " is not a comparison report: its schema is \"" + told + "\", not \"" +
+                          std::string(schema_) + "\"");
+  }
+
+  RowFinder finder_;
+  const std::string& name_;
+  std::string_view schema_;
+  bool is_schema_ = false;
+};
 
 }  // namespace
 
@@ -111,31 +146,15 @@ PackedRows* RowFinder::found(std::size_t depth) {
   const bool is_diagram = depth == 4 && is_member(2, "persistence") && is_member(3, "diagram");
   if (!is_items && !is_diagram) return nullptr;
   const std::size_t method = levels_[1].size;
+  if (method >= kMostMethods) return nullptr;
   if (document_.methods.size() <= method) document_.methods.resize(method + 1);
   return is_items ? &document_.methods[method].items : &document_.methods[method].diagram;
 }
 
-ReportDocument parse_report(std::istream& in) {
+ReportDocument parse_report(std::istream& in, const std::string& name, std::string_view schema) {
   ReportDocument document;
-  RowFinder finder(document);
-  const auto follow = [&](int depth_of_event, Json::parse_event_t event, const Json& parsed) {
-    const auto depth = static_cast<std::size_t>(depth_of_event);
-    switch (event) {
-      case Json::parse_event_t::key:
-        finder.key(depth, parsed.get_ref<const std::string&>());
-        return true;
-      case Json::parse_event_t::object_start:
-      case Json::parse_event_t::array_start:
-        finder.begin(depth, event == Json::parse_event_t::array_start);
-        return true;
-      default:
-        PackedRows* rows = finder.rows(depth);
-        if (rows != nullptr) rows->add(parsed);
-        finder.end(depth);
-        return rows == nullptr;
-    }
-  };
-  document.head = Json::parse(in, follow);
+  ReportFollower follower(document, name, schema);
+  document.head = read_json(in, name, {}, &follower);
   return document;
 }
 

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/tools/report/json_stream.h"
 
 namespace morsel::tools {
@@ -47,8 +49,19 @@ struct ReportDocument {  // NOLINT(bugprone-exception-escape): of the JSON libra
   std::vector<MethodRows> methods;
 };
 
-/// Reads a report, or any other JSON document, however it is laid out. Throws Json::parse_error.
-ReportDocument parse_report(std::istream& in);
+/// Most methods whose points are listed apart from the head.
+inline constexpr std::size_t kMostMethods = 10'000;
+
+/// The document is JSON, but of another schema.
+class OtherDocument : public core::BadInput {
+ public:
+  using BadInput::BadInput;
+};
+
+/// Reads a report, or any other JSON document, however it is laid out (json_reader.h: untrusted, limited in depth). `name` is what
+/// errors call it. If a schema is given, throws OtherDocument as soon as the document tells that it has another. Throws BadInput.
+ReportDocument parse_report(std::istream& in, const std::string& name = "the document",
+                            std::string_view schema = {});
 
 /// Follows a document from piece to piece and tells where its rows belong. Depth is the number of containers
 /// round a value.

@@ -1,48 +1,58 @@
 #include "morsel/tools/report/report_reader.h"
 
 #include <fstream>
+#include <system_error>
+
+#include "morsel/tools/report/json_view.h"
 
 namespace morsel::tools {
+namespace {
+
+constexpr std::string_view kSchema = "morsel.comparison/1";
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+}  // namespace
 
 LoadedReport read_report(const std::filesystem::path& path) {
+  std::error_code error;
   std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path))
+  if (!in || std::filesystem::is_directory(path, error))
     throw core::BadInput("cannot read the report " + path.string());
+  return read_report(in, path.string());
+}
+
+LoadedReport read_report(std::istream& in, const std::string& name) {
   LoadedReport report;
-  try {
-    report.document = parse_report(in);
-  } catch (const Json::parse_error& error) {
-    throw core::BadInput(path.string() + " is not JSON: " + error.what());
-  }
-  const Json& head = report.document.head;
-  const bool has_schema = head.is_object() && head.contains("schema") && head["schema"].is_string();
-  const std::string schema = has_schema ? head["schema"].get<std::string>() : "none";
-  if (schema != "morsel.comparison/1")
-    throw OtherDocument(path.string() + " is not a comparison report: its schema is \"" + schema +
-                        "\", not \"morsel.comparison/1\"");
-  try {
-    const Json& request = head.at("request");
-    report.request.field = request.at("field").get<std::string>();
-    report.request.methods = request.at("methods").get<std::vector<std::string>>();
-    report.repair = request.at("repair").get<bool>();
-    report.items = request.value("items", true);
-    if (request.contains("target")) report.request.target = request.at("target").get<std::size_t>();
-    report.request.snap = request.value("snap", false);
-    report.mesh_path = head.at("mesh").at("path").get<std::string>();
-    report.mesh_sha256 = head.at("mesh").at("sha256").get<std::string>();
-  } catch (const Json::exception& error) {
-    throw core::BadInput(path.string() + " is a damaged report: " + error.what());
-  }
-  if (report.request.methods.empty())
-    throw core::BadInput(path.string() + " is a damaged report: it has no method");
+  report.document = parse_report(in, name, kSchema);
+  const Json& document = report.document.head;
+  if (!document.is_object() || !document.contains("schema"))
+    throw OtherDocument(name + " is not a comparison report: it has no schema");
+  const JsonView head(document, name + " is a damaged report");
+  const JsonView request = head["request"];
+  report.request.field = request["field"].text();
+  report.request.methods.clear();
+  for (const JsonView& method : request["methods"].list(1, kMostMethods))
+    report.request.methods.push_back(method.text());
+  report.repair = request["repair"].truth();
+  if (const auto items = request.find("items")) report.items = items->truth();
+  if (const auto target = request.find("target")) report.request.target = target->count();
+  if (const auto snap = request.find("snap")) report.request.snap = snap->truth();
+  report.mesh_path = head["mesh"]["path"].path();
+  report.mesh_sha256 = head["mesh"]["sha256"].text();
+  for (const JsonView& method : head["methods"].list(0, kMostMethods))
+    static_cast<void>(method["name"].text());
   return report;
 }
 
 std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path) {
   const std::filesystem::path path = report.mesh_path;
-  if (std::filesystem::is_regular_file(path)) return path;
+  if (is_file(path)) return path;
   const std::filesystem::path beside = report_path.parent_path() / path;
-  return std::filesystem::is_regular_file(beside) ? beside : std::filesystem::path();
+  return is_file(beside) ? beside : std::filesystem::path();
 }
 
 }  // namespace morsel::tools

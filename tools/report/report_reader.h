@@ -2,6 +2,8 @@
 /// Reading a report back, to run it again.
 
 #include <filesystem>
+#include <istream>
+#include <string>
 
 #include "morsel/core/error.h"
 #include "morsel/tools/comparison/comparison.h"
@@ -19,14 +21,11 @@ struct LoadedReport {
   std::string mesh_sha256;
 };
 
-/// The document is JSON, but of another schema.
-class OtherDocument : public core::BadInput {
- public:
-  using BadInput::BadInput;
-};
-
-/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of this schema.
+/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of this schema. Of what methods list,
+/// and of results, nothing is checked but the methods' names: whoever compares them finds what is wrong with them as differences.
 LoadedReport read_report(const std::filesystem::path& path);
+/// The same of a stream; errors call it `name`.
+LoadedReport read_report(std::istream& in, const std::string& name);
 
 /// Where the report's mesh lies now: its path from the working folder, or else from the report's own folder.
 /// Empty if it is in neither place.

@@ -12,7 +12,7 @@ namespace morsel::tools {
 /// Keeps rows in a journal, an entry each.
 class RowJournal {
  public:
-  /// Refers to both.
+  /// Refers to both. Entries that are not rows, all of one, are dropped.
   RowJournal(Journal& journal, const PreparedSweep& prepared);
 
   /// Rows of this sweep that the journal has.

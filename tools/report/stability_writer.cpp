@@ -177,7 +177,7 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       const bool is_noise = perturbation.kind == PerturbationKind::noise;
       CsvLine line;
       line.add(kVersion);
-      line.add(report.input.mesh_path);
+      line.add_path(report.input.mesh_path);
       line.add(report.input.mesh_sha256);
       line.add(std::uint64_t{report.prepared.seed});
       line.add(result.radius);

@@ -92,7 +92,7 @@ void write_sweep_csv(std::ostream& out, const SweepReport& report) {
     const Json& result = report.rows[i].result;
     CsvLine line;
     line.add(kVersion);
-    line.add(report.input.mesh_path);
+    line.add_path(report.input.mesh_path);
     line.add(report.input.mesh_sha256);
     line.add(to_string(combination.field));
     line.add(to_string(combination.steps));

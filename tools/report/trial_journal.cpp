@@ -1,8 +1,10 @@
 #include "morsel/tools/report/trial_journal.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "morsel/core/parameters.h"
+#include "morsel/core/types.h"
 
 namespace morsel::tools {
 namespace {
@@ -20,25 +22,31 @@ Json to_json(const Trial& trial) {
           trial.agreement.matched, trial.agreement.distances, trial.chance};
 }
 
-Trial trial_of(const Json& json) {
+/// Points that are matched are points, and expected F-scores are those of matches.
+Trial trial_of(const JsonView& json) {
+  const std::vector<JsonView> numbers = json.list(9, 9);
   Trial trial;
-  trial.points.minima = json.at(0);
-  trial.points.saddles = json.at(1);
-  trial.points.saddle_multiplicity = json.at(2);
-  trial.points.maxima = json.at(3);
-  trial.agreement = {json.at(4), json.at(5), json.at(6), json.at(7)};
-  trial.chance = json.at(8);
+  trial.points.minima = numbers[0].count(core::kNone);
+  trial.points.saddles = numbers[1].count(core::kNone);
+  trial.points.saddle_multiplicity = numbers[2].count(core::kNone);
+  trial.points.maxima = numbers[3].count(core::kNone);
+  if (trial.points.saddle_multiplicity < trial.points.saddles) numbers[2].refuse("is less than the saddles");
+  const std::uint64_t reference = numbers[4].count(core::kNone);
+  const std::uint64_t found = numbers[5].count(trial.points.total());
+  trial.agreement = {reference, found, numbers[6].count(std::min(reference, found)), numbers[7].number(0)};
+  trial.chance = numbers[8].number(0);
+  if (trial.chance > 1) numbers[8].refuse("is out of range");
   return trial;
 }
 
 }  // namespace
 
-TrialJournal::TrialJournal(Journal& journal) : journal_(journal) {
-  for (const Json& entry : journal.entries()) {
-    std::vector<Trial>& trials = known_[entry.at("surface")];
-    trials.clear();
-    for (const Json& trial : entry.at("trials")) trials.push_back(trial_of(trial));
-  }
+TrialJournal::TrialJournal(Journal& journal, std::size_t outcomes) : journal_(journal) {
+  journal.take_entries([&](const JsonView& entry) {
+    std::vector<Trial> trials;
+    for (const JsonView& trial : entry["trials"].list(outcomes, outcomes)) trials.push_back(trial_of(trial));
+    known_[entry["surface"].text()] = std::move(trials);
+  });
 }
 
 std::optional<std::vector<Trial>> TrialJournal::find(const Perturbation& perturbation,

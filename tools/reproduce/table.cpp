@@ -39,7 +39,7 @@ std::string table_csv(const std::vector<TableRowOutcome>& table) {
   for (const TableRowOutcome& row : table)
     for (const TableCell& cell : row.cells)
       text += std::string(row.model->recipe().name) + "," +
-              csv_field(row.model->file().path.filename().string()) + "," +
+              csv_path(row.model->file().path.filename().string()) + "," +
               std::to_string(row.model->mesh().vertex_count()) + "," + std::string(row.recipe->figure) + "," +
               std::to_string(row.recipe->iterations) + "," + csv_field(cell.run->recipe.chain.specification) +
               "," + std::to_string(cell.run->total()) + "," +

@@ -1,0 +1,19 @@
+#pragma once
+/// Texts of unknown origin made safe for a terminal and for messages of one line.
+
+#include <string>
+#include <string_view>
+
+namespace morsel::core {
+
+/// The text with everything escaped that a terminal would take for more than a character to show: control characters (C0,
+/// DEL, C1), line and paragraph separators and what changes the direction of writing (\n, \t, \r, \x1b, \u0085, \u202e), noncharacters that XML forbids, and
+/// bytes that are not UTF-8 (\xff). All else stays, backslashes too: this is for reading, not for reading back.
+/// Those control characters stay as well that are in `but`.
+std::string printable(std::string_view text, std::string_view but = {});
+
+/// A name on a line of its own that can be read back: as it is; or, if it begins with a quote or has a backslash or anything that printable()
+/// escapes, in double quotes, with backslashes and quotes escaped by a backslash and all else as printable() does.
+std::string quoted_if_needed(std::string_view name);
+
+}  // namespace morsel::core

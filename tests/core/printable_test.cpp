@@ -1,0 +1,47 @@
+#include "morsel/core/printable.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using morsel::core::printable;
+using morsel::core::quoted_if_needed;
+
+TEST_CASE("what a terminal would act on is escaped, all else stays") {
+  CHECK(printable("") == "");
+  CHECK(printable("plain, \\ and \"quoted\"") == "plain, \\ and \"quoted\"");
+  CHECK(printable("\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\xb0") == "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\xb0");
+  CHECK(printable("a\nb\tc\rd") == "a\\nb\\tc\\rd");
+  CHECK(printable("\x1b[2Jred\x07") == "\\x1b[2Jred\\x07");
+  CHECK(printable(std::string("\0\x7f", 2)) == "\\x00\\x7f");
+  CHECK(printable("\xc2\x80\xc2\x9b\xc2\x9f\xc2\xa0") == "\\u0080\\u009b\\u009f\xc2\xa0");
+  CHECK(printable("\xe2\x80\xae\xe2\x81\xa6\xe2\x80\xa8\xef\xbf\xbe") == "\\u202e\\u2066\\u2028\\ufffe");
+  CHECK(printable("a\nb\tc\x01", "\n\t") == "a\nb\tc\\x01");
+}
+
+TEST_CASE("bytes that are not UTF-8 are escaped one by one") {
+  CHECK(printable("\xff") == "\\xff");
+  CHECK(printable("\x9b[2J") == "\\x9b[2J");                                // C1 as one byte
+  CHECK(printable("\xc3") == "\\xc3");                                      // cut off
+  CHECK(printable("\xe2\x82") == "\\xe2\\x82");                             // likewise
+  CHECK(printable("\xc0\xaf\xe0\x80\x9b") == "\\xc0\\xaf\\xe0\\x80\\x9b");  // longer than needed
+  CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");                    // a surrogate
+  CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");           // above the last character
+  CHECK(printable("\xc3(") == "\\xc3(");
+}
+
+TEST_CASE("whatever the bytes, nothing is left to act on") {
+  std::string all;
+  for (int i = 0; i < 256; ++i)
+    for (int k = 0; k < 256; k += 5) all += {static_cast<char>(i), static_cast<char>(k)};
+  const std::string shown = printable(all);
+  for (const char c : shown) CHECK((c < 0 || (c >= ' ' && c != '\x7f')));
+  CHECK(printable(shown) == shown);
+}
+
+TEST_CASE("a name that could be mistaken on its line is quoted") {
+  CHECK(quoted_if_needed("sub/a b.off") == "sub/a b.off");
+  CHECK(quoted_if_needed("a\nb\xff.off") == "\"a\\nb\\xff.off\"");
+  CHECK(quoted_if_needed("a\\b\"c") == "\"a\\\\b\\\"c\"");
+  CHECK(quoted_if_needed("a\"c") == "a\"c");
+  CHECK(quoted_if_needed("\"a") == "\"\\\"a\"");
+}
