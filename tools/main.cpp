@@ -1,15 +1,14 @@
 // The morsel program: reads the command line, runs one command, turns errors into exit codes.
 
-#include <exception>
 #include <iostream>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/failure.h"
 #include "morsel/tools/commands/signals.h"
+#include "morsel/tools/commands/threads.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/version.h"
 
@@ -18,26 +17,26 @@ namespace {
 using namespace morsel;
 using namespace morsel::tools;
 
-int exit_code(core::ErrorKind kind) {
-  switch (kind) {
-    case core::ErrorKind::invalid_argument:
-      return kWrongUsage;
-    case core::ErrorKind::bad_input:
-      return kBadInput;
-    case core::ErrorKind::write_failed:
-      return kWriteFailed;
-    case core::ErrorKind::cancelled:
-      return 128 + SignalWatch::received();
+/// As many threads as are wanted and can be made; results are the same with any number.
+class Threads {
+ public:
+  Threads(int wanted, Console& console) {
+    if (wanted > 0) limit_.emplace(wanted);
+    const int all = core::thread_count();
+    const int possible = possible_threads(all);
+    if (possible == all) return;
+    limit_.emplace(possible);
+    console.message("morsel: warning: of " + std::to_string(all) + " threads only " +
+                    std::to_string(possible) + " can be made; results are the same");
   }
-  return kInternalError;
-}
 
-int fail(int code, const std::string& message) {
-  std::cerr << "morsel: " << message << '\n';
-  return code;
-}
+ private:
+  std::optional<core::ThreadLimit> limit_;
+};
 
+/// Throws what the streams' errors throw.
 int run(int argc, char** argv, std::stop_token stop) {
+  std::cout.exceptions(std::ios::badbit | std::ios::failbit);
   CLI::App app(
       "Critical points of scalar fields on triangle meshes, by several methods held against each other.",
       "morsel");
@@ -45,8 +44,8 @@ int run(int argc, char** argv, std::stop_token stop) {
   app.require_subcommand(1);
   app.footer(
       "morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences\n"
-      "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and "
-      "143 interrupted.");
+      "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, "
+      "threads or open files, 130 and 143 interrupted.");
   Invocation invocation;
   std::vector<std::string> words(argv, argv + argc);
   if (!words.empty()) words.front() = "morsel";
@@ -68,31 +67,28 @@ int run(int argc, char** argv, std::stop_token stop) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
-    return fail(kWrongUsage, std::string(error.what()) + " (morsel --help tells what is possible)");
-  }
-  try {
-    std::optional<core::ThreadLimit> limit;
-    if (invocation.common.threads > 0) limit.emplace(invocation.common.threads);
-    Console console(invocation.common.quiet, std::move(stop));
-    const int code = invocation.action(console);
+    if (error.get_exit_code() != 0) {
+      tell(error.what(), " (morsel --help tells what is possible)");
+      return kWrongUsage;
+    }
+    app.exit(error);  // prints the help or the version
     std::cout.flush();
-    if (!std::cout) return fail(kWriteFailed, "cannot write to standard output");
-    return code;
-  } catch (const core::Cancelled& error) {
-    return fail(exit_code(error.kind()), "interrupted");
-  } catch (const core::Error& error) {
-    return fail(exit_code(error.kind()), error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kOutOfMemory, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(kInternalError, std::string("internal error: ") + error.what());
+    return kDone;
   }
+  Console console(invocation.common.quiet, std::move(stop));
+  const Threads threads(invocation.common.threads, console);
+  const int code = invocation.action(console);
+  std::cout.flush();
+  return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const SignalWatch watch;
-  return run(argc, argv, watch.token());
+  try {
+    const SignalWatch watch;
+    return run(argc, argv, watch.token());
+  } catch (...) {
+    return tell_failure();
+  }
 }
