@@ -1,7 +1,7 @@
 // The morsel program: reads the command line, runs one command, turns errors into exit codes.
 
+#include <array>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,22 +17,18 @@ namespace {
 using namespace morsel;
 using namespace morsel::tools;
 
-/// As many threads as are wanted and can be made; results are the same with any number.
-class Threads {
- public:
-  Threads(int wanted, Console& console) {
-    if (wanted > 0) limit_.emplace(wanted);
-    const int all = core::thread_count();
-    const int possible = possible_threads(all);
-    if (possible == all) return;
-    limit_.emplace(possible);
-    console.message("morsel: warning: of " + std::to_string(all) + " threads only " +
-                    std::to_string(possible) + " can be made; results are the same");
-  }
-
- private:
-  std::optional<core::ThreadLimit> limit_;
-};
+/// From here to the end of the process as many threads as are wanted and can be made; results are the same with any number.
+void limit_threads(int wanted, Console& console) {
+  // Never destroyed: without a limit oneTBB would make more, if only to end them.
+  static std::array<core::ThreadLimit*, 2> limits{};
+  if (wanted > 0) limits[0] = new core::ThreadLimit(wanted);
+  const int all = core::thread_count();
+  const int possible = possible_threads(all);
+  if (possible == all) return;
+  limits[1] = new core::ThreadLimit(possible);
+  console.message("morsel: warning: of " + std::to_string(all) + " threads only " + std::to_string(possible) +
+                  " can be made; results are the same");
+}
 
 /// Throws what the streams' errors throw.
 int run(int argc, char** argv, std::stop_token stop) {
@@ -76,7 +72,7 @@ int run(int argc, char** argv, std::stop_token stop) {
     return kDone;
   }
   Console console(invocation.common.quiet, std::move(stop));
-  const Threads threads(invocation.common.threads, console);
+  limit_threads(invocation.common.threads, console);
   const int code = invocation.action(console);
   std::cout.flush();
   return code;
@@ -85,6 +81,7 @@ int run(int argc, char** argv, std::stop_token stop) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  begin_main();
   try {
     const SignalWatch watch;
     return run(argc, argv, watch.token());

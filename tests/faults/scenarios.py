@@ -1,5 +1,6 @@
 """What is run under faults: commands with all their outputs on tiny meshes, and how results are compared."""
 
+import csv
 import json
 import os
 import pathlib
@@ -52,10 +53,10 @@ def scenarios():
     compare = ("compare", "mesh.off", *METHODS, "--quiet", "--threads", "2", "-o", "report.json")
     everything = ("--html", "page.html", "--figures", "figures", "--export", "files", "--thumbnails", "small", "--size", "32x32",
                   "--view", "0/0")
-    sweep = ("sweep", "mesh.off", "--vary", "iterations=1/2", "--field", "height", "--method", "salient", "--quiet", "--threads", "2")
+    sweep = ("sweep", "mesh.off", "--vary", "iterations=1,2", "--method", "salient", "--quiet", "--threads", "2", "--field")
     batch = ("batch", "meshes", "--out", "out", *METHODS, "--quiet")
-    segment = ("segment", "mesh.off", "--field", "height", "--quiet", "--threads", "2")
-    cut = ("cut", "mesh.off", "--field", "height", "--quiet", "--threads", "2")
+    segment = ("segment", "mesh.off", "--quiet", "--threads", "2", "--field")
+    cut = ("cut", "mesh.off", "--quiet", "--threads", "2", "--field")
     axis = ("--field", "height:axis=x")
     both = ("meshes/a.off", "meshes/b.off")
     work = (r"out/work(/.*)?", r"out/state(/\.lock)?", r"out/\.[^/]*")
@@ -63,12 +64,13 @@ def scenarios():
         Scenario("report", (*compare,), before=("compare", "mesh.off", *axis, "--quiet", "-o", "report.json")),
         Scenario("compare", (*compare, *everything),
                  before=("compare", "mesh.off", *axis, *METHODS[2:], "--quiet", *everything, "-o", "report.json")),
-        Scenario("sweep", (*sweep, "-o", "sweep.csv", "--figures", "plots"), before=(*sweep, "-o", "sweep.csv", *axis),
+        Scenario("sweep", (*sweep, "height", "-o", "sweep.csv", "--figures", "plots"),
+                 before=(*sweep, "height:axis=x", "-o", "sweep.csv"),
                  working=(r"sweep\.csv\.journal",)),
-        Scenario("segment", (*segment, "-o", "segments.ply", "--json", "segments.json"),
-                 before=(*segment, *axis, "-o", "segments.ply", "--json", "segments.json")),
-        Scenario("cut", (*cut, "-o", "cut.off", "--json", "cut.json", "--graph", "cut.vtp"),
-                 before=(*cut, *axis, "-o", "cut.off", "--json", "cut.json", "--graph", "cut.vtp")),
+        Scenario("segment", (*segment, "height", "-o", "segments.ply", "--json", "segments.json"),
+                 before=(*segment, "height:axis=x", "-o", "segments.ply", "--json", "segments.json")),
+        Scenario("cut", (*cut, "height", "-o", "cut.off", "--json", "cut.json", "--graph", "cut.vtp"),
+                 before=(*cut, "height:axis=x", "-o", "cut.off", "--json", "cut.json", "--graph", "cut.vtp")),
         Scenario("batch", (*batch, "--jobs", "1", "--no-thumbnails"), meshes=both, working=work),
         Scenario("batch all", (*batch, "--jobs", "2", "--export", "--html"), meshes=both, working=work),
         Scenario("help", ("compare", "--help")),
@@ -86,6 +88,9 @@ def plain(path):
             return json.dumps(without_times(json.loads(data)))
         except ValueError:
             return data
+    if path.suffix == ".csv":
+        with open(path, newline="", encoding="utf-8") as table:
+            return json.dumps([without_times(row) for row in csv.DictReader(table)])
     if path.suffix == ".html":
         text = re.sub(r'"[A-Za-z0-9+/=]{40,}"', '"data"', data.decode())  # packed reports hold times
         return re.sub(r"[0-9]+(\.[0-9]+)?(e-?[0-9]+)?", "#", text)

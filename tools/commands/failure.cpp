@@ -1,5 +1,6 @@
 #include "morsel/tools/commands/failure.h"
 
+#include <cxxabi.h>
 #include <sys/mman.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -128,9 +129,21 @@ int tell_handled() {
   throw std::bad_alloc();
 }
 
+constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGABRT};
+
+/// Some libraries do not check in their static initialisation what malloc() returns (pixman, which cairo draws with). No
+/// input has been read then: nothing else that differs from run to run can be the cause.
+void end_at_start(int) {
+  tell("a library cannot be started: out of memory, as it seems");
+  ::_exit(kOutOfMemory);
+}
+
 __attribute__((no_sanitize("address", "thread", "undefined"))) void watch_from_the_beginning() {
   std::set_terminate(end_by_terminate);
   std::set_new_handler(note_that_new_failed);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have not begun yet
+  for (const int signal : kCrashes) static_cast<void>(std::signal(signal, end_at_start));
+#endif
 }
 
 // Before the static initialisation of any library, which may find no memory.
@@ -153,6 +166,12 @@ int tell_failure() noexcept {
     return end_by(signal);
   }
   return tell_handled();
+}
+
+void begin_main() noexcept {
+  for (const int signal : kCrashes)
+    if (const auto handler = std::signal(signal, SIG_DFL); handler != end_at_start)
+      static_cast<void>(std::signal(signal, handler));
 }
 
 bool memory_has_run_out() noexcept {

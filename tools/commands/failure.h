@@ -8,6 +8,10 @@ namespace morsel::tools {
 /// After a signal everything is taken for its consequence.
 int tell_failure() noexcept;
 
+/// Exceptions and crashes in the static initialisation of libraries, before main(), end the process in the same way. To be
+/// called when main() begins: from here on a crash is the program's own.
+void begin_main() noexcept;
+
 /// Tells a sentence, by the system's own call.
 void tell(const char* sentence, const char* rest = "") noexcept;
 
