@@ -133,8 +133,9 @@ std::optional<ChildEnd> Child::read() {
   for (;;) {
     const ssize_t size = ::read(output_, buffer.data(), buffer.size());
     if (size < 0 && errno == EINTR) continue;
-    if (size < 0) return std::nullopt;
-    if (size == 0) return wait();  // nobody has the other end any more
+    if (size < 0 && errno == EAGAIN) return std::nullopt;
+    if (size < 0) kill_group();    // nobody would hear of its end
+    if (size <= 0) return wait();  // nobody has the other end any more
     text_.append(buffer.data(), static_cast<std::size_t>(size));
     if (text_.size() > kKeptText) text_.erase(0, text_.size() - kKeptText);
   }
