@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <locale>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/temporary_file.h"
 
 namespace morsel::core {
 namespace {
@@ -53,10 +53,14 @@ bool is_system_path(const fs::path& path) {
 
 struct FileWriter::Output {
   Output(const fs::path& target, Sync sync);
-  ~Output() { discard(); }
+  ~Output() {
+    if (device >= 0) ::close(device);
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
 
   void append(const char* data, std::size_t size) {
-    if (file < 0) throw std::logic_error("FileWriter: written after commit()");
+    if (file() < 0) throw std::logic_error("FileWriter: written after commit()");
     if (size > buffer.size() - used) {
       flush();
       if (size > buffer.size()) {
@@ -70,7 +74,7 @@ struct FileWriter::Output {
   void flush() { write_out(buffer.data(), std::exchange(used, 0)); }
   void write_out(const char* data, std::size_t size);
   void commit();
-  void discard() noexcept;
+  int file() const { return device >= 0 ? device : temporary.descriptor(); }
 
   struct StreamBuffer : std::streambuf {
     explicit StreamBuffer(Output& o) : output(o) {}
@@ -87,10 +91,9 @@ struct FileWriter::Output {
     Output& output;
   };
 
-  fs::path shown;      // as the caller named it
-  fs::path path;       // links followed
-  fs::path temporary;  // empty when written directly
-  int file = -1;
+  fs::path shown;  // as the caller named it
+  TemporaryFile temporary;
+  int device = -1;  // or else this is written to
   bool synced = false;
   std::vector<char> buffer;
   std::size_t used = 0;
@@ -104,24 +107,13 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail(shown, EISDIR);
   if ((exists && !S_ISREG(status.st_mode)) || is_system_path(target)) {
-    file = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (file < 0) fail(shown, errno);
+    device = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (device < 0) fail(shown, errno);
   } else {
     // Renaming would replace a file that its owner has protected.
     if (exists && ::access(target.c_str(), W_OK) != 0) fail(shown, errno);
-    path = followed(target);
-    static std::atomic<unsigned> counter{0};
-    do {
-      temporary = path.parent_path() /
-                  (".morsel-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
-      file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (file < 0 && errno == EEXIST);
-    if (file < 0) {
-      const int error = errno;
-      temporary.clear();
-      fail(shown, error);
-    }
-    if (exists) static_cast<void>(::fchmod(file, status.st_mode & 07777));
+    if (const int error = temporary.open(followed(target)); error != 0) fail(shown, error);
+    if (exists) static_cast<void>(::fchmod(temporary.descriptor(), status.st_mode & 07777));
     synced = exists && sync == Sync::when_replacing;
   }
   stream.imbue(std::locale::classic());
@@ -131,7 +123,7 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
 
 void FileWriter::Output::write_out(const char* data, std::size_t size) {
   while (size > 0) {
-    const ssize_t written = ::write(file, data, size);
+    const ssize_t written = ::write(file(), data, size);
     if (written < 0) {
       if (errno == EINTR) continue;
       fail(shown, errno);
@@ -142,20 +134,14 @@ void FileWriter::Output::write_out(const char* data, std::size_t size) {
 }
 
 void FileWriter::Output::commit() {
-  if (file < 0) return;
+  if (file() < 0) return;
   flush();
-  // Pipes and some file systems cannot be synced and say EINVAL, EROFS or ENOTSUP; what counts are lost data.
-  if (synced && ::fsync(file) != 0 && (errno == EIO || errno == ENOSPC || errno == EDQUOT))
-    fail(shown, errno);
-  if (::close(std::exchange(file, -1)) != 0 && errno != EINTR) fail(shown, errno);
-  if (temporary.empty()) return;
-  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(shown, errno);
-  temporary.clear();
-}
-
-void FileWriter::Output::discard() noexcept {
-  if (file >= 0) ::close(std::exchange(file, -1));
-  if (!temporary.empty()) ::unlink(temporary.c_str());
+  int error = 0;
+  if (device < 0)
+    error = temporary.publish(synced);
+  else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
+    error = errno;
+  if (error != 0) fail(shown, error);
 }
 
 FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}

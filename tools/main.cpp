@@ -1,16 +1,16 @@
 // The morsel program: reads the command line, runs one command, turns errors into exit codes.
 
-#include <exception>
+#include <array>
 #include <iostream>
-#include <new>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "morsel/core/error.h"
+#include "morsel/core/parallel.h"
 #include "morsel/core/printable.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/failure.h"
 #include "morsel/tools/commands/signals.h"
+#include "morsel/tools/commands/threads.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/version.h"
 
@@ -19,26 +19,22 @@ namespace {
 using namespace morsel;
 using namespace morsel::tools;
 
-int exit_code(core::ErrorKind kind) {
-  switch (kind) {
-    case core::ErrorKind::invalid_argument:
-      return kWrongUsage;
-    case core::ErrorKind::bad_input:
-      return kBadInput;
-    case core::ErrorKind::write_failed:
-      return kWriteFailed;
-    case core::ErrorKind::cancelled:
-      return 128 + SignalWatch::received();
-  }
-  return kInternalError;
+/// From here to the end of the process as many threads as are wanted and can be made; results are the same with any number.
+void limit_threads(int wanted, Console& console) {
+  // Never destroyed: without a limit oneTBB would make more, if only to end them.
+  static std::array<core::ThreadLimit*, 2> limits{};
+  if (wanted > 0) limits[0] = new core::ThreadLimit(wanted);
+  const int all = core::thread_count();
+  const int possible = possible_threads(all);
+  if (possible == all) return;
+  limits[1] = new core::ThreadLimit(possible);
+  console.warning("of " + std::to_string(all) + " threads only " + std::to_string(possible) +
+                  " can be made; results are the same");
 }
 
-int fail(int code, const std::string& message) {
-  std::cerr << "morsel: " << core::printable(message) << '\n';
-  return code;
-}
-
+/// Throws what the streams' errors throw.
 int run(int argc, char** argv, std::stop_token stop) {
+  std::cout.exceptions(std::ios::badbit | std::ios::failbit);
   CLI::App app(
       "Critical points of scalar fields on triangle meshes, by several methods held against each other.",
       "morsel");
@@ -46,8 +42,8 @@ int run(int argc, char** argv, std::stop_token stop) {
   app.require_subcommand(1);
   app.footer(
       "morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences\n"
-      "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, 130 and "
-      "143 interrupted.");
+      "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, "
+      "threads or open files, 130 and 143 interrupted.");
   Invocation invocation;
   std::vector<std::string> words(argv, argv + argc);
   if (!words.empty()) words.front() = "morsel";
@@ -69,31 +65,29 @@ int run(int argc, char** argv, std::stop_token stop) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // help and version
-    return fail(kWrongUsage, std::string(error.what()) + " (morsel --help tells what is possible)");
-  }
-  try {
-    std::optional<core::ThreadLimit> limit;
-    if (invocation.common.threads > 0) limit.emplace(invocation.common.threads);
-    Console console(invocation.common.quiet, std::move(stop));
-    const int code = invocation.action(console);
+    if (error.get_exit_code() != 0) {
+      tell(core::printable(error.what()).c_str(), " (morsel --help tells what is possible)");
+      return kWrongUsage;
+    }
+    app.exit(error);  // prints the help or the version
     std::cout.flush();
-    if (!std::cout) return fail(kWriteFailed, "cannot write to standard output");
-    return code;
-  } catch (const core::Cancelled& error) {
-    return fail(exit_code(error.kind()), "interrupted");
-  } catch (const core::Error& error) {
-    return fail(exit_code(error.kind()), error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kOutOfMemory, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(kInternalError, std::string("internal error: ") + error.what());
+    return kDone;
   }
+  Console console(invocation.common.quiet, std::move(stop));
+  limit_threads(invocation.common.threads, console);
+  const int code = invocation.action(console);
+  std::cout.flush();
+  return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const SignalWatch watch;
-  return run(argc, argv, watch.token());
+  begin_main();
+  try {
+    const SignalWatch watch;
+    return run(argc, argv, watch.token());
+  } catch (...) {
+    return tell_failure();
+  }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/exhaustion.h"
 
 namespace morsel::morse {
 namespace {
@@ -43,9 +44,11 @@ class ValueFile {
       throw BadInput("cannot read values from " + name_ + ": it is a folder");
     errno = 0;
     std::ifstream stream(path, std::ios::binary);
-    if (!stream)
+    if (!stream) {
+      core::throw_if_exhausted(errno, "cannot read values from " + name_);
       throw BadInput("cannot read values from " + name_ + ": " +
                      (errno != 0 ? std::generic_category().message(errno) : "it does not open"));
+    }
     std::string line;
     for (std::size_t number = 1; std::getline(stream, line); ++number) {
       if (number % (1 << 16) == 0) progress.throw_if_cancelled();

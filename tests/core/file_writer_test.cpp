@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/temporary_file.h"
 #include "support/scratch.h"
 
 using namespace morsel;
@@ -85,6 +86,34 @@ TEST_CASE("what is not committed leaves the old file and nothing else") {
   CHECK(files_in(scratch.path()) == 1);
   core::write_file(path, "new");
   CHECK(contents(path) == "new");
+}
+
+TEST_CASE("what is not whole yet has no name, or one that is swept when nobody holds it") {
+  const Scratch scratch;
+  const std::string left = ".morsel-4194305-0.tmp";
+  fs::create_directory(scratch / "other");
+  std::ofstream(scratch / "other" / left) << "of a killed process";
+  std::ofstream(scratch / "other" / ".morsel-1-0.tmp.txt") << "no temporary file";
+  fs::create_symlink("../other", scratch / "other" / ".morsel-4194305-1.tmp");
+  {
+    FileWriter writer(scratch / "other" / "report.json");  // the first one in that folder
+    writer.write("a");
+    CHECK_FALSE(fs::exists(scratch / "other" / left));
+    CHECK(fs::is_symlink(scratch / "other" / ".morsel-4194305-1.tmp"));
+    core::unlink_temporary_files();
+    CHECK(files_in(scratch / "other") == 2);
+  }
+  CHECK(fs::exists(scratch / "other" / ".morsel-1-0.tmp.txt"));
+}
+
+TEST_CASE("a file that came to be meanwhile is replaced whole") {
+  const Scratch scratch;
+  FileWriter writer(scratch / "report.json");
+  writer.write("new");
+  std::ofstream(scratch / "report.json") << "of somebody else, longer";
+  writer.commit();
+  CHECK(contents(scratch / "report.json") == "new");
+  CHECK(files_in(scratch.path()) == 1);
 }
 
 TEST_CASE("a full disk fails with the reason and leaves the old file") {

@@ -13,6 +13,8 @@
 #include <system_error>
 #include <utility>
 
+#include "morsel/tools/batch/signals_blocked.h"
+
 namespace morsel::tools::batch {
 namespace {
 
@@ -21,7 +23,18 @@ constexpr std::size_t kKeptText = 2000;  // bytes of standard error: its end, wh
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
 /// All that happens between fork() and exec: calls that are allowed there, in a program with threads.
-[[noreturn]] void become(char* const* words, const ChildLimits& limits, pid_t parent, int null, int output) {
+[[noreturn]] void become(char* const* words, const ChildLimits& limits, pid_t parent, int null, int output,
+                         const sigset_t& mask) {
+  // This program's handlers are not for the child; execv() resets them, but leaves the mask.
+  for (int signal = 1; signal < NSIG; ++signal) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) {
+      action = {};
+      action.sa_handler = SIG_DFL;
+      ::sigaction(signal, &action, nullptr);
+    }
+  }
+  ::sigprocmask(SIG_SETMASK, &mask, nullptr);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(127);  // it ended before that was asked for
@@ -66,13 +79,17 @@ Child::Child(const std::vector<std::string>& words, const ChildLimits& limits) :
         start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
 
   std::array<int, 2> pipe{};
-  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) fail("pipe");
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) fail("cannot start a process");
   output_ = pipe[0];
   const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   const pid_t parent = ::getpid();
-  process_ = null < 0 ? -1 : ::fork();
-  if (process_ == 0) become(arguments.data(), limits, parent, null, pipe[1]);
-  const int error = errno;
+  int error = errno;
+  if (null >= 0) {
+    const SignalsBlocked blocked;  // or a handler would act in both processes
+    process_ = ::fork();
+    if (process_ == 0) become(arguments.data(), limits, parent, null, pipe[1], blocked.before());
+    error = errno;
+  }
   if (null >= 0) ::close(null);
   ::close(pipe[1]);
   if (process_ < 0) {
@@ -116,8 +133,9 @@ std::optional<ChildEnd> Child::read() {
   for (;;) {
     const ssize_t size = ::read(output_, buffer.data(), buffer.size());
     if (size < 0 && errno == EINTR) continue;
-    if (size < 0) return std::nullopt;
-    if (size == 0) return wait();  // nobody has the other end any more
+    if (size < 0 && errno == EAGAIN) return std::nullopt;
+    if (size < 0) kill_group();    // nobody would hear of its end
+    if (size <= 0) return wait();  // nobody has the other end any more
     text_.append(buffer.data(), static_cast<std::size_t>(size));
     if (text_.size() > kKeptText) text_.erase(0, text_.size() - kKeptText);
   }

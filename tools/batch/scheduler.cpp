@@ -13,8 +13,10 @@
 #include <stdexcept>
 #include <stop_token>
 #include <system_error>
+#include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/tools/batch/signals_blocked.h"
 
 namespace morsel::tools::batch {
 namespace {
@@ -24,9 +26,11 @@ class StopAlarm {
  public:
   explicit StopAlarm(std::stop_token token) : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+    const SignalsBlocked blocked;  // a handler that requests the stop would wait for what is being made here
     callback_.emplace(std::move(token), Ring{descriptor_});
   }
   ~StopAlarm() {
+    const SignalsBlocked blocked;
     callback_.reset();  // nobody rings any more
     ::close(descriptor_);
   }
@@ -61,6 +65,17 @@ int wait_time(const std::list<Running>& running) {
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
 }
 
+/// None if the system has no room for a process now. Then those that run are waited for; if none runs, the error is thrown.
+std::optional<Child> started(const std::vector<std::string>& words, const ChildLimits& limits,
+                             bool is_alone) {
+  try {
+    return std::optional<Child>(std::in_place, words, limits);
+  } catch (const std::system_error&) {
+    if (is_alone) throw;
+    return std::nullopt;
+  }
+}
+
 void sleep_until_something_happens(const std::list<Running>& running, const StopAlarm& alarm) {
   std::vector<pollfd> descriptors = {{alarm.descriptor(), POLLIN, 0}};
   for (const Running& one : running) descriptors.push_back({one.child.descriptor(), POLLIN, 0});
@@ -81,7 +96,9 @@ void run_children(const ChildTasks& tasks, std::size_t jobs, const ChildLimits& 
     if (stop.stop_requested()) throw core::Cancelled();
     progress.update("meshes", static_cast<double>(ended) / static_cast<double>(tasks.count));
     while (next < tasks.count && running.size() < jobs) {
-      running.push_back({next, Child(tasks.begin(next), limits)});
+      std::optional<Child> child = started(tasks.begin(next), limits, running.empty());
+      if (!child) break;
+      running.push_back({next, std::move(*child)});
       ++next;
     }
     sleep_until_something_happens(running, alarm);

@@ -24,18 +24,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSchema = "morsel.batch-state/1";
 constexpr int kOutOfMemory = 5;  // of the program's exit codes
-constexpr int kInternalError = 70;
 constexpr int kMostExitCode = 255;
 constexpr int kMostSignal = 64;
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // a thousand times what a state has
 
-/// Whether a child had no memory left: it says so, or a library ended it because no thread could be made.
+/// Whether a child had no memory left, by its exit code and sentence; the code is that of other resources, too.
 bool ran_out_of_memory(const ChildEnd& end) {
-  if (end.exit_code == kOutOfMemory) return true;
-  constexpr std::array kSaid = {"std::bad_alloc", "Resource temporarily unavailable"};
-  return (end.signal == SIGABRT || end.exit_code == kInternalError) &&
-         std::any_of(kSaid.begin(), kSaid.end(),
-                     [&](const char* text) { return end.message.find(text) != std::string::npos; });
+  return end.exit_code == kOutOfMemory && end.message.find("out of memory") != std::string::npos;
 }
 
 std::optional<JsonView> unless_null(const JsonView& value) {
@@ -117,7 +112,8 @@ Json method_result(const JsonView& method) {
 }  // namespace
 
 bool MeshError::may_pass() const {
-  constexpr std::array kFromOutside = {SIGKILL, SIGTERM, SIGINT, SIGHUP};
+  constexpr std::array kFromOutside = {SIGKILL, SIGTERM, SIGINT,  SIGHUP,  SIGPIPE, SIGALRM,
+                                       SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGPWR};
   if (kind == "signal")
     return std::find(kFromOutside.begin(), kFromOutside.end(), signal) != kFromOutside.end();
   constexpr std::array kCodes = {4, kOutOfMemory, 127, 130, 143};

@@ -23,8 +23,7 @@ enum ExitCode : int {
   kWrongUsage = 2,
   kBadInput = 3,
   kWriteFailed = 4,
-  kOutOfMemory = 5,
-  kInternalError = 70  // a defect of the program itself (EX_SOFTWARE)
+  kOutOfMemory = 5  // or out of threads, processes or open files
 };
 
 /// Options that every command takes.

@@ -26,7 +26,7 @@ void Console::message(std::string_view text) {
   std::cerr << core::printable(text) << '\n';
 }
 
-void Console::warning(std::string_view text) { message("warning: " + std::string(text)); }
+void Console::warning(std::string_view text) { message("morsel: warning: " + std::string(text)); }
 
 void Console::enter(std::string_view context) { context_ = core::printable(context); }
 

@@ -1,14 +1,18 @@
 #pragma once
-/// Ctrl-C and termination, turned into an orderly stop.
+/// Ctrl-C, termination and other signals, turned into an orderly stop.
 
+#include <csignal>
 #include <stop_token>
-#include <thread>
 
 namespace morsel::tools {
 
-/// While it lives, the first SIGINT or SIGTERM requests a stop, so that the computation unwinds and leaves no
-/// half-written file; a second one ends the program at once. Made before any other thread, which then
-/// inherits the signal mask.
+/// While it lives, signals end the program in order, without a thread of their own:
+/// - SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGXCPU, SIGIO, SIGPWR: the first
+///   requests a stop, so that the computation unwinds; a second one (but for SIGPIPE) ends the program at once.
+/// - SIGXFSZ is ignored: the write fails with its reason.
+/// - SIGQUIT and those of a crash act at once, as always; named temporary files are removed before. If memory had run
+///   out before a crash, the program ends with the exit code and the sentence for that.
+/// What was ignored when the program began (nohup) stays ignored; what somebody else handles is left to him.
 class SignalWatch {
  public:
   SignalWatch();
@@ -17,12 +21,15 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
 
   std::stop_token token() const { return stop_.get_token(); }
-  /// The signal that came, 0 if none did.
+  /// The signal that requested the stop, 0 if none did. Async-signal-safe.
   static int received();
 
  private:
   std::stop_source stop_;
-  std::thread watcher_;
 };
+
+/// The exit code after an orderly stop: 130 of SIGINT, 143 of SIGTERM. Other signals end the process here as they do by
+/// themselves, so that whoever waits for it sees the signal.
+int end_by(int signal);
 
 }  // namespace morsel::tools

@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <cmath>
+#include <exception>
 #include <new>
 #include <numbers>
 
@@ -96,8 +97,12 @@ void PixelCanvas::text(Spot spot, std::string_view text, const Letters& letters)
 std::string PixelCanvas::png() {
   std::string bytes;
   const auto append = [](void* to, const unsigned char* data, unsigned int size) {
-    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
-    return CAIRO_STATUS_SUCCESS;
+    try {
+      static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
+      return CAIRO_STATUS_SUCCESS;
+    } catch (const std::exception&) {  // must not pass through C
+      return CAIRO_STATUS_NO_MEMORY;
+    }
   };
   if (cairo_status(context_) != CAIRO_STATUS_SUCCESS ||
       cairo_surface_write_to_png_stream(surface_, append, &bytes) != CAIRO_STATUS_SUCCESS)

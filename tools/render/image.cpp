@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <csetjmp>
+#include <exception>
 #include <new>
 #include <stdexcept>
 
@@ -11,6 +12,16 @@
 namespace morsel::tools::render {
 namespace {
 
+/// Whether there was memory for it: exceptions must not pass through C.
+bool append(std::string& bytes, const void* data, std::size_t size) noexcept {
+  try {
+    bytes.append(static_cast<const char*>(data), size);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 // libpng reports by longjmp, over which nothing with a destructor may be alive: so all that lives here is
 // plain.
 bool encode(const Image& image, bool opaque, std::string& bytes, png_structp png, png_infop info) {
@@ -18,7 +29,7 @@ bool encode(const Image& image, bool opaque, std::string& bytes, png_structp png
   png_set_write_fn(
       png, &bytes,
       [](png_structp writer, png_bytep data, std::size_t size) {
-        static_cast<std::string*>(png_get_io_ptr(writer))->append(reinterpret_cast<const char*>(data), size);
+        if (!append(*static_cast<std::string*>(png_get_io_ptr(writer)), data, size)) png_error(writer, "");
       },
       nullptr);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.size.width),
@@ -52,7 +63,10 @@ std::string encode_png(const Image& image) {
   bool opaque = true;
   for (std::size_t i = 3; i < image.bytes.size(); i += 4) opaque = opaque && image.bytes[i] == 255;
   std::string bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  // Without handlers it would print.
+  png_structp png = png_create_write_struct(
+      PNG_LIBPNG_VER_STRING, nullptr, [](png_structp writer, png_const_charp) { png_longjmp(writer, 1); },
+      [](png_structp, png_const_charp) {});
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   const bool done = info != nullptr && encode(image, opaque, bytes, png, info);
   png_destroy_write_struct(&png, &info);

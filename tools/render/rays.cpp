@@ -34,6 +34,10 @@ struct Rays::Scene {
   Scene() {
     if (device == nullptr) throw std::bad_alloc();
     scene = rtcNewScene(device);
+    if (scene == nullptr) {
+      rtcReleaseDevice(device);
+      throw std::bad_alloc();
+    }
     // Rays must not slip through between neighbouring triangles.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   }

@@ -3,12 +3,14 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <memory>
-#include <stdexcept>
+#include <new>
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/exhaustion.h"
 
 namespace morsel::tools {
 namespace {
@@ -16,14 +18,15 @@ namespace {
 class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
-      throw std::runtime_error("libcrypto offers no SHA-256");
+    require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
   }
-  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
+  void add(std::string_view bytes) {
+    require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+  }
   std::string finish() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int size = 0;
-    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
+    require(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
     std::string text;
     for (unsigned int i = 0; i < size; ++i) {
       constexpr const char* kDigits = "0123456789abcdef";
@@ -34,6 +37,11 @@ class Sha256 {
   }
 
  private:
+  /// Of libcrypto, whose SHA-256 lacks nothing but memory.
+  static void require(bool done) {
+    if (!done) throw std::bad_alloc();
+  }
+
   std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
 };
 
@@ -41,7 +49,10 @@ class Sha256 {
 
 std::string sha256_of_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw core::BadInput("cannot read " + path.string());
+  if (!in) {
+    core::throw_if_exhausted(errno, "cannot read " + path.string());
+    throw core::BadInput("cannot read " + path.string());
+  }
   Sha256 hash;
   std::vector<char> buffer(std::size_t{1} << 20);
   while (in) {
