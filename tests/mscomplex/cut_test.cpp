@@ -15,7 +15,9 @@
 #include "morsel/morse/functions/height.h"
 #include "support/fields.h"
 #include "support/meshes.h"
+#include "support/plain_shortening.h"
 #include "support/random_surfaces.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -284,6 +286,77 @@ TEST_CASE("no path of a shortened cut can be replaced by a shorter one") {
     check(mesh, seed);
   }
   CHECK(shortened > 10);
+}
+
+TEST_CASE("a shortened cut is what taking the whole cut apart after each change gives") {
+  std::size_t replaced = 0;
+  const auto check = [&](const ScalarField& field) {
+    const CutGraph cut = cut_by(field);
+    for (const int rounds : {1, 2, 100}) {
+      const ShortenedCut fast = shorten(field.mesh(), cut, {.rounds = rounds});
+      const ShortenedCut slow = plain_shorten(field.mesh(), cut, rounds);
+      REQUIRE(same_bits(fast.cut, slow.cut));
+      REQUIRE(fast.attempts == slow.attempts);
+      REQUIRE(fast.replaced == slow.replaced);
+      REQUIRE(fast.is_settled == slow.is_settled);
+      replaced += fast.replaced;
+    }
+  };
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const TriangleMesh mesh = random_surface(seed);
+    INFO("seed " << seed);
+    check({mesh, random_values(mesh.vertex_count(), seed)});
+    check({mesh, tied_values(mesh.vertex_count(), 3, seed)});
+  }
+  for (const Soup& soup :
+       {pierced_slab(5), punctured_sphere(4, 9), together(pierced_slab(2), pierced_slab(3)),
+        together(torus(12, 8), together(octahedron(), annulus(9, 4)))})
+    for (const NamedField& f : field_zoo(soup.mesh(), 86)) check(f.field);
+  CHECK(replaced > 1000);
+}
+
+TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
+  constexpr Index kCount = 100000;
+  const Soup one = tetrahedron();
+  Soup all;
+  for (Index i = 0; i < kCount; ++i) {
+    const auto first = static_cast<Index>(all.positions.size());
+    for (const Point& p : one.positions) all.positions.push_back(p + Point(3.0 * i, 0, 0));
+    for (const core::Triangle& t : one.triangles)
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  const TriangleMesh mesh = all.mesh();
+  const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 87)});
+  const ShortenedCut shorter = shorten(mesh, cut);
+  CHECK(shorter.is_settled);
+  CHECK(shorter.attempts == kCount);
+  CHECK(shorter.cut.paths.size() == kCount);
+  CHECK(cut_open(mesh, shorter.cut.edges).copied.size() == kCount);
+}
+
+TEST_CASE("shortening a cut of thousands of paths takes a moment, not minutes") {
+  const auto pierced = [](int side) {  // a sheet with side² square holes
+    Soup sheet = grid(3 * side + 1, 3 * side + 1);
+    std::vector<core::Triangle> kept;
+    for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
+      const std::size_t square = t / 2;
+      const std::size_t columns = 3 * std::size_t(side);
+      if (square % columns % 3 != 1 || square / columns % 3 != 1) kept.push_back(sheet.triangles[t]);
+    }
+    sheet.triangles = std::move(kept);
+    return jittered(sheet.mesh(), 0.01, 88);
+  };
+  const TriangleMesh small = pierced(12);
+  REQUIRE(small.boundary_loop_count() == 145);
+  const CutGraph few = cut_by({small, random_values(small.vertex_count(), 89)});
+  CHECK(same_bits(shorten(small, few).cut, plain_shorten(small, few, 16).cut));
+
+  const TriangleMesh mesh = pierced(100);
+  const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 90)});
+  const ShortenedCut shorter = shorten(mesh, cut);
+  CHECK(shorter.is_settled);
+  CHECK(shorter.replaced > 1000);
+  CHECK(cut_open(mesh, shorter.cut.edges).mesh.boundary_loop_count() == 1);
 }
 
 TEST_CASE("shortening stops when it is told to") {
