@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/stop.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/report/provenance.h"
@@ -71,6 +72,7 @@ int run(int argc, char** argv, std::stop_token stop) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help and version
     return fail(kWrongUsage, std::string(error.what()) + " (morsel --help tells what is possible)");
   }
+  const core::StopScope scope(stop);
   try {
     std::optional<core::ThreadLimit> limit;
     if (invocation.common.threads > 0) limit.emplace(invocation.common.threads);
