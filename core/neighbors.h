@@ -24,9 +24,9 @@ class PointSearch {
   /// at any radius ≥ 0; a negative or NaN radius finds nothing. O(log n + k log k) for k found.
   void within(const Point& center, double radius, std::vector<Index>& found) const;
 
-  /// The distance from `center` to the `count`-th nearest point (≥ 1; infinite if there are fewer): within() finds at
-  /// least `count` points at that radius, and more only where several are as far. O(log n + count log count), more
-  /// where many points coincide.
+  /// The distance from `center` to the `count`-th nearest point (≥ 1; infinite if there are fewer): within()
+  /// finds at least `count` points at that radius, and more only where several are as far. O(log n + count
+  /// log count), more where many points coincide.
   double reach(const Point& center, std::size_t count) const;
 
  private:

@@ -5,9 +5,9 @@
 
 namespace morsel::core {
 
-/// While it lives, the parallel loops that this thread starts, whichever threads run them, and throw_if_stopped() in
-/// it listen to the token, instead of one given further out. The program sets one for all it does; a library user
-/// need not, and then nothing but Progress stops anything.
+/// While it lives, the parallel loops that this thread starts, whichever threads run them, and
+/// throw_if_stopped() in it listen to the token, instead of one given further out. The program sets one for
+/// all it does; a library user need not, and then nothing but Progress stops anything.
 class StopScope {
  public:
   explicit StopScope(std::stop_token token);

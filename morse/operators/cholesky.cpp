@@ -27,8 +27,8 @@ class Ldlt : public Eigen::SimplicialLDLT<SparseMatrix> {
   }
 
  private:
-  /// Row by row, each a sparse triangular solve with the rows before (Davis 2005, "Algorithm 849: a concise sparse
-  /// Cholesky factorization package").
+  /// Row by row, each a sparse triangular solve with the rows before (Davis 2005, "Algorithm 849: a concise
+  /// sparse Cholesky factorization package").
   void fill_in(const SparseMatrix& matrix, const char* what, const core::Progress& progress) {
     const auto size = static_cast<int>(matrix.cols());
     m_diag.resize(size);

@@ -51,8 +51,9 @@ struct TracedPath {
   double length = 0;                   ///< sum of the edges' lengths, in that order
 };
 
-/// These edges (inner ones, ascending, each once) taken apart where is_end(v, number of them at v) holds: it must at
-/// least where that is not 2. Ordered by the paths' first vertices, then by their first edges. O(n log n).
+/// These edges (inner ones, ascending, each once) taken apart where is_end(v, number of them at v) holds: it
+/// must at least where that is not 2. Ordered by the paths' first vertices, then by their first edges. O(n log
+/// n).
 std::vector<TracedPath> trace_paths(const core::TriangleMesh& mesh, std::span<const core::Index> edges,
                                     const std::function<bool(core::Index, std::size_t)>& is_end);
 

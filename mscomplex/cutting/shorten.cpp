@@ -57,8 +57,8 @@ struct Trial {
   Index time = 0;
 };
 
-/// A trial's place in the order of trials: that which is the longest ago first, of those the longest path, of those
-/// the first of the cut.
+/// A trial's place in the order of trials: that which is the longest ago first, of those the longest path, of
+/// those the first of the cut.
 struct Turn {
   Index time;
   double length;

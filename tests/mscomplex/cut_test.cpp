@@ -13,11 +13,11 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/functions/height.h"
+#include "support/adversarial.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 #include "support/plain_shortening.h"
 #include "support/random_surfaces.h"
-#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -317,15 +317,7 @@ TEST_CASE("a shortened cut is what taking the whole cut apart after each change 
 
 TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
   constexpr Index kCount = 100000;
-  const Soup one = tetrahedron();
-  Soup all;
-  for (Index i = 0; i < kCount; ++i) {
-    const auto first = static_cast<Index>(all.positions.size());
-    for (const Point& p : one.positions) all.positions.push_back(p + Point(3.0 * i, 0, 0));
-    for (const core::Triangle& t : one.triangles)
-      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  const TriangleMesh mesh = all.mesh();
+  const TriangleMesh mesh = adversarial::tetrahedra(kCount);
   const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 87)});
   const ShortenedCut shorter = shorten(mesh, cut);
   CHECK(shorter.is_settled);
@@ -335,23 +327,12 @@ TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
 }
 
 TEST_CASE("shortening a cut of thousands of paths takes a moment, not minutes") {
-  const auto pierced = [](int side) {  // a sheet with side² square holes
-    Soup sheet = grid(3 * side + 1, 3 * side + 1);
-    std::vector<core::Triangle> kept;
-    for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
-      const std::size_t square = t / 2;
-      const std::size_t columns = 3 * std::size_t(side);
-      if (square % columns % 3 != 1 || square / columns % 3 != 1) kept.push_back(sheet.triangles[t]);
-    }
-    sheet.triangles = std::move(kept);
-    return jittered(sheet.mesh(), 0.01, 88);
-  };
-  const TriangleMesh small = pierced(12);
+  const TriangleMesh small = adversarial::pierced_sheet(144);
   REQUIRE(small.boundary_loop_count() == 145);
   const CutGraph few = cut_by({small, random_values(small.vertex_count(), 89)});
   CHECK(same_bits(shorten(small, few).cut, plain_shorten(small, few, 16).cut));
 
-  const TriangleMesh mesh = pierced(100);
+  const TriangleMesh mesh = adversarial::pierced_sheet(10000);
   const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 90)});
   const ShortenedCut shorter = shorten(mesh, cut);
   CHECK(shorter.is_settled);
