@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::mscomplex {
 
@@ -97,9 +98,12 @@ class Means {
     }
     return std::visit(
         [&](auto& solver) {
+          core::throw_if_stopped();
           if (!analysed_) solver.analyzePattern(matrix);
           analysed_ = true;
+          core::throw_if_stopped();
           solver.factorize(matrix);
+          core::throw_if_stopped();
           if (solver.info() != Eigen::Success) return false;
           const Eigen::MatrixX2d solution = solver.solve(right);
           if (solver.info() != Eigen::Success || !solution.allFinite()) return false;

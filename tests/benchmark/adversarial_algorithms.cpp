@@ -63,7 +63,7 @@ std::vector<Family> algorithm_families() {
   return {
       {"cut of many components", 10'000,
        [](const Plan&, Size n) { return cutting(adversarial::tetrahedra(n)); }},
-      {"cut of many boundary loops", 1'000,
+      {"cut of many boundary loops", 500,
        [](const Plan&, Size n) { return cutting(adversarial::pierced_sheet(n)); }},
       {"denoise at poles of large degree", 2'500,
        [](const Plan&, Size n) { return denoising(test::bipyramid(static_cast<int>(n)).mesh()); }},

@@ -173,8 +173,9 @@ class Setting:
             return f"exit code {code}: {errors}"
         if not errors.endswith("morsel: interrupted\n"):
             return f"said {errors!r}"
-        if arguments[0] in ("batch", "sweep", "stability"):  # keep what is done
-            left = {path for path in left if ".tmp" in path.name}
+        several = {"--export", "--figures", "--thumbnails", "--html", "--json", "--graph"}
+        if arguments[0] in ("batch", "sweep", "stability") or several & set(arguments):
+            left = {path for path in left if ".tmp" in path.name}  # what was finished before may stay
         return f"left {sorted(map(str, left))}" if left else ""
 
 

@@ -326,17 +326,14 @@ TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
   CHECK(cut_open(mesh, shorter.cut.edges).copied.size() == kCount);
 }
 
-TEST_CASE("shortening a cut of thousands of paths takes a moment, not minutes") {
-  const TriangleMesh small = adversarial::pierced_sheet(144);
-  REQUIRE(small.boundary_loop_count() == 145);
-  const CutGraph few = cut_by({small, random_values(small.vertex_count(), 89)});
-  CHECK(same_bits(shorten(small, few).cut, plain_shorten(small, few, 16).cut));
-
-  const TriangleMesh mesh = adversarial::pierced_sheet(10000);
-  const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 90)});
+TEST_CASE("a cut of hundreds of paths is shortened as by taking it apart each time") {
+  const TriangleMesh mesh = adversarial::pierced_sheet(400);
+  REQUIRE(mesh.boundary_loop_count() == 401);
+  const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 89)});
   const ShortenedCut shorter = shorten(mesh, cut);
   CHECK(shorter.is_settled);
-  CHECK(shorter.replaced > 1000);
+  CHECK(shorter.replaced > 100);
+  CHECK(same_bits(shorter.cut, plain_shorten(mesh, cut, 16).cut));
   CHECK(cut_open(mesh, shorter.cut.edges).mesh.boundary_loop_count() == 1);
 }
 
