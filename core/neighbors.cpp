@@ -53,6 +53,39 @@ class Sphere {
   std::vector<Index>& found_;
 };
 
+/// Keeps the smallest distances, a given number of them.
+class Nearest {
+ public:
+  Nearest(const Cloud& cloud, const Point& center, std::size_t count)
+      : cloud_(cloud), center_(center), count_(count) {}
+
+  bool addPoint(double /*squared*/, Index i) {
+    const double distance = (cloud_.points[i] - center_).norm();
+    if (full() && distance >= distances_.front()) return true;
+    if (full()) {
+      std::pop_heap(distances_.begin(), distances_.end());
+      distances_.pop_back();
+    }
+    distances_.push_back(distance);
+    std::push_heap(distances_.begin(), distances_.end());
+    return true;
+  }
+  double worstDist() const {
+    // A little more, as in Sphere.
+    return full() ? distances_.front() * distances_.front() * (1 + 1e-9) + std::numeric_limits<double>::min()
+                  : std::numeric_limits<double>::infinity();
+  }
+  bool full() const { return distances_.size() == count_; }
+  std::size_t size() const { return distances_.size(); }
+  double largest() const { return distances_.front(); }
+
+ private:
+  const Cloud& cloud_;
+  const Point& center_;
+  std::size_t count_;
+  std::vector<double> distances_;  // a heap, the largest first
+};
+
 using KdTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, Index>;
 
@@ -101,6 +134,16 @@ void PointSearch::within(const Point& center, double radius, std::vector<Index>&
   Sphere sphere(tree_->cloud, scaled_center, radius * factor, found);
   tree_->index.findNeighbors(sphere, scaled_center.data(), nanoflann::SearchParams());
   std::sort(found.begin(), found.end());
+}
+
+double PointSearch::reach(const Point& center, std::size_t count) const {
+  if (count == 0) throw InvalidArgument("there is no zeroth nearest point");
+  if (tree_->cloud.points.size() < count) return std::numeric_limits<double>::infinity();
+  const double factor = std::ldexp(1.0, -tree_->exponent);
+  const Point scaled_center = center * factor;
+  Nearest nearest(tree_->cloud, scaled_center, count);
+  tree_->index.findNeighbors(nearest, scaled_center.data(), nanoflann::SearchParams());
+  return std::ldexp(nearest.largest(), tree_->exponent);
 }
 
 }  // namespace morsel::core

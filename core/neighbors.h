@@ -1,6 +1,7 @@
 #pragma once
 /// Which points lie within a distance of a place.
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,6 +23,11 @@ class PointSearch {
   /// as lengths, not squared, and neither overflows nor underflows. A point that is its own center is found
   /// at any radius ≥ 0; a negative or NaN radius finds nothing. O(log n + k log k) for k found.
   void within(const Point& center, double radius, std::vector<Index>& found) const;
+
+  /// The distance from `center` to the `count`-th nearest point (≥ 1; infinite if there are fewer): within()
+  /// finds at least `count` points at that radius, and more only where several are as far. O(log n + count
+  /// log count), more where many points coincide.
+  double reach(const Point& center, std::size_t count) const;
 
  private:
   struct Tree;

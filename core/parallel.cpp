@@ -6,9 +6,11 @@
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
+#include <stop_token>
 #include <string>
 
 #include "morsel/core/error.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::core {
 
@@ -43,13 +45,21 @@ void detail::run_in_arena(const std::function<void()>& work) {
 
 void detail::run_chunks(std::size_t chunks, const std::function<void(std::size_t)>& chunk) {
   if (thread_count() == 1 || chunks == 1) {
-    for (std::size_t k = 0; k < chunks; ++k) chunk(k);
+    for (std::size_t k = 0; k < chunks; ++k) {
+      throw_if_stopped();
+      chunk(k);
+    }
     return;
   }
+  const std::stop_token stop = current_stop() != nullptr ? *current_stop() : std::stop_token();
   run_in_arena([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunks, 1),
                       [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t k = range.begin(); k != range.end(); ++k) chunk(k);
+                        const StopScope scope(stop);
+                        for (std::size_t k = range.begin(); k != range.end(); ++k) {
+                          throw_if_stopped();
+                          chunk(k);
+                        }
                       });
   });
 }

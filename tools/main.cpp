@@ -7,6 +7,7 @@
 
 #include "morsel/core/parallel.h"
 #include "morsel/core/printable.h"
+#include "morsel/core/stop.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/failure.h"
 #include "morsel/tools/commands/signals.h"
@@ -73,6 +74,7 @@ int run(int argc, char** argv, std::stop_token stop) {
     std::cout.flush();
     return kDone;
   }
+  const core::StopScope scope(stop);
   Console console(invocation.common.quiet, std::move(stop));
   limit_threads(invocation.common.threads, console);
   const int code = invocation.action(console);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "morsel/core/link.h"
 #include "morsel/core/parallel.h"
@@ -36,6 +37,10 @@ std::size_t ConnectedBalls::grain() const {
 ConnectedBalls::Walk::Walk(const ConnectedBalls& balls) : balls_(balls), seen_(balls.positions_.size(), 0) {}
 
 void ConnectedBalls::Walk::within(Index v, double radius, std::vector<Index>& found) {
+  begin(v, radius, std::numeric_limits<std::size_t>::max(), found);
+}
+
+void ConnectedBalls::Walk::begin(Index v, double radius, std::size_t most, std::vector<Index>& found) {
   const double square = largest_square(std::ldexp(radius, -balls_.exponent_));
   const Point& center = balls_.positions_[v];
   ++search_;
@@ -46,6 +51,7 @@ void ConnectedBalls::Walk::within(Index v, double radius, std::vector<Index>& fo
       if (seen_[u] == search_ || !((balls_.positions_[u] - center).squaredNorm() <= square)) continue;
       seen_[u] = search_;
       found.push_back(u);
+      if (found.size() > most) return;
     }
 }
 

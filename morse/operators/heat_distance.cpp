@@ -4,8 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/neighbors.h"
 #include "morsel/core/parallel.h"
 #include "morsel/core/parameters.h"
 #include "morsel/morse/operators/cholesky.h"
@@ -63,6 +66,27 @@ SparseMatrix poisson_matrix(const TriangleMesh& mesh, const SparseMatrix& laplac
     matrix.coeffRef(v, v) *= 2;
   }
   return matrix;
+}
+
+/// The straight distance to the nearest source of the same component, for these vertices (ascending).
+void put_at_straight_distance(const TriangleMesh& mesh, std::span<const Index> sources,
+                              std::vector<Index> vertices, std::vector<double>& distance) {
+  const auto by_component = [&](Index a, Index b) {
+    return mesh.component_of_vertex(a) < mesh.component_of_vertex(b);
+  };
+  std::vector<Index> sorted(sources.begin(), sources.end());
+  std::sort(sorted.begin(), sorted.end());
+  std::erase_if(vertices, [&](Index v) { return std::binary_search(sorted.begin(), sorted.end(), v); });
+  std::stable_sort(sorted.begin(), sorted.end(), by_component);
+  std::stable_sort(vertices.begin(), vertices.end(), by_component);
+  for (auto first = vertices.begin(); first != vertices.end();) {
+    const auto last = std::upper_bound(first, vertices.end(), *first, by_component);
+    const auto [begin, end] = std::equal_range(sorted.begin(), sorted.end(), *first, by_component);
+    std::vector<core::Point> places;
+    for (auto s = begin; s != end; ++s) places.push_back(mesh.position(*s));
+    const core::PointSearch search(places);
+    for (; first != last; ++first) distance[*first] = search.reach(mesh.position(*first), 1);
+  }
 }
 
 }  // namespace
@@ -182,14 +206,12 @@ std::vector<double> HeatDistance::from(std::span<const Index> sources) const {
     ++count[mesh.component_of_vertex(s)];
   }
   for (std::size_t c = 0; c < offset.size(); ++c) offset[c] /= count[c];
+  std::vector<Index> lost;  // no farther than the sources, as computed
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     phi[v] = (phi[v] - offset[mesh.component_of_vertex(v)]) * operators_->unit;
-    if (phi[v] > 0) continue;
-    phi[v] = HUGE_VAL;
-    for (const Index s : sources)
-      if (mesh.component_of_vertex(s) == mesh.component_of_vertex(v))
-        phi[v] = std::min(phi[v], (mesh.position(s) - mesh.position(v)).norm());
+    if (!(phi[v] > 0)) lost.push_back(v);
   }
+  put_at_straight_distance(mesh, sources, std::move(lost), phi);
   for (const Index s : sources) phi[s] = 0;
   return phi;
 }

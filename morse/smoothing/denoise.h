@@ -1,6 +1,7 @@
 #pragma once
 /// Smoothing of the surface itself before the Morse function is taken again.
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,16 +38,24 @@ struct LaplacianDenoising {
 /// one-ring curvatures of the result see that: of clean, unevenly sampled meshes they may have more critical points
 /// than before.
 ///
+/// The mean edge says little about neighbourhoods where few long edges meet many short ones, as at a vertex of very
+/// large degree: balls of the default σ_c could hold all vertices each. So with the default, and where the balls of the
+/// first surface hold more than kMostInBall vertices on average, a ball's radius is at most the distance to the
+/// kMostInBall-th nearest vertex (its centre counts). A σ_c that is given is taken as it is.
+///
 /// Laplacian: v ← v + λ (Σ w x / Σ w − v) over the neighbours, with edge_weights() of the current surface. It
 /// shrinks closed surfaces; boundary vertices stay, or boundaries would shrink to points. A vertex whose weights do
 /// not sum to more than 0 stays too (cotangents may be negative, and then steps may grow instead of settle; clamped
 /// and uniform ones never do).
 ///
-/// Not thread-safe; O(n · vertices in a ball) or O(n) a step, parallel, the same bits for every number of threads.
+/// Not thread-safe; O(n · vertices in a ball), O(n log n) with the default σ_c, or O(n) a step, parallel, the same bits for every number of threads.
 class SurfaceSmoothing {
  public:
+  static constexpr std::size_t kMostInBall = 256;
+
   /// Throws InvalidArgument on options out of range, BadInput if σ_c comes to nothing on the mesh.
-  SurfaceSmoothing(core::TriangleMesh mesh, const BilateralDenoising& options);
+  SurfaceSmoothing(core::TriangleMesh mesh, const BilateralDenoising& options,
+                   const core::Progress& progress = {});
   SurfaceSmoothing(core::TriangleMesh mesh, const LaplacianDenoising& options);
 
   /// One iteration. Throws BadInput if a position overflows.
@@ -55,6 +64,7 @@ class SurfaceSmoothing {
   const core::TriangleMesh& surface() const { return surface_; }
   double sigma_c() const { return sigma_c_; }  ///< 0 for Laplacian smoothing, as is the next
   double sigma_s() const { return sigma_s_; }
+  bool limits_balls() const { return limits_balls_; }  ///< to kMostInBall vertices
 
  private:
   std::vector<core::Point> bilateral_positions(const core::Progress& progress) const;
@@ -64,6 +74,7 @@ class SurfaceSmoothing {
   std::optional<LaplacianDenoising> laplacian_;
   double sigma_c_ = 0;
   double sigma_s_ = 0;
+  bool limits_balls_ = false;
 };
 
 /// Keys: those of StopCriteria (5 iterations), kind=bilateral|laplacian; for the first sigma-c=edge|LENGTH,

@@ -75,7 +75,9 @@ class Denoise final : public core::Method {
     IterationControl control(input, criteria_, context);
     const TriangleMesh& mesh = input.mesh();
     SurfaceSmoothing smoothing =
-        std::visit([&](const auto& options) { return SurfaceSmoothing(mesh, options); }, kind_);
+        std::holds_alternative<BilateralDenoising>(kind_)
+            ? SurfaceSmoothing(mesh, std::get<BilateralDenoising>(kind_), context.progress)
+            : SurfaceSmoothing(mesh, std::get<LaplacianDenoising>(kind_));
     int iteration = 0;
     while (control.more()) {
       context.progress.update("denoising", static_cast<double>(iteration) / criteria_.iterations);
@@ -94,7 +96,10 @@ class Denoise final : public core::Method {
       }
     }
     context.progress.update("denoising", 1);
-    return control.result(parameters(smoothing), details(input, control.field(), smoothing.surface()));
+    core::Parameters told = details(input, control.field(), smoothing.surface());
+    if (smoothing.limits_balls())
+      told.emplace_back("most_in_ball", static_cast<std::int64_t>(SurfaceSmoothing::kMostInBall));
+    return control.result(parameters(smoothing), std::move(told));
   }
 
   bool tells_results() const override { return true; }

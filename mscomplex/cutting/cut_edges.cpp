@@ -46,7 +46,8 @@ std::vector<Index> halfedges_along(const TriangleMesh& mesh, std::span<const Ind
   return halfedges;
 }
 
-CutGraph make_cut_graph(const TriangleMesh& mesh, std::vector<Index> edges) {
+std::vector<TracedPath> trace_paths(const TriangleMesh& mesh, std::span<const Index> edges,
+                                    const std::function<bool(Index, std::size_t)>& is_end) {
   struct Side {
     Index vertex;
     Index edge;  // as a position in `edges`
@@ -55,41 +56,58 @@ CutGraph make_cut_graph(const TriangleMesh& mesh, std::vector<Index> edges) {
     }
   };
   std::vector<Side> sides;
+  sides.reserve(2 * edges.size());
   for (Index i = 0; i < edges.size(); ++i)
     for (const Index v : mesh.edge_vertices(edges[i])) sides.push_back({v, i});
   std::sort(sides.begin(), sides.end());
+  std::vector<std::size_t> group_end(sides.size());  // of all sides at a vertex, per side
+  for (std::size_t s = sides.size(); s-- > 0;)
+    group_end[s] = s + 1 < sides.size() && sides[s + 1].vertex == sides[s].vertex ? group_end[s + 1] : s + 1;
   const auto around = [&](Index v) {
     const auto first = std::lower_bound(sides.begin(), sides.end(), Side{v, 0});
-    auto last = first;
-    while (last != sides.end() && last->vertex == v) ++last;
-    return std::span<const Side>(first, last);
+    const auto at = static_cast<std::size_t>(first - sides.begin());
+    return std::span<const Side>(first, group_end[at] - at);
   };
 
-  CutGraph graph;
+  std::vector<TracedPath> paths;
   std::vector<std::uint8_t> is_done(edges.size(), 0);
   for (std::size_t start = 0, end = 0; start < sides.size(); start = end) {
     const Index first = sides[start].vertex;
-    while (end < sides.size() && sides[end].vertex == first) ++end;
-    if (end - start == 2 && !mesh.is_boundary_vertex(first)) continue;  // in the middle of a path
+    end = group_end[start];
+    if (!is_end(first, end - start)) continue;  // in the middle of a path
     for (std::size_t s = start; s < end; ++s) {
       if (is_done[sides[s].edge] != 0) continue;
-      CutPath path{{first}, 0, mesh.component_of_vertex(first)};
+      TracedPath path;
       for (Index v = first, i = sides[s].edge;;) {
         is_done[i] = 1;
-        path.length += edge_length(mesh, mesh.edge_halfedge(edges[i]));
-        const auto [a, b] = mesh.edge_vertices(edges[i]);
-        v = v == a ? b : a;
-        path.vertices.push_back(v);
+        Index h = mesh.edge_halfedge(edges[i]);
+        path.length += edge_length(mesh, h);
+        if (mesh.origin(h) != v) h = mesh.twin(h);
+        path.halfedges.push_back(h);
+        v = mesh.target(h);
         const std::span<const Side> next = around(v);
-        if (next.size() != 2 || mesh.is_boundary_vertex(v)) break;
+        if (is_end(v, next.size())) break;
         i = next[0].edge == i ? next[1].edge : next[0].edge;
       }
-      graph.length += path.length;
-      graph.paths.push_back(std::move(path));
+      paths.push_back(std::move(path));
     }
   }
   if (std::find(is_done.begin(), is_done.end(), 0) != is_done.end())
     throw std::logic_error("a cut has a loop that neither branches nor meets the boundary");
+  return paths;
+}
+
+CutGraph make_cut_graph(const TriangleMesh& mesh, std::vector<Index> edges) {
+  CutGraph graph;
+  for (const TracedPath& traced : trace_paths(mesh, edges, [&](Index v, std::size_t sides) {
+         return sides != 2 || mesh.is_boundary_vertex(v);
+       })) {
+    const Index first = mesh.origin(traced.halfedges.front());
+    CutPath path{{first}, traced.length, mesh.component_of_vertex(first)};
+    for (const Index h : traced.halfedges) path.vertices.push_back(mesh.target(h));
+    graph.length += path.length;
+    graph.paths.push_back(std::move(path));
+  }
   graph.edges = std::move(edges);
   return graph;
 }

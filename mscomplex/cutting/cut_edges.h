@@ -1,7 +1,9 @@
 #pragma once
 /// The edges of a cut as the algorithms see them: walls that part a surface, and paths between branchings.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -42,6 +44,18 @@ class Walls {
 /// The half-edge from `vertices[i]` to `vertices[i + 1]`, for each i; they must be neighbours.
 std::vector<core::Index> halfedges_along(const core::TriangleMesh& mesh,
                                          std::span<const core::Index> vertices);
+
+/// Edges of a cut between two vertices where it branches, ends or meets the boundary.
+struct TracedPath {
+  std::vector<core::Index> halfedges;  ///< from the end of the smaller number on
+  double length = 0;                   ///< sum of the edges' lengths, in that order
+};
+
+/// These edges (inner ones, ascending, each once) taken apart where is_end(v, number of them at v) holds: it
+/// must at least where that is not 2. Ordered by the paths' first vertices, then by their first edges. O(n log
+/// n).
+std::vector<TracedPath> trace_paths(const core::TriangleMesh& mesh, std::span<const core::Index> edges,
+                                    const std::function<bool(core::Index, std::size_t)>& is_end);
 
 /// The graph of these edges (inner ones, ascending, each once), taken apart into paths.
 CutGraph make_cut_graph(const core::TriangleMesh& mesh, std::vector<core::Index> edges);

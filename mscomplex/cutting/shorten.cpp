@@ -4,7 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <queue>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -50,7 +53,22 @@ class RimWalk {
 /// A path and when it was last tried.
 struct Trial {
   std::vector<Index> halfedges;
+  double length = 0;
   Index time = 0;
+};
+
+/// A trial's place in the order of trials: that which is the longest ago first, of those the longest path, of
+/// those the first of the cut.
+struct Turn {
+  Index time;
+  double length;
+  Index vertex;  // where the path begins
+  Index edge;    // its first one
+  std::size_t trial;
+  bool operator>(const Turn& other) const {
+    return std::tuple(time, -length, vertex, edge) >
+           std::tuple(other.time, -other.length, other.vertex, other.edge);
+  }
 };
 
 class Shortener {
@@ -60,75 +78,100 @@ class Shortener {
         walls_(mesh, cut.edges),
         search_(mesh),
         is_near_(mesh.halfedge_count(), 0),
-        time_of_edge_(mesh.edge_count(), 0) {
+        time_of_edge_(mesh.edge_count(), 0),
+        trial_of_edge_(mesh.edge_count(), 0) {
     std::vector<Index> edges = cut.edges;
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    take(std::move(edges));
+    take(edges);
   }
 
   ShortenedCut run(std::size_t rounds, const core::Progress& progress) {
     ShortenedCut result;
-    const std::size_t most = rounds * graph_.paths.size();
-    for (std::size_t p; (p = next_path()) < graph_.paths.size() && result.attempts < most;
-         ++result.attempts) {
+    const std::size_t most = rounds * trials_.size();
+    for (; !is_settled() && result.attempts < most; ++result.attempts) {
       progress.update("shortening", static_cast<double>(result.attempts) / static_cast<double>(most));
-      if (replace(p, progress)) ++result.replaced;
+      const std::size_t next = turns_.top().trial;
+      turns_.pop();
+      if (replace(next, progress)) ++result.replaced;
     }
-    result.is_settled = next_path() == graph_.paths.size();
-    result.cut = std::move(graph_);
+    result.is_settled = is_settled();
+    std::vector<Index> edges;
+    for (Index e = 0; e < mesh_.edge_count(); ++e)
+      if (walls_.is_cut(e)) edges.push_back(e);
+    result.cut = make_cut_graph(mesh_, std::move(edges));
     return result;
   }
 
  private:
-  void take(std::vector<Index> edges) {
-    graph_ = make_cut_graph(mesh_, std::move(edges));
-    trials_.clear();
-    for (const CutPath& path : graph_.paths) {
-      Trial trial{halfedges_along(mesh_, path.vertices), kNone};
-      for (const Index h : trial.halfedges) trial.time = std::min(trial.time, time_of_edge_[mesh_.edge(h)]);
+  bool is_end(Index v) const { return walls_.degree(v) != 2 || mesh_.is_boundary_vertex(v); }
+
+  /// Makes trials of walls that are in none: whole paths, edges ascending.
+  void take(const std::vector<Index>& edges) {
+    for (TracedPath& path : trace_paths(mesh_, edges, [&](Index v, std::size_t) { return is_end(v); })) {
+      Trial trial{std::move(path.halfedges), path.length, kNone};
+      for (const Index h : trial.halfedges) {
+        trial.time = std::min(trial.time, time_of_edge_[mesh_.edge(h)]);
+        trial_of_edge_[mesh_.edge(h)] = trials_.size();
+      }
       trials_.push_back(std::move(trial));
+      line_up(trials_.size() - 1);
     }
   }
 
-  /// The path whose trial is the longest ago, of those the longest; the number of paths if all were tried
-  /// since the cut last changed.
-  std::size_t next_path() const {
-    std::size_t best = trials_.size();
-    for (std::size_t p = 0; p < trials_.size(); ++p) {
-      if (trials_[p].time >= time_of_change_) continue;
-      if (best == trials_.size() || trials_[p].time < trials_[best].time ||
-          (trials_[p].time == trials_[best].time && graph_.paths[p].length > graph_.paths[best].length))
-        best = p;
-    }
-    return best;
+  void line_up(std::size_t trial) {
+    const Trial& t = trials_[trial];
+    const Index first = t.halfedges.front();
+    turns_.push({t.time, t.length, mesh_.origin(first), mesh_.edge(first), trial});
+  }
+
+  /// Whether all paths were tried since the cut last changed.
+  bool is_settled() {
+    while (!turns_.empty() && trials_[turns_.top().trial].halfedges.empty())
+      turns_.pop();  // is no path any more
+    return turns_.empty() || turns_.top().time >= time_of_change_;
   }
 
   bool replace(std::size_t p, const core::Progress& progress) {
     ++time_;
-    const std::vector<Index>& old_path = trials_[p].halfedges;
+    const std::vector<Index> old_path = std::move(trials_[p].halfedges);
+    trials_[p].halfedges.clear();
     for (const Index h : old_path) walls_.remove(mesh_.edge(h));
-    const std::vector<Index> path = shorter(old_path, graph_.paths[p].length, progress);
-    const std::vector<Index>& kept = path.empty() ? old_path : path;
-    for (const Index h : kept) {
-      walls_.add(mesh_.edge(h));
-      time_of_edge_[mesh_.edge(h)] = time_;
+    const std::vector<Index> path = shorter(old_path, trials_[p].length, progress);
+    if (path.empty()) {
+      for (const Index h : old_path) {
+        walls_.add(mesh_.edge(h));
+        time_of_edge_[mesh_.edge(h)] = time_;
+      }
+      trials_[p].halfedges = old_path;
+      trials_[p].time = time_;
+      line_up(p);
+      return false;
     }
-    trials_[p].time = time_;
-    if (path.empty()) return false;
 
     time_of_change_ = time_;
+    // Paths may become one at the old one's ends, and two at the new one's.
     std::vector<Index> edges;
-    for (const Index e : graph_.edges)
-      if (walls_.is_cut(e)) edges.push_back(e);
-    const auto others = static_cast<std::ptrdiff_t>(edges.size());
-    for (const Index h : path)
-      if (!std::binary_search(edges.begin(), edges.begin() + others, mesh_.edge(h)))
-        edges.push_back(mesh_.edge(h));
-    std::sort(edges.begin() + others, edges.end());
-    std::inplace_merge(edges.begin(), edges.begin() + others, edges.end());
-    take(std::move(edges));
+    for (const Index v : {mesh_.origin(old_path.front()), mesh_.target(old_path.back()),
+                          mesh_.origin(path.front()), mesh_.target(path.back())})
+      if (!mesh_.is_boundary_vertex(v) && walls_.degree(v) <= 2)
+        mesh_.for_each_outgoing(v, [&](Index h) {
+          if (walls_.is_cut(mesh_.edge(h))) take_apart(trial_of_edge_[mesh_.edge(h)], edges);
+        });
+    for (const Index h : path) {
+      walls_.add(mesh_.edge(h));
+      time_of_edge_[mesh_.edge(h)] = time_;
+      edges.push_back(mesh_.edge(h));
+    }
+    std::sort(edges.begin(), edges.end());
+    take(edges);
     return true;
+  }
+
+  /// Ends a trial, once; its edges are added to `edges`.
+  void take_apart(std::size_t trial, std::vector<Index>& edges) {
+    for (const Index h : trials_[trial].halfedges) edges.push_back(mesh_.edge(h));
+    trials_[trial].halfedges.clear();
   }
 
   /// The shortest path from rim to rim of the annulus that there is without the walls of this one, if it is
@@ -159,11 +202,12 @@ class Shortener {
 
   TriangleMesh mesh_;
   Walls walls_;
-  CutGraph graph_;
-  std::vector<Trial> trials_;  // per path
+  std::vector<Trial> trials_;  // empty where paths are no more
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
   EdgePathSearch search_;
   std::vector<std::uint8_t> is_near_;  // per half-edge: leaves a corner of the rim that a search starts from
   std::vector<Index> time_of_edge_;    // per edge: of the last trial of the path that it was in
+  std::vector<std::size_t> trial_of_edge_;  // per edge of the cut
   Index time_ = 1;
   Index time_of_change_ = 1;
 };

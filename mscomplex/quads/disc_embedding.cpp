@@ -1,12 +1,17 @@
 #include "morsel/mscomplex/quads/disc_embedding.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <variant>
+#include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::mscomplex {
 
@@ -28,6 +33,21 @@ double half_tangent(const Corners& p, int i) {
   const Point v = p[(i + 2) % 3] - p[i];
   return std::clamp(std::tan(std::atan2(u.cross(v).norm(), u.dot(v)) / 2), 1e-3, 1e3);
 }
+
+/// Equations with more unknowns than this are ordered for by themselves. What COLAMD orders by, the products of
+/// columns, they fill: the factors of a disc with such an equation would have its square of entries.
+constexpr std::size_t kManyUnknowns = 256;
+
+/// Renumbers rows and columns alike, which suits equations that are each about an unknown of their own.
+struct MinimumDegree {
+  using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  template <class Matrix>
+  void operator()(const Matrix& matrix, PermutationType& place) const {
+    PermutationType order;
+    Eigen::AMDOrdering<int>()(matrix, order);
+    place = order.inverse();
+  }
+};
 
 /// The linear systems of one disc: each inner vertex is a weighted mean of its neighbours.
 class Means {
@@ -67,16 +87,30 @@ class Means {
         entries.emplace_back(static_cast<int>(row), static_cast<int>(w.column - border), -share);
     }
     for (Index i = 0; i < inside; ++i) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-    Eigen::SparseMatrix<double> matrix(inside, inside);
+    Matrix matrix(inside, inside);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    if (!analysed_) solver_.analyzePattern(matrix);
-    analysed_ = true;
-    solver_.factorize(matrix);
-    if (solver_.info() != Eigen::Success) return false;
-    const Eigen::MatrixX2d solution = solver_.solve(right);
-    if (solver_.info() != Eigen::Success || !solution.allFinite()) return false;
-    for (Index i = 0; i < inside; ++i) place[border + i] = solution.row(i).transpose();
-    return true;
+    if (!analysed_) {
+      std::vector<std::size_t> unknowns(disc_.vertex_count(), 0);
+      for (const Weight& w : weights_) ++unknowns[w.row];
+      // Each equation has its own unknown's weight as the largest, at least as large as all others together.
+      if (*std::max_element(unknowns.begin(), unknowns.end()) > 2 * kManyUnknowns)
+        solver_.emplace<Eigen::SparseLU<Matrix, MinimumDegree>>().setPivotThreshold(0);
+    }
+    return std::visit(
+        [&](auto& solver) {
+          core::throw_if_stopped();
+          if (!analysed_) solver.analyzePattern(matrix);
+          analysed_ = true;
+          core::throw_if_stopped();
+          solver.factorize(matrix);
+          core::throw_if_stopped();
+          if (solver.info() != Eigen::Success) return false;
+          const Eigen::MatrixX2d solution = solver.solve(right);
+          if (solver.info() != Eigen::Success || !solution.allFinite()) return false;
+          for (Index i = 0; i < inside; ++i) place[border + i] = solution.row(i).transpose();
+          return true;
+        },
+        solver_);
   }
 
   /// Divides the weights of the edges to each vertex by the stretch there, and returns that of the whole: the
@@ -121,7 +155,8 @@ class Means {
   const LayoutMesh& mesh_;
   const Disc& disc_;
   std::vector<Weight> weights_;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> solver_;
+  using Matrix = Eigen::SparseMatrix<double>;
+  std::variant<Eigen::SparseLU<Matrix>, Eigen::SparseLU<Matrix, MinimumDegree>> solver_;
   bool analysed_ = false;
 };
 

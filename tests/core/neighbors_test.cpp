@@ -1,5 +1,6 @@
 #include "morsel/core/neighbors.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -81,6 +82,25 @@ TEST_CASE("coinciding points and small sets are searched") {
   CHECK(found(PointSearch(std::vector<Point>(50, Point::Zero())), {0, 0, 0}, 0).size() == 50);
   CHECK(found(PointSearch({}), {0, 0, 0}, 1).empty());
   CHECK(found(PointSearch(std::vector<Point>{{1, 1, 1}}), {0, 0, 0}, 2) == std::vector<Index>{0});
+}
+
+TEST_CASE("how far the nearest points reach is the distance of the last of them") {
+  std::vector<Point> points = random_points(400, 5);
+  points.insert(points.end(), 30, points[7]);
+  for (const double unit : {1.0, 0x1p-900, 0x1p500}) {
+    std::vector<Point> scaled = points;
+    for (Point& p : scaled) p *= unit;
+    const PointSearch search(scaled);
+    for (std::size_t i = 0; i < points.size(); i += 7) {
+      std::vector<double> distances;
+      for (const Point& p : points) distances.push_back((p - points[i]).norm());
+      std::sort(distances.begin(), distances.end());
+      for (const std::size_t count : {1u, 2u, 31u, 100u, 430u})
+        CHECK(search.reach(scaled[i], count) == distances[count - 1] * unit);
+    }
+    CHECK(search.reach(scaled[0], 431) == std::numeric_limits<double>::infinity());
+    CHECK_THROWS_AS(search.reach(scaled[0], 0), core::InvalidArgument);
+  }
 }
 
 TEST_CASE("a point search refuses points that are not finite") {

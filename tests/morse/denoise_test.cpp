@@ -14,6 +14,7 @@
 #include "morsel/morse/functions/height.h"
 #include "support/fields.h"
 #include "support/made.h"
+#include "support/meshes.h"
 #include "support/shapes.h"
 
 using namespace morsel;
@@ -114,6 +115,49 @@ TEST_CASE("what denoising takes by default is the mean edge and the median of de
   const SurfaceSmoothing smoothing(mesh, BilateralDenoising{});
   CHECK(smoothing.sigma_c() == Approx(edge));
   CHECK(smoothing.sigma_s() == Approx(deviations[(deviations.size() - 1) / 2]));
+}
+
+TEST_CASE("denoising at vertices of a degree of twenty thousand takes seconds, not minutes") {
+  // The mean edge is nearly as long as the spokes, so that each ball of twice its length holds all vertices.
+  const TriangleMesh mesh = jittered(bipyramid(20000).mesh(), 0.01, 5);
+  SurfaceSmoothing smoothing(mesh, BilateralDenoising{});
+  CHECK(smoothing.limits_balls());
+  smoothing.step({});
+  CHECK(smoothing.surface().position(2) != mesh.position(2));
+}
+
+TEST_CASE("limited balls hold the nearest vertices, and only balls of a default radius are limited") {
+  const TriangleMesh mesh = jittered(bipyramid(600).mesh(), 0.01, 6);
+  SurfaceSmoothing smoothing(mesh, BilateralDenoising{});
+  REQUIRE(smoothing.limits_balls());
+  smoothing.step({});
+  const double sigma_c = smoothing.sigma_c();
+  const double sigma_s = smoothing.sigma_s();
+  for (Index v = 0; v < mesh.vertex_count(); v += 5) {
+    std::vector<double> distances;
+    for (const Point& p : mesh.positions()) distances.push_back((p - mesh.position(v)).norm());
+    std::nth_element(distances.begin(), distances.begin() + (SurfaceSmoothing::kMostInBall - 1),
+                     distances.end());
+    const double reach = std::min(2 * sigma_c, distances[SurfaceSmoothing::kMostInBall - 1]);
+    const Point n = plain_normal(mesh, v);
+    double sum = 0;
+    double total = 0;
+    for (const Index x : plain_ball(mesh, v, reach)) {
+      const Point d = mesh.position(x) - mesh.position(v);
+      const double h = n.dot(d);
+      const double weight =
+          std::exp(-d.squaredNorm() / (2 * sigma_c * sigma_c)) * std::exp(-h * h / (2 * sigma_s * sigma_s));
+      sum += weight * h;
+      total += weight;
+    }
+    const Point expected = mesh.position(v) + n * sum / total;
+    CHECK((smoothing.surface().position(v) - expected).norm() < 1e-13);
+  }
+  CHECK_FALSE(SurfaceSmoothing(mesh, BilateralDenoising{core::Length::edges(1), {}}).limits_balls());
+  CHECK_FALSE(SurfaceSmoothing(jittered(sphere(4).mesh(), 0.01, 7), BilateralDenoising{}).limits_balls());
+  // As many as a ball may hold.
+  CHECK_FALSE(
+      SurfaceSmoothing(jittered(bipyramid(250).mesh(), 0.01, 8), BilateralDenoising{}).limits_balls());
 }
 
 TEST_CASE("Laplacian denoising agrees with its formula and holds boundaries") {

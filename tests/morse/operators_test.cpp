@@ -1,7 +1,12 @@
 #include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
+#include <stop_token>
+#include <string_view>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
@@ -104,6 +109,43 @@ TEST_CASE("Cholesky solves what it has factorised at any number of threads") {
     for (std::size_t v = 0; v < b.size(); ++v)
       CHECK(back[static_cast<long>(v)] == Approx(b[v]).margin(1e-11));
   }
+}
+
+TEST_CASE("Cholesky has the bits of Eigen's own factorisation") {
+  for (const NamedMesh& entry : mesh_zoo()) {
+    INFO(entry.name);
+    morse::SparseMatrix matrix =
+        morse::laplacian(entry.mesh, morse::edge_weights(entry.mesh, morse::EdgeWeights::cotangent));
+    for (int v = 0; v < matrix.rows(); ++v) matrix.coeffRef(v, v) += 0.1;
+    const Eigen::SimplicialLDLT<morse::SparseMatrix> eigen(matrix);
+    const std::vector<double> right = random_values(entry.mesh.vertex_count(), 9);
+    const Eigen::VectorXd expected =
+        eigen.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), matrix.rows()));
+    const std::vector<double> solution = morse::Cholesky(matrix, "test").solve(right);
+    CHECK(std::equal(solution.begin(), solution.end(), expected.begin(), expected.end()));
+  }
+}
+
+TEST_CASE("a factorisation hears of a stop") {
+  const TriangleMesh mesh = grid(300, 300).mesh();
+  const morse::SparseMatrix matrix = [&] {
+    morse::SparseMatrix made = morse::laplacian(mesh, morse::edge_weights(mesh, morse::EdgeWeights::uniform));
+    for (int v = 0; v < made.rows(); ++v) made.coeffRef(v, v) += 1;
+    return made;
+  }();
+  std::stop_source stop;
+  std::size_t calls = 0;
+  double last = 0;
+  const core::Progress progress(
+      [&](std::string_view, double fraction) {
+        last = fraction;
+        if (++calls == 6) stop.request_stop();
+      },
+      stop.get_token());
+  CHECK_THROWS_AS(morse::Cholesky(matrix, "test", progress), core::Cancelled);
+  CHECK(calls == 6);
+  CHECK(last > 0.2);
+  CHECK(last < 1);
 }
 
 TEST_CASE("Cholesky refuses a singular matrix by name") {

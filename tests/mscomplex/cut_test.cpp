@@ -13,8 +13,10 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/functions/height.h"
+#include "support/adversarial.h"
 #include "support/fields.h"
 #include "support/meshes.h"
+#include "support/plain_shortening.h"
 #include "support/random_surfaces.h"
 
 using namespace morsel;
@@ -284,6 +286,55 @@ TEST_CASE("no path of a shortened cut can be replaced by a shorter one") {
     check(mesh, seed);
   }
   CHECK(shortened > 10);
+}
+
+TEST_CASE("a shortened cut is what taking the whole cut apart after each change gives") {
+  std::size_t replaced = 0;
+  const auto check = [&](const ScalarField& field) {
+    const CutGraph cut = cut_by(field);
+    for (const int rounds : {1, 2, 100}) {
+      const ShortenedCut fast = shorten(field.mesh(), cut, {.rounds = rounds});
+      const ShortenedCut slow = plain_shorten(field.mesh(), cut, rounds);
+      REQUIRE(same_bits(fast.cut, slow.cut));
+      REQUIRE(fast.attempts == slow.attempts);
+      REQUIRE(fast.replaced == slow.replaced);
+      REQUIRE(fast.is_settled == slow.is_settled);
+      replaced += fast.replaced;
+    }
+  };
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const TriangleMesh mesh = random_surface(seed);
+    INFO("seed " << seed);
+    check({mesh, random_values(mesh.vertex_count(), seed)});
+    check({mesh, tied_values(mesh.vertex_count(), 3, seed)});
+  }
+  for (const Soup& soup :
+       {pierced_slab(5), punctured_sphere(4, 9), together(pierced_slab(2), pierced_slab(3)),
+        together(torus(12, 8), together(octahedron(), annulus(9, 4)))})
+    for (const NamedField& f : field_zoo(soup.mesh(), 86)) check(f.field);
+  CHECK(replaced > 1000);
+}
+
+TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
+  constexpr Index kCount = 100000;
+  const TriangleMesh mesh = adversarial::tetrahedra(kCount);
+  const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 87)});
+  const ShortenedCut shorter = shorten(mesh, cut);
+  CHECK(shorter.is_settled);
+  CHECK(shorter.attempts == kCount);
+  CHECK(shorter.cut.paths.size() == kCount);
+  CHECK(cut_open(mesh, shorter.cut.edges).copied.size() == kCount);
+}
+
+TEST_CASE("a cut of hundreds of paths is shortened as by taking it apart each time") {
+  const TriangleMesh mesh = adversarial::pierced_sheet(400);
+  REQUIRE(mesh.boundary_loop_count() == 401);
+  const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 89)});
+  const ShortenedCut shorter = shorten(mesh, cut);
+  CHECK(shorter.is_settled);
+  CHECK(shorter.replaced > 100);
+  CHECK(same_bits(shorter.cut, plain_shorten(mesh, cut, 16).cut));
+  CHECK(cut_open(mesh, shorter.cut.edges).mesh.boundary_loop_count() == 1);
 }
 
 TEST_CASE("shortening stops when it is told to") {

@@ -236,6 +236,13 @@ TEST_CASE("layouts of simplified complexes, of several components and of a torus
   }
 }
 
+TEST_CASE("quads at vertices of a degree of five thousand take seconds, not minutes") {
+  const TriangleMesh mesh = bipyramid(5000).mesh();
+  std::vector<double> values;
+  for (const Point& p : mesh.positions()) values.push_back(p.x() * p.y());
+  CHECK(check_layout({mesh, values}, 2, 4));
+}
+
 TEST_CASE("quads of the bunny, the elephant and the lion") {
   const std::vector<std::pair<std::string, std::vector<int>>> runs = {
       {"bunny00.off", {1}}, {"refined_elephant.off", {0}}, {"lion-head.off", {0, 1}}};

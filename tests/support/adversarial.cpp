@@ -3,8 +3,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <random>
+#include <utility>
 
 namespace morsel::test::adversarial {
 namespace {
@@ -72,6 +75,35 @@ std::string ascii_stl(const std::vector<Point>& points) {
     text += "endloop\nendfacet\n";
   }
   return text + "endsolid s\n";
+}
+
+TriangleMesh tetrahedra(std::size_t count) {
+  const Soup one = tetrahedron();
+  Soup all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto first = static_cast<Index>(all.positions.size());
+    for (const Point& p : one.positions)
+      all.positions.push_back(p + Point(3.0 * static_cast<double>(i), 0, 0));
+    for (const core::Triangle& t : one.triangles)
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return all.mesh();
+}
+
+TriangleMesh pierced_sheet(std::size_t holes) {
+  const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(holes))));
+  Soup sheet = grid(3 * side + 1, 3 * side + 1);
+  std::vector<core::Triangle> kept;
+  const std::size_t columns = 3 * static_cast<std::size_t>(side);
+  for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
+    const std::size_t square = t / 2;
+    if (square % columns % 3 != 1 || square / columns % 3 != 1) kept.push_back(sheet.triangles[t]);
+  }
+  sheet.triangles = std::move(kept);
+  std::mt19937_64 random(1);
+  for (Point& p : sheet.positions)
+    for (int axis = 0; axis < 3; ++axis) p[axis] += 0.01 * static_cast<double>(random() >> 11) * 0x1p-53;
+  return sheet.mesh();
 }
 
 }  // namespace morsel::test::adversarial

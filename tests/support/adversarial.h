@@ -19,4 +19,9 @@ std::vector<Point> colliding_points(std::size_t count);
 /// An ASCII STL file: each three consecutive points are a triangle.
 std::string ascii_stl(const std::vector<Point>& points);
 
+/// So many tetrahedra, apart.
+TriangleMesh tetrahedra(std::size_t count);
+/// A sheet with about so many square holes (a square number of them), its vertices a little out of place.
+TriangleMesh pierced_sheet(std::size_t holes);
+
 }  // namespace morsel::test::adversarial

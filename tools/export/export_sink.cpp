@@ -6,6 +6,7 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parallel.h"
+#include "morsel/core/stop.h"
 #include "morsel/tools/export/complex_file.h"
 #include "morsel/tools/export/surface_file.h"
 #include "morsel/tools/report/csv.h"
@@ -20,6 +21,7 @@ void write_points(const std::filesystem::path& path, const core::LoadedMesh& loa
   file.write("vertex,x,y,z,type,multiplicity,value,persistence,origin,provenance\n");
   const std::vector<morse::CriticalPoint>& critical = outcome.measurement.critical_points.points;
   for (std::size_t i = 0; i < critical.size(); ++i) {
+    if (i % 1024 == 0) core::throw_if_stopped();
     const morse::CriticalPoint& point = critical[i];
     file.write_number(std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)});
     for (const double x : loaded.mesh.position(outcome.places[i])) {

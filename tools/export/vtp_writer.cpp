@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "morsel/core/stop.h"
+
 namespace morsel::tools {
 
 static_assert(sizeof(core::Point) == 3 * sizeof(double) && sizeof(core::Triangle) == 3 * sizeof(core::Index),
@@ -100,8 +102,13 @@ class VtpWriter {
     for (const VtpArray& array : appended_) {
       const std::uint64_t bytes = array.bytes;
       file_.write_bytes(&bytes, sizeof bytes);
-      for (const std::span<const std::byte> piece : array.pieces)
-        file_.write_bytes(piece.data(), piece.size());
+      for (const std::span<const std::byte> piece : array.pieces) {
+        constexpr std::size_t kPart = std::size_t{1} << 24;
+        for (std::size_t first = 0; first < piece.size(); first += kPart) {
+          core::throw_if_stopped();
+          file_.write_bytes(piece.data() + first, std::min(kPart, piece.size() - first));
+        }
+      }
       if (array.value && array.type == std::string_view("Int32")) write_values<std::int32_t>(array);
       if (array.value && array.type == std::string_view("Int64")) write_values<std::int64_t>(array);
     }
@@ -147,6 +154,7 @@ class VtpWriter {
     std::array<Int, 4096> buffer;
     const std::size_t count = array.bytes / sizeof(Int);
     for (std::size_t first = 0; first < count; first += buffer.size()) {
+      core::throw_if_stopped();
       const std::size_t some = std::min(buffer.size(), count - first);
       for (std::size_t i = 0; i < some; ++i) buffer[i] = static_cast<Int>(array.value(first + i));
       file_.write_bytes(buffer.data(), some * sizeof(Int));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "morsel/core/stop.h"
+
 namespace morsel::tools::html {
 namespace {
 
@@ -38,6 +40,7 @@ ArcPaths descending_paths(const mscomplex::MorseSmaleComplex& complex, std::span
   ArcPaths paths;
   std::vector<bool> walked(complex.mesh().vertex_count(), false);  // from the vertex down
   for (const Index i : by_falling_reach(reach)) {
+    core::throw_if_stopped();
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
     for (const Index start : complex.mesh().edge_vertices(saddle.cell)) {
       const std::size_t first = paths.cells.size();
@@ -64,6 +67,7 @@ ArcPaths ascending_paths(const mscomplex::MorseSmaleComplex& complex, std::span<
   std::vector<Index> top(mesh.triangle_count(), kNone);  // of critical triangles: the maximum's vertex
   for (const mscomplex::CriticalCell& maximum : gradient.maxima()) top[maximum.cell] = maximum.vertex;
   for (const Index i : by_falling_reach(reach)) {
+    core::throw_if_stopped();
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
     const Index edge_side = mesh.edge_halfedge(saddle.cell);
     for (const Index side : {edge_side, mesh.twin(edge_side)}) {

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <span>
 
+#include "morsel/core/stop.h"
+
 namespace morsel::tools::html {
 namespace {
 
@@ -46,6 +48,7 @@ class Passage {
     std::vector<double> reach(saddles, -1);
     std::vector<Index> open;
     for (const Index from : order) {
+      core::throw_if_stopped();
       if (reach[from] >= 0) continue;
       const double own = turn_[from] == kNone ? std::numeric_limits<double>::infinity()
                                               : cancellations_[turn_[from]].persistence;

@@ -3,17 +3,18 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <limits>
 #include <new>
 #include <stdexcept>
 #include <vector>
 
+#include "morsel/core/stop.h"
 #include "morsel/tools/report/base64.h"
 
 namespace morsel::tools::html {
 namespace {
 
 constexpr std::size_t kBlock = 3 * std::size_t{16384};  // whole groups of three bytes
+constexpr std::size_t kPart = std::size_t{1} << 20;     // some ten milliseconds
 
 }  // namespace
 
@@ -47,8 +48,8 @@ void PackedStream::write(const void* data, std::size_t size) {
   state_->taken += size;
   const auto* bytes = static_cast<const Bytef*>(data);
   while (size > 0) {
-    const auto part =
-        static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<std::int32_t>::max()));
+    core::throw_if_stopped();
+    const auto part = static_cast<uInt>(std::min<std::size_t>(size, kPart));
     stream.next_in = const_cast<Bytef*>(bytes);  // zlib does not write to it
     stream.avail_in = part;
     while (stream.avail_in > 0) {

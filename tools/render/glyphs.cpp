@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "morsel/core/parallel.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::tools::render {
 namespace {
@@ -31,6 +32,7 @@ class Net {
     const mscomplex::DiscreteGradient& gradient = complex.gradient();
     vertex_.assign(mesh().vertex_count(), kNone);
     for (const mscomplex::CriticalCell& saddle : gradient.saddles()) {
+      core::throw_if_stopped();
       descend(saddle);
       ascend(saddle);
     }
@@ -240,9 +242,11 @@ void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex
       return step.descending != (*only == mscomplex::ArcKind::descending);
     });
   if (freedom > 0) straighten(net, rays, freedom);
-  for (const Net::Step& step : net.steps)
+  for (const Net::Step& step : net.steps) {
+    core::throw_if_stopped();
     add_step(scene, rays, net.knots[step.a], net.knots[step.b], radius,
              step.descending ? kDescendingColor : kAscendingColor, 5);
+  }
 }
 
 }  // namespace morsel::tools::render

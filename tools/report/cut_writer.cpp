@@ -1,5 +1,6 @@
 #include "morsel/tools/report/cut_writer.h"
 
+#include "morsel/core/stop.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -21,6 +22,7 @@ void write_components(JsonSink& json, const std::vector<ComponentCut>& component
 void write_paths(JsonSink& json, const mscomplex::CutGraph& cut, const core::VertexNumbering& numbering) {
   json.begin_array("paths");
   for (const mscomplex::CutPath& path : cut.paths) {
+    core::throw_if_stopped();
     Json vertices = Json::array();
     for (const core::Index v : path.vertices) vertices.push_back(numbering.input_vertex(v));
     json.begin_object();

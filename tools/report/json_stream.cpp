@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "morsel/core/parallel.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::tools {
 namespace {
@@ -131,6 +132,7 @@ void JsonStream::member(std::string_view key, const Json& value) {
 }
 
 void JsonStream::row(Row row) {
+  core::throw_if_stopped();
   next_item({});
   append_row(text_, row);
   write_out();
