@@ -98,8 +98,10 @@ bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limi
                 const std::vector<Product>& products) {
   if (state.key != key) return false;
   if (state.error) return state.limits == limits && !state.error->may_pass();
-  return std::all_of(state.files.begin(), state.files.end(),
-                     [&](const std::string& file) { return fs::is_regular_file(place_of(file, products)); });
+  return std::all_of(state.files.begin(), state.files.end(), [&](const std::string& file) {
+    std::error_code error;  // what cannot be asked about is not there
+    return fs::is_regular_file(place_of(file, products), error);
+  });
 }
 
 Json to_json(const MeshError& error) {
