@@ -31,7 +31,7 @@ def without_timings(path):
 
 def contents(folder):
     return {str(path.relative_to(folder)): without_timings(path)
-            for path in sorted(folder.rglob("*")) if path.is_file()}
+            for path in sorted(folder.rglob("*")) if path.is_file() and path.name != ".morsel-results"}
 
 
 class BatchTest(ProgramTest):

@@ -78,14 +78,16 @@ class Together(AtWork):
         self.ends(live)
         self.assertFalse((self.out / "work").exists())
 
-    def test_a_folder_without_a_sign_of_its_run_is_no_obstacle(self):
-        (self.out / "work/abcdef/0").mkdir(parents=True)
+    def test_a_work_folder_that_is_not_listed_stays(self):
+        self.batch("--only", "octahedron.off")
+        foreign = self.out / "work/abcdef/0"
+        foreign.mkdir(parents=True)
         self.batch()
-        self.assertFalse((self.out / "work").exists())
+        self.assertEqual(list((self.out / "work").rglob("*")), [foreign.parent, foreign])
 
     def test_a_run_waits_while_another_puts_its_results_in_place(self):
         self.batch("--only", "octahedron.off", "--no-summary")
-        with open(self.out / "state/.lock", "r+", encoding="utf-8") as lock:
+        with open(self.out / ".morsel-results", "r+", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             process = self.start("--only", "sphere.off", "--no-summary", "--method", "conventional")
             with self.assertRaises(subprocess.TimeoutExpired):

@@ -101,7 +101,7 @@ class Provenance(ProgramTest):
             out.mkdir()
             self.morsel(*(str(word).format(out=out.name) for word in arguments), "--threads", threads)
             runs.append({str(path.relative_to(out)): path for path in sorted(out.rglob("*"))
-                         if path.is_file() and path.name != ".lock"})  # an empty file
+                         if path.is_file() and path.name != ".morsel-results"})
         self.assertEqual(set(runs[0]), set(expected))
         self.assertEqual({name: without_timings(path) for name, path in runs[0].items()},
                          {name: without_timings(path) for name, path in runs[1].items()})

@@ -1,4 +1,3 @@
-#include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
@@ -19,6 +18,7 @@
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/html/markup.h"
 #include "morsel/tools/report/csv.h"
+#include "morsel/tools/results/result_folder.h"
 #include "support/scratch.h"
 
 using namespace morsel;
@@ -392,50 +392,24 @@ TEST_CASE("what is made of a mesh has its place", "[batch]") {
   CHECK(batch::place_of("other", products).empty());
 }
 
-TEST_CASE("one has a lock at a time", "[batch]") {
+TEST_CASE("a mesh whose results would have too long a name is refused by itself", "[batch]") {
   const test::Scratch folder;
-  using batch::FileLock;
-  std::optional<FileLock> one = FileLock::take(folder / "sub/lock", FileLock::Wait::yes);
-  REQUIRE(one);
-  CHECK(one->is_held());
-  CHECK_FALSE(FileLock::take(folder / "sub/lock", FileLock::Wait::no));
-  std::atomic<bool> given_up = false;
-  bool was_given_up = false;
-  std::thread other([&] {
-    const auto lock = FileLock::take(folder / "sub/lock", FileLock::Wait::yes);
-    was_given_up = given_up;
-  });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  given_up = true;
-  one.reset();
-  other.join();
-  CHECK(was_given_up);
-  CHECK(FileLock::take(folder / "sub/lock", FileLock::Wait::no));
-  CHECK_THROWS_AS(FileLock::take("/proc/nowhere/lock", FileLock::Wait::no), core::WriteFailed);
-}
-
-TEST_CASE("work folders are their makers' own and go with them", "[batch]") {
-  const test::Scratch folder;
-  const batch::OutFolder out(folder.path());
-  {
-    const batch::WorkFolder one(out);
-    const batch::WorkFolder other(out);
-    CHECK(one.path() != other.path());
-    folder.file("work/abcdef/7/report.json");  // of one that was killed
-    batch::remove_left_work(out);
-    CHECK_FALSE(fs::exists(folder.path() / "work/abcdef"));
-    CHECK(fs::exists(one.path()));
-    CHECK(fs::exists(other.path()));
-  }
-  CHECK_FALSE(fs::exists(out.work()));
-  batch::remove_left_work(out);
+  const batch::OutFolder out(folder / "not there yet");
+  const std::string longest(245, 'a');  // and ".first.png"
+  CHECK(out.refusal(longest).empty());
+  CHECK(out.refusal(longest + "a").find("246 bytes") != std::string::npos);
+  CHECK(out.refusal(std::string(255, 'a') + "/b.off").empty());
+  CHECK_FALSE(out.refusal(std::string(256, 'a') + "/b.off").empty());
+  std::string deep = "b.off";
+  while (deep.size() < 4000) deep = std::string(100, 'd') + "/" + deep;
+  CHECK(out.refusal(deep).find("4096") != std::string::npos);
 }
 
 TEST_CASE("texts are written as tables and pages need them", "[batch]") {
   CHECK(tools::csv_field("plain text") == "plain text");
   CHECK(tools::csv_field("a,\"b\"") == "\"a,\"\"b\"\"\"");
   CHECK(markup_text("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
-  CHECK(batch::link_text("a b/\xc3\xa9#?%.off") == "a%20b/%C3%A9%23%3F%25.off");
+  CHECK(path_text("a b/\xc3\xa9#?%.off") == "a%20b/%C3%A9%23%3F%25.off");
 }
 
 TEST_CASE("histograms count every mesh once", "[batch]") {

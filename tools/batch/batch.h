@@ -12,6 +12,7 @@
 #include "morsel/tools/batch/collection.h"
 #include "morsel/tools/batch/request.h"
 #include "morsel/tools/batch/state.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools::batch {
 
@@ -19,7 +20,6 @@ struct RunOptions {
   ChildLimits limits;    ///< of each mesh
   std::size_t jobs = 1;  ///< meshes at the same time
   int threads = 1;       ///< of each
-  bool run = true;       ///< false: only look what is done
   std::stop_token stop;  ///< wakes the run at once; what works in this process listens to its Progress
   bool retry = false;    ///< whether what failed before is run again
 };
@@ -39,15 +39,21 @@ struct MeshOutcome {  // NOLINT(bugprone-exception-escape): of the JSON library
 /// Told of each mesh that ends, in the order in which they do.
 using TellOutcome = std::function<void(const MeshOutcome&)>;
 
+/// Where the meshes stand after what earlier runs have left in `out`; nothing is run and nothing written. In the meshes' order. Throws InvalidArgument
+/// on a request with unknown names.
+std::vector<MeshOutcome> look_at(const std::vector<CollectionMesh>& meshes, const BatchRequest& request,
+                                 const RunOptions& options, const OutFolder& out,
+                                 const core::Progress& progress = {});
+
 /// Runs `compare` (the program's own file, again) on the meshes that are not settled (state.h), and writes what comes of them into `out`
 /// (out_folder.h). A mesh's things are made in a folder of this run's own and put in place when they are whole, the state last: a run that is
 /// ended in any way loses the meshes in work and nothing else. One mesh's failure, crash or excess is that mesh's outcome.
 ///
 /// In the meshes' order. Runs may share a folder: a mesh that is in several at the same time is made by each, and has the things of one of them,
 /// the last (where file systems have no locks: if they ran with the same options). Throws InvalidArgument on a request with unknown
-/// names, WriteFailed where `out` cannot be written, Cancelled when told to stop (the children have ended and their half-made files are gone).
+/// names, WriteFailed where `out` cannot be written, before the work if it has something of somebody else in the place of a result, Cancelled when told to stop (the children have ended and their half-made files are gone).
 std::vector<MeshOutcome> run_batch(const std::vector<CollectionMesh>& meshes, const BatchRequest& request,
-                                   const RunOptions& options, const OutFolder& out,
+                                   const RunOptions& options, ResultFolder& out,
                                    const core::Progress& progress = {}, const TellOutcome& tell = {});
 
 }  // namespace morsel::tools::batch

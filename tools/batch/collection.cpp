@@ -22,11 +22,17 @@ bool is_mesh(const fs::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), core::file_extension(path)) != kExtensions.end();
 }
 
+/// What cannot be asked about is read as a list, which says why.
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
 std::vector<CollectionMesh> of_folder(const fs::path& folder) {
   std::vector<CollectionMesh> meshes;
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (at->is_regular_file() && is_mesh(at->path()))
+    if (std::error_code unreadable; is_mesh(at->path()) && fs::is_regular_file(at->path(), unreadable))
       meshes.push_back({mesh_name(at->path().lexically_relative(folder)), at->path()});
   if (error) throw core::BadInput("cannot read the folder " + folder.string() + ": " + error.message());
   if (meshes.empty())
@@ -65,16 +71,17 @@ std::optional<CollectionMesh> in_folder(const fs::path& folder, const std::strin
   fs::path path = folder;
   for (const fs::path& part : fs::path(name).parent_path()) {
     path /= part;
-    if (fs::is_symlink(path)) return std::nullopt;
+    if (std::error_code error; fs::is_symlink(path, error) || error) return std::nullopt;
   }
   path = folder / name;
-  return fs::is_regular_file(path) ? std::optional(CollectionMesh{name, path}) : std::nullopt;
+  std::error_code error;
+  return fs::is_regular_file(path, error) ? std::optional(CollectionMesh{name, path}) : std::nullopt;
 }
 
 /// Those with these names, as far as they are found without reading the whole collection.
 std::vector<CollectionMesh> found_directly(const fs::path& folder_or_list, const Names& names) {
   std::vector<CollectionMesh> meshes;
-  if (fs::is_directory(folder_or_list)) {
+  if (is_folder(folder_or_list)) {
     for (const std::string& name : names)
       if (std::optional<CollectionMesh> mesh = in_folder(folder_or_list, name))
         meshes.push_back(std::move(*mesh));
@@ -119,7 +126,7 @@ std::vector<CollectionMesh> read_collection(const fs::path& folder_or_list,
     if (meshes.size() == names.size()) return meshes;
   }
   std::vector<CollectionMesh> meshes =
-      fs::is_directory(folder_or_list) ? of_folder(folder_or_list) : of_list(folder_or_list, {});
+      is_folder(folder_or_list) ? of_folder(folder_or_list) : of_list(folder_or_list, {});
   if (meshes.empty()) throw core::BadInput("there is no mesh in the list " + folder_or_list.string());
   check_names(folder_or_list, meshes);
   if (names.empty()) return meshes;

@@ -1,17 +1,17 @@
 #pragma once
-/// The files of a folder of results, and how they come to be there.
+/// Where a batch's results are in its folder.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 
 namespace morsel::tools::batch {
 
-/// Where things are; none is made by asking for its path. `name` is a mesh's within its collection.
+/// Where things are; none is made by asking for its path. `name` is a mesh's within its collection. Without a root they are paths
+/// within the folder, as result_folder.h has them.
 class OutFolder {
  public:
-  explicit OutFolder(std::filesystem::path root) : root_(std::move(root)) {}
+  explicit OutFolder(std::filesystem::path root = {}) : root_(std::move(root)) {}
 
   const std::filesystem::path& root() const { return root_; }
   std::filesystem::path report(const std::string& name) const { return file("reports", name, ".json"); }
@@ -26,7 +26,10 @@ class OutFolder {
   std::filesystem::path exports(const std::string& name) const { return file("exports", name, ""); }
   /// What is not whole yet is in folders in this one.
   std::filesystem::path work() const { return root_ / "work"; }
-  std::filesystem::path lock() const { return root_ / "state" / ".lock"; }
+
+  /// Why results of this mesh could have no file here, such as a name that is too long for the file system with its ending;
+  /// empty if they could. Asks the system about the folder, or the nearest around it that is there.
+  std::string refusal(const std::string& name) const;
 
  private:
   std::filesystem::path file(const char* folder, const std::string& name, const std::string& ending) const {
@@ -34,50 +37,5 @@ class OutFolder {
   }
   std::filesystem::path root_;
 };
-
-/// A lock on a file (made if it is not there), until it is destroyed or the process ends in any way. Locks nothing on a file system that has no
-/// locks. Moved, not copied.
-class FileLock {
- public:
-  enum class Wait { no, yes };
-  /// None if somebody else has it and we do not wait. Throws WriteFailed where the file cannot be made.
-  static std::optional<FileLock> take(const std::filesystem::path& file, Wait wait);
-  ~FileLock();
-  FileLock(FileLock&& other) noexcept;
-  FileLock& operator=(FileLock&&) = delete;
-  /// Whether there are locks here.
-  bool is_held() const { return held_; }
-
- private:
-  FileLock(int file, bool held) : file_(file), held_(held) {}
-  int file_;
-  bool held_;
-};
-
-/// A new folder OUT/work/XXXXXX of one run, which nobody else writes into: not another run on the same meshes, nor what a broken-off one left
-/// running elsewhere. Removed at the end with all that is in it, as are those that killed runs left behind at the beginning.
-class WorkFolder {
- public:
-  /// Throws WriteFailed.
-  explicit WorkFolder(const OutFolder& out);
-  ~WorkFolder();
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  const OutFolder& out_;
-  std::filesystem::path path_;
-  std::optional<FileLock> lock_;  // its being held tells others that the folder is in use
-};
-
-/// Removes work folders that nobody has any more. Throws WriteFailed.
-void remove_left_work(const OutFolder& out);
-
-/// Moves a file or folder to where nothing is, on the same file system; makes the folder that it comes into. Throws WriteFailed.
-void put(const std::filesystem::path& from, const std::filesystem::path& to);
-/// The same, if it is there at all.
-void put_aside(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace morsel::tools::batch

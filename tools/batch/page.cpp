@@ -6,7 +6,6 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/distributions.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/html/markup.h"
 #include "morsel/tools/report/command_line.h"
 #include "morsel/tools/report/provenance.h"
@@ -37,16 +36,15 @@ std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
 }
 
 /// Writes the plots; the section of the page that shows them.
-std::string write_plots(const std::vector<MethodTotals>& methods, const fs::path& folder,
+std::string write_plots(const std::vector<MethodTotals>& methods, ResultFolder& out,
                         const Provenance& provenance) {
-  make_folder(folder);
   std::vector<std::pair<std::string, plot::Plot>> plots = {{"histogram.svg", histogram(methods)},
                                                            {"cumulative.svg", cumulative(methods)},
                                                            {"against-size.svg", against_size(methods)}};
   std::string figures;
   for (auto& [name, plot] : plots) {
     plot.metadata = provenance.json();
-    plot::write_svg(folder / name, plot);
+    plot::write_svg(out.claim("plots/" + name), plot);
     figures += "<figure><img alt=\"" + markup_text(plot.title) + "\" src=\"plots/" + name + "\"></figure>\n";
   }
   return "<section class=\"plots\" aria-label=\"Distributions\">\n" + figures + "</section>\n";
@@ -67,12 +65,12 @@ std::string breakable(const std::string& markup, std::string_view after) {
 }
 
 std::string link_to(const fs::path& path, const std::string& markup) {
-  return "<a href=\"" + link_text(path.generic_string()) + "\">" + markup + "</a>";
+  return "<a href=\"" + path_text(path.generic_string()) + "\">" + markup + "</a>";
 }
 
 /// What a click on a mesh shows: the best there is.
 fs::path best_of(const std::string& name, const BatchRequest& request) {
-  const OutFolder beside("");
+  const OutFolder beside;
   return request.pages     ? beside.page(name)
          : request.figures ? beside.figures(name) / "sheet.png"
                            : beside.report(name);
@@ -85,7 +83,7 @@ std::string name_cell(const MeshOutcome& outcome, const BatchRequest& request) {
   if (outcome.status != Status::done) return cell + breakable(shown, "/") + "</th>";
   cell += link_to(best_of(name, request), breakable(shown, "/"));
   if (request.pages || request.figures || request.exports) {
-    const OutFolder beside("");
+    const OutFolder beside;
     cell += "<small>" + link_to(beside.report(name), "report");
     if (request.figures) cell += link_to(beside.figures(name) / "sheet.png", "pictures");
     if (request.exports) cell += link_to(beside.exports(name) / "", "files");
@@ -102,7 +100,7 @@ std::string picture_cell(const MeshOutcome& outcome, const BatchRequest& request
       markup_text(valid_text(name) + ", " +
                   (std::string_view(which) == "first" ? request.comparison.methods.front()
                                                       : request.comparison.methods.back())) +
-      "\" src=\"" + link_text(OutFolder("").thumbnail(name, which).generic_string()) + "\">";
+      "\" src=\"" + path_text(OutFolder("").thumbnail(name, which).generic_string()) + "\">";
   return "<td class=\"picture\">" + link_to(best_of(name, request), image) + "</td>";
 }
 
@@ -184,30 +182,14 @@ std::string counts_line(const Tally& sums) {
 
 }  // namespace
 
-std::string link_text(const std::string& path) {
-  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
-  constexpr const char* kDigits = "0123456789ABCDEF";
-  std::string link;
-  for (const char c : path) {
-    if (kPlain.find(c) != std::string_view::npos) {
-      link += c;
-      continue;
-    }
-    const auto byte = static_cast<unsigned char>(c);
-    link += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-  }
-  return link;
-}
-
 void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
-                const SummaryOptions& options, const OutFolder& out) {
+                const SummaryOptions& options, ResultFolder& out) {
   const Tally sums = tally(outcomes);
   const Provenance provenance = provenance_of(outcomes, request, options);
   std::string plots;
-  if (sums.done > 0)
-    plots = write_plots(totals_of(outcomes, request.comparison.methods), out.root() / "plots", provenance);
+  if (sums.done > 0) plots = write_plots(totals_of(outcomes, request.comparison.methods), out, provenance);
   const std::string title = markup_text(valid_text("morsel batch: " + options.collection));
-  core::FileWriter file(out.root() / "index.html");
+  core::FileWriter file(out.claim("index.html"));
   file.write(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -13,13 +13,10 @@ namespace morsel::tools::batch {
 /// Writes plots/histogram.svg, cumulative.svg and against-size.svg (unless no mesh is done) and index.html: the plots, and a table of the meshes
 /// with their pictures, sorted by a click on a column's head, that needs nothing but the folder. Throws WriteFailed.
 void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
-                const SummaryOptions& options, const OutFolder& out);
+                const SummaryOptions& options, ResultFolder& out);
 
 /// The page's style sheet and script, as the build embeds them (html/embed.cmake).
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageScript;
-
-/// A relative path as a link: bytes that a URL does not hold as they are become %XX.
-std::string link_text(const std::string& path);
 
 }  // namespace morsel::tools::batch

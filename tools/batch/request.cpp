@@ -6,6 +6,7 @@
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/sha256.h"
+#include "morsel/tools/results/file_list.h"
 
 namespace morsel::tools::batch {
 namespace {
@@ -21,24 +22,25 @@ std::string valid_text(const std::string& text) {
 }
 
 std::vector<Product> products_of(const std::string& name, const BatchRequest& request, const OutFolder& out) {
-  return {{true, "report.json", out.report(name)},
-          {request.thumbnails, "thumbnail.first.png", out.thumbnail(name, "first")},
-          {request.thumbnails, "thumbnail.last.png", out.thumbnail(name, "last")},
-          {request.pages, "page.html", out.page(name)},
-          {request.figures, "figures", out.figures(name)},
-          {request.exports, "exports", out.exports(name)}};
+  return {{true, false, "report.json", out.report(name)},
+          {request.thumbnails, false, "thumbnail.first.png", out.thumbnail(name, "first")},
+          {request.thumbnails, false, "thumbnail.last.png", out.thumbnail(name, "last")},
+          {request.pages, false, "page.html", out.page(name)},
+          {request.figures, true, "figures", out.figures(name)},
+          {request.exports, true, "exports", out.exports(name)}};
 }
 
 std::vector<std::string> made_files(const std::vector<Product>& products, const fs::path& work) {
   std::vector<std::string> files;
   for (const Product& product : products) {
     if (!product.wanted) continue;
-    if (!fs::is_directory(work / product.made)) {
+    if (!product.is_folder) {
       files.push_back(product.made);
       continue;
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(work / product.made))
-      files.push_back(product.made + "/" + entry.path().filename().string());
+      if (entry.path().filename() != FileList::kName)  // of the folder where they were made
+        files.push_back(product.made + "/" + entry.path().filename().string());
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -28,8 +28,9 @@ struct BatchRequest {
 /// One of the things that are made of a mesh, besides its state.
 struct Product {
   bool wanted;
+  bool is_folder;
   std::string made;             ///< its name in the folder where it is made
-  std::filesystem::path place;  ///< where it belongs: a file or a folder
+  std::filesystem::path place;  ///< where it belongs
 };
 std::vector<Product> products_of(const std::string& name, const BatchRequest& request, const OutFolder& out);
 /// The files of those that are wanted, as they are called in the folder `work` where they were made: "report.json", "figures/sheet.png".

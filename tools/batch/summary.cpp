@@ -5,7 +5,6 @@
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/page.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/report/csv.h"
 #include "morsel/tools/report/version.h"
 
@@ -75,7 +74,7 @@ Json mesh_section(const MeshOutcome& outcome, const BatchRequest& request) {
     section["limits"] = to_json(outcome.state.limits);
   }
   if (outcome.status != Status::done) return section;
-  const OutFolder beside("");
+  const OutFolder beside;
   section["report"] = beside.report(name).generic_string();
   if (request.thumbnails)
     section["thumbnails"] = {beside.thumbnail(name, "first").generic_string(),
@@ -157,11 +156,16 @@ std::size_t pairs_over_one_percent(const Json& method) {
 }
 
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
-                   const SummaryOptions& options, const OutFolder& out) {
-  make_folder(out.root());
-  write_table(out.root() / "summary.csv", outcomes, request.comparison, options.with_timings);
-  write_document(out.root() / "summary.json", outcomes, request, options);
+                   const SummaryOptions& options, ResultFolder& out) {
+  write_table(out.claim("summary.csv"), outcomes, request.comparison, options.with_timings);
+  write_document(out.claim("summary.json"), outcomes, request, options);
   write_page(outcomes, request, options, out);
+}
+
+void check_summary(ResultFolder& out) {
+  for (const char* file : {"summary.csv", "summary.json", "index.html", "plots/histogram.svg",
+                           "plots/cumulative.svg", "plots/against-size.svg"})
+    out.check_free(file);
 }
 
 }  // namespace morsel::tools::batch

@@ -29,7 +29,10 @@ std::string to_string(Status status);
 /// "timings" is all that differs between two runs; plots/*.svg, distributions over the collection; and index.html, which shows it all. Throws
 /// WriteFailed.
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
-                   const SummaryOptions& options, const OutFolder& out);
+                   const SummaryOptions& options, ResultFolder& out);
+
+/// Throws WriteFailed if one of these files could not be written, as something of somebody else is in its place.
+void check_summary(ResultFolder& out);
 
 /// A method's number of pairs with a persistence over 1 % of its field's extent, infinite ones included.
 std::size_t pairs_over_one_percent(const Json& method);

@@ -12,13 +12,13 @@
 #include <thread>
 #include <vector>
 
-#include "morsel/core/file_writer.h"
 #include "morsel/core/printable.h"
 #include "morsel/tools/batch/batch.h"
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/commands/commands.h"
-#include "morsel/tools/export/folder.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/report/text_table.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 namespace {
@@ -49,9 +49,7 @@ std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::Collec
   std::vector<batch::CollectionMesh> others;
   for (const batch::CollectionMesh& mesh : all)
     if (!names.contains(mesh.name)) others.push_back(mesh);
-  batch::RunOptions look = options.run;
-  look.run = false;
-  std::vector<batch::MeshOutcome> found = run_batch(others, options.request, look, out, progress);
+  std::vector<batch::MeshOutcome> found = look_at(others, options.request, options.run, out, progress);
   std::vector<batch::MeshOutcome> whole;
   auto one = ran.begin();
   auto other = found.begin();
@@ -72,10 +70,8 @@ void warn_of_damaged_states(const std::vector<batch::MeshOutcome>& outcomes, Con
 /// A line for each of the meshes that a run would work on.
 void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options& options,
                 const batch::OutFolder& out, Console& console) {
-  batch::RunOptions look = options.run;
-  look.run = false;
   const std::vector<batch::MeshOutcome> outcomes =
-      run_batch(meshes, options.request, look, out, console.progress());
+      look_at(meshes, options.request, options.run, out, console.progress());
   warn_of_damaged_states(outcomes, console);
   for (const batch::MeshOutcome& outcome : outcomes) {
     if (outcome.status != batch::Status::not_run &&
@@ -102,7 +98,6 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   options.request.thumbnails = !options.no_thumbnails;
   options.run.threads = std::max(common.threads, 1);
   options.run.stop = console.stop_token();
-  options.run.run = !options.summary_only;
   const unsigned cores = std::max(std::thread::hardware_concurrency(), 1U);
   options.run.jobs = options.jobs > 0
                          ? options.jobs
@@ -113,25 +108,30 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   const std::vector<batch::CollectionMesh> all =
       options.only.empty() || options.no_summary ? meshes : batch::read_collection(options.collection);
   const batch::OutFolder out(options.out);
+  RunFiles files;
+  files.reads_folder("COLLECTION", options.collection).reads_of_field(options.request.comparison.field);
+  files.fills("--out", options.out).check();
   if (options.plan) {
+    ResultFolder::check(options.out);
     print_plan(meshes, options, out, console);
     return kDone;
   }
-  make_folder(out.root());
-  static_cast<void>(
-      core::FileWriter(out.root() / "summary.json"));  // what cannot be written is told before the work
+  ResultFolder results(options.out, {files.outputs(), options.run.stop});
+  if (!options.no_summary) batch::check_summary(results);
 
   const auto tell = [&](const batch::MeshOutcome& outcome) {
     console.message(outcome.mesh.name + ": " +
                     (outcome.state.error ? "failed: " + outcome.state.error->message : "done"));
   };
   std::vector<batch::MeshOutcome> outcomes =
-      run_batch(meshes, options.request, options.run, out, console.progress(), tell);
+      options.summary_only
+          ? look_at(meshes, options.request, options.run, out, console.progress())
+          : run_batch(meshes, options.request, options.run, results, console.progress(), tell);
   warn_of_damaged_states(outcomes, console);
   const batch::Tally sums = tally(outcomes);
   if (!options.no_summary)
     write_summary(whole_collection(all, std::move(outcomes), options, out, console.progress()),
-                  options.request, {options.collection, options.with_timings}, out);
+                  options.request, {options.collection, options.with_timings}, results);
   std::cout << core::printable(last_line(sums, options)) << '\n';
   return sums.failed + sums.not_run > 0 ? kDifferences : kDone;
 }
@@ -200,8 +200,15 @@ void add_batch(CLI::App& app, Invocation& invocation) {
       .add_option("COLLECTION", options->collection,
                   "A folder, whose meshes and those of the folders in it are taken, or a list: a file with\n"
                   "the path of a mesh on each line, relative to the list's folder")
+      ->check(names_file())
       ->required();
-  command.add_option("--out", options->out, "Where results go")->type_name("OUT")->required();
+  command
+      .add_option(
+          "--out", options->out,
+          "Where results go: a new or an empty folder, or one of an earlier batch; not within COLLECTION")
+      ->check(names_file())
+      ->type_name("OUT")
+      ->required();
   add_what_is_compared(command, *options);
   add_how_it_is_run(command, *options);
   add_common_options(command, invocation.common);

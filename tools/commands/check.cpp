@@ -139,6 +139,7 @@ void add_check(CLI::App& app, Invocation& invocation) {
   command
       .add_option("REPORT", options->paths,
                   "Reports of morsel compare, or folders in which all of them (.json) are checked")
+      ->check(names_file())
       ->required();
   command.add_flag("--all", options->all, "Show every difference, not only the first 20 of a report");
   add_common_options(command, invocation.common, false);

@@ -43,6 +43,9 @@ struct Invocation {
   Action action;
 };
 
+/// Of an option that names a file or folder: '' names none, and is refused.
+CLI::Validator names_file();
+
 void add_common_options(CLI::App& command, CommonOptions& common, bool with_repair = true);
 
 /// --target K

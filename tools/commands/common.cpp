@@ -6,6 +6,11 @@
 
 namespace morsel::tools {
 
+CLI::Validator names_file() {
+  return {[](std::string& path) { return path.empty() ? std::string("'' names no file") : std::string(); },
+          ""};
+}
+
 void add_common_options(CLI::App& command, CommonOptions& common, bool with_repair) {
   command.add_option("--threads", common.threads, "Number of threads (default: all); never changes a result")
       ->check(CLI::Range(1, 4096))
@@ -29,7 +34,7 @@ void add_target_option(CLI::App& command, std::optional<std::size_t>& target) {
 }
 
 void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request) {
-  command.add_option("MESH", mesh, kMeshHelp)->required();
+  command.add_option("MESH", mesh, kMeshHelp)->check(names_file())->required();
   command.add_option("--field", request.field, "Morse function (below)")
       ->type_name("F")
       ->capture_default_str();

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
 #include "morsel/tools/html/html_sink.h"
@@ -20,6 +25,7 @@
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 namespace {
@@ -80,13 +86,13 @@ std::string page_command(const Options& options, const CommonOptions& common) {
 class Outputs {
  public:
   /// Unwritable targets are told here, before the work.
-  Outputs(const Options& options, const CommonOptions& common)
+  Outputs(const Options& options, const CommonOptions& common, const std::stop_token& stop)
       : options_(options),
         common_(common),
         figure_size_(render::parse_size(options.figure.size)),
+        folders_(open_folders(options, stop)),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
-    if (!options.figure_folder.empty()) make_writable_folder(options.figure_folder);
   }
 
   /// `sinks` are told, too. Refers to `input`.
@@ -102,12 +108,13 @@ class Outputs {
       files_.add(page_.emplace(*page_file_, loaded, about, options_.request, page_command(options_, common_),
                                provenance));
     if (!options_.export_folder.empty())
-      files_.add(exports_.emplace(options_.export_folder, loaded, provenance));
-    if (!options_.figure_folder.empty()) files_.add(plots_.emplace(options_.figure_folder, provenance));
+      files_.add(exports_.emplace(folders_.at(options_.export_folder), loaded, provenance));
+    if (!options_.figure_folder.empty())
+      files_.add(plots_.emplace(folders_.at(options_.figure_folder), provenance));
     sinks.push_back(&files_);
     if (!options_.figure_folder.empty())
-      sinks.push_back(&figures_.emplace(options_.figure_folder, loaded, options_.figure.camera, figure_size_,
-                                        provenance, progress));
+      sinks.push_back(&figures_.emplace(folders_.at(options_.figure_folder), loaded, options_.figure.camera,
+                                        figure_size_, provenance, progress));
     if (!options_.thumbnails.empty())
       sinks.push_back(&thumbnails_.emplace(options_.thumbnails, comparison.chains.size(),
                                            options_.figure.camera, loaded, provenance, progress));
@@ -131,9 +138,30 @@ class Outputs {
   }
 
  private:
+  using Folders = std::map<std::string, ResultFolder>;
+
+  /// Those that lie in one another from the outside in, since a folder with something in it is refused.
+  static Folders open_folders(const Options& options, const std::stop_token& stop) {
+    RunFiles files;
+    files.reads("MESH", options.mesh).reads_of_field(options.request.field);
+    files.writes_document("-o", options.report).writes("--html", options.page);
+    if (!options.thumbnails.empty())
+      for (const char* which : {"first", "last"})
+        files.writes("--thumbnails", render::thumbnail_path(options.thumbnails, which));
+    files.fills("--figures", options.figure_folder).fills("--export", options.export_folder);
+    files.check();
+    std::vector<std::string> paths = {options.figure_folder, options.export_folder};
+    if (is_in(options.figure_folder, options.export_folder)) std::swap(paths[0], paths[1]);
+    Folders folders;
+    for (const std::string& path : paths)
+      if (!path.empty()) folders.try_emplace(path, path, ResultFolder::Options{files.outputs(), stop});
+    return folders;
+  }
+
   const Options& options_;
   const CommonOptions& common_;
   render::Size figure_size_;
+  Folders folders_;
   DocumentTarget report_target_;
   std::optional<core::FileWriter> page_file_;
   std::optional<ReportWriter> report_;
@@ -149,7 +177,7 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedComparison comparison = prepare(options.request);
   options.figure.check();
-  Outputs outputs(options, common);
+  Outputs outputs(options, common, console.stop_token());
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
@@ -170,9 +198,10 @@ void add_compare(CLI::App& app, Invocation& invocation) {
       *app.add_subcommand("compare",
                           "Run methods on a field and hold their critical points, diagrams and complexes\n"
                           "against each other");
-  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_option("MESH", options->mesh, kMeshHelp)->check(names_file())->required();
   add_comparison_options(command, options->request);
   command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
+      ->check(names_file())
       ->type_name("REPORT.json");
   command.add_flag("--no-items", options->no_items,
                    "Leave what is listed point by point out of the report: the critical points and the\n"
@@ -180,28 +209,33 @@ void add_compare(CLI::App& app, Invocation& invocation) {
   command
       .add_option("--export", options->export_folder,
                   "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
+      ->check(names_file())
       ->type_name("DIR");
   command
       .add_option(
           "--figures", options->figure_folder,
           "Write pictures here: one of each method, a sheet with them side by side (.png), persistence\n"
           "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
+      ->check(names_file())
       ->type_name("DIR");
   add_figure_options(command, options->figure);
   command
       .add_option("--thumbnails", options->thumbnails,
                   "Write a small picture of the first and one of the last method: PREFIX.first.png and\n"
                   "PREFIX.last.png")
+      ->check(names_file())
       ->type_name("PREFIX");
   command
       .add_option(
           "--html", options->page,
           "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers;\n"
           "one file, for which no network is needed")
+      ->check(names_file())
       ->type_name("REPORT.html");
   command
       .add_option("--html-place", options->page_place,
                   "Where the page will be moved to, for the command line that it shows")
+      ->check(names_file())
       ->type_name("PATH");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

@@ -8,6 +8,7 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/cutting/cutting.h"
 #include "morsel/tools/export/cut_files.h"
@@ -64,6 +65,13 @@ int cut(const Options& options, const CommonOptions& common, Console& console) {
   const FieldRecipe recipe = prepare(options.request);
   check_cut_mesh_path(options.output);
   if (!options.graph.empty()) check_cut_graph_path(options.graph);
+  RunFiles()
+      .reads("MESH", options.mesh)
+      .reads_of_field(options.request.field)
+      .writes("-o", options.output)
+      .writes_document("--json", options.json)
+      .writes("--graph", options.graph)
+      .check();
   // Unwritable targets are told before the work, not after it.
   DocumentTarget document(options.json);
   { const core::FileWriter probe(options.output); }
@@ -115,6 +123,7 @@ void add_cut(CLI::App& app, Invocation& invocation) {
   command
       .add_option("-o,--output", options->output,
                   "The mesh cut open, .off or .ply: vertices keep their numbers, copies come after them")
+      ->check(names_file())
       ->type_name("OUT")
       ->required();
   command.add_flag("--no-shorten", options->no_shorten,
@@ -122,8 +131,10 @@ void add_cut(CLI::App& app, Invocation& invocation) {
   command
       .add_option("--json", options->json,
                   "Write here what was cut and which vertices the copies copy; - is standard output")
+      ->check(names_file())
       ->type_name("FILE");
   command.add_option("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
+      ->check(names_file())
       ->type_name("FILE.vtp");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

@@ -5,6 +5,7 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/export/field_file.h"
 #include "morsel/tools/report/field_document.h"
@@ -21,6 +22,11 @@ struct Options {
 
 int write(const Options& options, const CommonOptions& common, Console& console) {
   const FieldRecipe recipe = prepare(options.request);
+  RunFiles()
+      .reads("MESH", options.mesh)
+      .reads_of_field(options.request.field)
+      .writes("-o", options.output)
+      .check();
   check_field_path(options.output);
   const core::Progress progress = console.progress();
   const HashedWholeMesh mesh = read_hashed_whole_mesh(options.mesh, {.repair = common.repair}, progress);
@@ -45,6 +51,7 @@ void add_field(CLI::App& app, Invocation& invocation) {
       .add_option(
           "-o,--output", options->output,
           ".txt (a value a line), .ply or .vtp (the surface with the values), in the input's vertex numbers")
+      ->check(names_file())
       ->type_name("OUT")
       ->required();
   add_common_options(command, invocation.common);

@@ -7,11 +7,13 @@
 
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/export/hierarchy_export.h"
 #include "morsel/tools/hierarchy/hierarchy.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/hierarchy_table.h"
 #include "morsel/tools/report/hierarchy_writer.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 namespace {
@@ -39,6 +41,12 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedHierarchy prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
+  RunFiles files;
+  files.reads("MESH", options.mesh).reads_of_field(request.field.field);
+  files.writes_document("-o", options.output).fills("--export", options.export_folder).check();
+  std::optional<ResultFolder> folder;
+  if (!options.export_folder.empty())
+    folder.emplace(options.export_folder, ResultFolder::Options{files.outputs(), console.stop_token()});
   DocumentTarget document(options.output);
 
   const Stopwatch load_watch;
@@ -55,9 +63,9 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
     sinks.push_back(&*writer);
   }
   std::optional<HierarchyExport> exports;
-  if (!options.export_folder.empty()) {
+  if (folder) {
     exports.emplace(
-        options.export_folder, loaded,
+        *folder, loaded,
         Provenance(common.command, request_section(request, about), {{options.mesh, input.sha256}}));
     sinks.push_back(&*exports);
   }
@@ -105,6 +113,7 @@ void add_hierarchy(CLI::App& app, Invocation& invocation) {
   command
       .add_option("-o,--output", options->output,
                   "Write the levels and their links here, as JSON; - is standard output")
+      ->check(names_file())
       ->type_name("HIERARCHY.json");
   command.add_flag("--no-items", options->no_items,
                    "Leave what is listed one by one out of the document: cancellations, and each level's\n"
@@ -113,6 +122,7 @@ void add_hierarchy(CLI::App& app, Invocation& invocation) {
       .add_option("--export", options->export_folder,
                   "Write each level's surface and complex (.vtp, for ParaView) here: surface.0.vtp is the\n"
                   "finest level")
+      ->check(names_file())
       ->type_name("DIR");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

@@ -186,6 +186,7 @@ void add_info(CLI::App& app, Invocation& invocation) {
           "FILE", options->file,
           "A triangle mesh (.off, .obj, .ply or .stl), or any file that morsel wrote but JSON, which\n"
           "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
+      ->check(names_file())
       ->required();
   command.add_flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, invocation.common);

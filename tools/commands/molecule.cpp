@@ -15,6 +15,7 @@
 #include "morsel/core/mesh_writer.h"
 #include "morsel/core/molecule.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/molecule/surface.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/provenance.h"
@@ -91,6 +92,7 @@ int make(Options& options, const CommonOptions& common, Console& console) {
       static_cast<SurfaceKind>(std::find(kKinds.begin(), kKinds.end(), options.kind) - kKinds.begin());
   options.surface.cavities = options.cavities == "keep";
   check_surface_options(options.surface);
+  RunFiles().reads("FILE", options.structure).writes("-o", options.output).check();
   { const core::FileWriter target(options.output); }  // one that cannot be written is told before the work
   const core::Progress progress = console.progress();
   const core::Molecule molecule = core::read_molecule(options.structure, wanted, progress);
@@ -112,8 +114,11 @@ int make(Options& options, const CommonOptions& common, Console& console) {
 void add_molecule(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand("molecule", "Make the surface of a molecule, a closed manifold");
-  command.add_option("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif")->required();
+  command.add_option("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif")
+      ->check(names_file())
+      ->required();
   command.add_option("-o,--output", options->output, "The surface, in Å: .off or .ply")
+      ->check(names_file())
       ->type_name("SURFACE")
       ->required();
   command

@@ -10,6 +10,7 @@
 #include "morsel/core/mesh_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/quads_writer.h"
@@ -30,6 +31,12 @@ int make(const Options& options, const CommonOptions& common, Console& console) 
   const QuadRecipe quads = prepare(options.quads);
   if (core::file_extension(options.output) != ".obj")
     throw core::InvalidArgument("quads are written as .obj, not to " + options.output);
+  RunFiles()
+      .reads("MESH", options.mesh)
+      .reads_of_field(options.field.field)
+      .writes("-o", options.output)
+      .writes_document("--json", options.json)
+      .check();
   { const core::FileWriter target(options.output); }  // one that cannot be written is told before the work
   DocumentTarget document(options.json);
 
@@ -82,10 +89,14 @@ void add_quads(CLI::App& app, Invocation& invocation) {
                   "0 leaves them at the critical points")
       ->type_name("R")
       ->capture_default_str();
-  command.add_option("-o,--output", options->output, "The quads: .obj")->type_name("OUT.obj")->required();
+  command.add_option("-o,--output", options->output, "The quads: .obj")
+      ->check(names_file())
+      ->type_name("OUT.obj")
+      ->required();
   command
       .add_option("--json", options->json,
                   "Write counts, repairs and quality of the quads and patches here; - is standard output")
+      ->check(names_file())
       ->type_name("FILE");
   add_common_options(command, invocation.common);
   command.footer(

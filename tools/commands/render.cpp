@@ -9,6 +9,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/drawing/png_comment.h"
 #include "morsel/tools/render/caption.h"
@@ -51,6 +52,11 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
   if (!options.close_up.empty() && !(options.frame.empty() && options.camera.inset.empty()))
     throw core::InvalidArgument("--close-up does not go with --inset or --frame");
   const FieldRecipe recipe = prepare(options.field);
+  RunFiles()
+      .reads("MESH", options.mesh)
+      .reads_of_field(options.field.field)
+      .writes("-o", options.output)
+      .check();
   core::FileWriter file(options.output);
 
   const core::Progress progress = console.progress();
@@ -167,7 +173,10 @@ void add_render(CLI::App& app, Invocation& invocation) {
   command
       .add_option("--caption", options->caption, "Text below the picture; auto is the method and its counts")
       ->type_name("TEXT");
-  command.add_option("-o,--output", options->output, "The picture")->type_name("OUT.png")->required();
+  command.add_option("-o,--output", options->output, "The picture")
+      ->check(names_file())
+      ->type_name("OUT.png")
+      ->required();
   add_common_options(command, invocation.common);
   command.footer(specification_help());
   command.callback([options, arcs, &invocation] {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/reproduce/reproduction.h"
 
 namespace morsel::tools {
@@ -12,6 +13,9 @@ namespace {
 int make_again(reproduce::Request request, const CommonOptions& common, Console& console) {
   request.repair = common.repair;
   const reproduce::Prepared prepared = reproduce::prepare(request);
+  RunFiles files;
+  for (const reproduce::MeshFile& file : prepared.files) files.reads("the mesh", file.path);
+  files.fills("DIR", request.folder).check();
   const reproduce::Reproduction reproduction = reproduce::run(prepared, console.progress());
   for (std::size_t i = 0; i < prepared.files.size(); ++i)
     console.message(std::string(reproduce::models()[i].name) + ": " + prepared.files[i].path.string() +
@@ -29,17 +33,21 @@ void add_reproduce(CLI::App& app, Invocation& invocation) {
       "reproduce",
       "Make the figures and the table of the paper \"Salient Critical Points for Meshes\" again: pictures\n"
       "(PNG), numbers (JSON, CSV) and one page (HTML) that holds them beside the paper's own");
-  command.add_option("DIR", request->folder, "The folder to write to; made if it is not there")->required();
+  command.add_option("DIR", request->folder, "The folder to write to; made if it is not there")
+      ->check(names_file())
+      ->required();
   command
       .add_option(
           "--data", request->data,
           "Meshes of the paper's models: lion, squirrel and protein (.off, .obj, .ply or .stl), or names\n"
           "with one of these words (of the protein also 1bp2 or 2bp2) in them; sample meshes stand in\n"
           "for those that are not there")
+      ->check(names_file())
       ->type_name("DIR");
   command
       .add_option("--meshes", request->samples,
                   "The sample meshes: lion-head.off, bunny00.off and retinal.off of CGAL's example data")
+      ->check(names_file())
       ->envname("MORSEL_SAMPLES")
       ->type_name("DIR")
       ->capture_default_str();

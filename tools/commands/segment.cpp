@@ -10,6 +10,7 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/export/label_file.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/segments_writer.h"
@@ -61,6 +62,10 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   // Wrong names and unwritable targets are told before the work, not after it.
   const FieldRecipe recipe = prepare(options.request);
   const SegmentRequest request = segment_request(options);
+  RunFiles files;
+  files.reads("MESH", options.mesh).reads_of_field(options.request.field);
+  for (const std::filesystem::path& file : label_files(options.output)) files.writes("-o", file);
+  files.writes_document("--json", options.json).check();
   check_label_path(options.output);
   DocumentTarget document(options.json);
 
@@ -126,6 +131,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
                   "Labels of vertices and triangles, in the input's vertex numbers: .ply (int properties\n"
                   "\"segment\"), .vtp (arrays \"segment\", and the field) or .txt (a label a line:\n"
                   "OUT.vertices.txt, OUT.faces.txt)")
+      ->check(names_file())
       ->type_name("OUT")
       ->required();
   command
@@ -133,6 +139,7 @@ void add_segment(CLI::App& app, Invocation& invocation) {
           "--json", options->json,
           "Write a table of the segments here: area, critical points, neighbours, boundary length; - is\n"
           "standard output")
+      ->check(names_file())
       ->type_name("FILE");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/commands/table_target.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/stability_table.h"
@@ -28,6 +29,11 @@ int measure_stability(const Options& options, const CommonOptions& common, Conso
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedStability prepared = prepare(options.request);
   const StabilityRequest request = with_defaults(options.request);
+  RunFiles files;
+  files.reads("MESH", options.mesh);
+  for (const std::string& field : request.fields) files.reads_of_field(field);
+  if (!request.reference_field.empty()) files.reads_of_field(request.reference_field);
+  write_table(files, options.output).check();
   TableTarget target(options.output);
 
   const Stopwatch load_watch;
@@ -109,7 +115,7 @@ void add_stability(CLI::App& app, Invocation& invocation) {
   CLI::App& command = *app.add_subcommand(
       "stability",
       "How well critical points repeat on perturbed surfaces: with noise, with fewer vertices, with more");
-  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_option("MESH", options->mesh, kMeshHelp)->check(names_file())->required();
   command.add_option("--field", request.fields, "Morse function (below); may be given several times")
       ->type_name("F")
       ->allow_extra_args(false)
@@ -146,6 +152,7 @@ void add_stability(CLI::App& app, Invocation& invocation) {
           "Write every trial (.json) or a row for each method and perturbation (.csv) here; - is JSON\n"
           "on standard output. Should it be interrupted, OUT.journal holds the trials that are done, and\n"
           "the same command goes on from there")
+      ->check(names_file())
       ->type_name("OUT");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

@@ -1,6 +1,5 @@
 // morsel sweep: a field and a method with every combination of some parameters' values.
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,14 +9,15 @@
 #include <vector>
 
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/commands/table_target.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/plot/plot_files.h"
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/row_journal.h"
 #include "morsel/tools/report/sweep_writer.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 namespace {
@@ -29,30 +29,36 @@ struct Options {
   std::string figure_folder;
 };
 
-std::vector<HashedFile> files_of(const PreparedSweep& prepared) {
+std::vector<std::string> fields_of(const PreparedSweep& prepared) {
   std::set<std::string> fields;
   for (const Combination& combination : prepared.combinations) fields.insert(to_string(combination.field));
-  return input_files({fields.begin(), fields.end()});
+  return {fields.begin(), fields.end()};
 }
 
-std::vector<plot::NamedPlot> plots_of(const SweepReport& report, const std::string& folder) {
+std::vector<plot::NamedPlot> plots_of(const SweepReport& report) {
   std::vector<plot::NamedPlot> plots;
   for (std::size_t k = 0; k < report.prepared.variations.size(); ++k)
     if (std::optional<plot::Plot> plot = plot::sweep_plot(report.prepared, report.rows, k))
-      plots.emplace_back(std::filesystem::path(folder) / report.prepared.variations[k].key, std::move(*plot));
+      plots.emplace_back(report.prepared.variations[k].key, std::move(*plot));
   return plots;
 }
 
 int sweep(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
   const PreparedSweep prepared = prepare(options.request);
+  RunFiles named;
+  named.reads("MESH", options.mesh);
+  for (const std::string& field : fields_of(prepared)) named.reads_of_field(field);
+  write_table(named, options.output).fills("--figures", options.figure_folder).check();
+  std::optional<ResultFolder> figures;
+  if (!options.figure_folder.empty())
+    figures.emplace(options.figure_folder, ResultFolder::Options{named.outputs(), console.stop_token()});
   TableTarget target(options.output);
-  if (!options.figure_folder.empty()) make_writable_folder(options.figure_folder);
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const ReportInput about{options.mesh, input.sha256, common.repair, true, load_watch.seconds()};
-  const std::vector<HashedFile> files = files_of(prepared);
+  const std::vector<HashedFile> files = input_files(fields_of(prepared));
   std::optional<RowJournal> done;
   if (Journal* journal = target.open_journal(rows_key(about, files))) {
     done.emplace(*journal, prepared);
@@ -68,11 +74,11 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   const SweepReport report{input.loaded, about, options.request, prepared, rows};
   target.write([&](JsonSink& json) { write_sweep(json, report); },
                [&](std::ostream& out) { write_sweep_csv(out, report); });
-  if (!options.figure_folder.empty()) {
+  if (figures) {
     std::vector<HashedFile> inputs = {{options.mesh, input.sha256}};
     inputs.insert(inputs.end(), files.begin(), files.end());
     plot::write_plots(
-        plots_of(report, options.figure_folder),
+        *figures, plots_of(report),
         Provenance(common.command, request_section(options.request, prepared, common.repair), inputs));
   }
   if (!target.is_stdout()) std::cout << sweep_table(report);
@@ -87,7 +93,7 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
   auto options = std::make_shared<Options>();
   CLI::App& command = *app.add_subcommand(
       "sweep", "How the numbers of critical points depend on parameters: every combination of their values");
-  command.add_option("MESH", options->mesh, kMeshHelp)->required();
+  command.add_option("MESH", options->mesh, kMeshHelp)->check(names_file())->required();
   command.add_option("--field", options->request.field, "Morse function (below)")
       ->type_name("F")
       ->capture_default_str();
@@ -109,10 +115,12 @@ void add_sweep(CLI::App& app, Invocation& invocation) {
                   "Write a row for each combination (.json or .csv) here; - is JSON on standard output.\n"
                   "Should it be interrupted, OUT.journal holds what is done, and the same command goes on\n"
                   "from there")
+      ->check(names_file())
       ->type_name("OUT");
   command
       .add_option("--figures", options->figure_folder,
                   "Write a plot of critical points against each varied parameter (.svg and .png) here")
+      ->check(names_file())
       ->type_name("DIR");
   add_common_options(command, invocation.common);
   command.footer(specification_help());

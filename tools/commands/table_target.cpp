@@ -7,6 +7,17 @@
 
 namespace morsel::tools {
 
+namespace {
+
+std::string journal_path(const std::string& path) { return path + ".journal"; }
+
+}  // namespace
+
+RunFiles& write_table(RunFiles& files, const std::string& path) {
+  if (path.empty() || path == "-") return files;
+  return files.writes("-o", path).writes("the journal of -o", journal_path(path));
+}
+
 TableTarget::TableTarget(const std::string& path) : path_(path) {
   if (path.empty() || is_stdout()) return;
   const std::string extension = core::file_extension(path);
@@ -17,7 +28,7 @@ TableTarget::TableTarget(const std::string& path) : path_(path) {
 }
 
 Journal* TableTarget::open_journal(const Json& key) {
-  if (file_) journal_.emplace(path_ + ".journal", key);
+  if (file_) journal_.emplace(journal_path(path_), key);
   return journal_ ? &*journal_ : nullptr;
 }
 

@@ -7,10 +7,14 @@
 #include <string>
 
 #include "morsel/core/file_writer.h"
+#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/report/journal.h"
 #include "morsel/tools/report/json_stream.h"
 
 namespace morsel::tools {
+
+/// Adds what a TableTarget at this path writes.
+RunFiles& write_table(RunFiles& files, const std::string& path);
 
 /// To be made before the work, so that a file that cannot be written is told then.
 class TableTarget {

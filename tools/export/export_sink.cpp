@@ -48,10 +48,8 @@ void write_points(const std::filesystem::path& path, const core::LoadedMesh& loa
 
 }  // namespace
 
-ExportSink::ExportSink(std::filesystem::path folder, const core::LoadedMesh& loaded, Provenance provenance)
-    : folder_(std::move(folder)), loaded_(loaded), provenance_(std::move(provenance)) {
-  make_folder(folder_);
-}
+ExportSink::ExportSink(ResultFolder& folder, const core::LoadedMesh& loaded, Provenance provenance)
+    : folder_(folder), loaded_(loaded), provenance_(std::move(provenance)) {}
 
 void ExportSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
@@ -60,7 +58,6 @@ void ExportSink::field(const FieldOutcome& outcome) {
 
 void ExportSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
-  const std::filesystem::path base = folder_ / name;
   const std::vector<double> persistence =
       persistence::vertex_persistence(outcome.measurement.diagram, loaded_.mesh.vertex_count());
   const Measurement& m = outcome.measurement;
@@ -70,9 +67,9 @@ void ExportSink::method(const MethodOutcome& outcome) {
   const SurfaceFile surface{loaded_, field_name_, outcome.field, types, persistence, m.segmentation};
   const Provenance provenance = provenance_.with_method(outcome.steps);
   const std::array<std::function<void()>, 3> writers = {
-      [&] { write_surface_file(base.string() + ".surface.vtp", surface, provenance); },
-      [&] { write_complex_file(base.string() + ".complex.vtp", loaded_, m.complex, provenance); },
-      [&] { write_points(base.string() + ".points.csv", loaded_, outcome, persistence, provenance); }};
+      [&] { write_surface_file(folder_.claim(name + ".surface.vtp"), surface, provenance); },
+      [&] { write_complex_file(folder_.claim(name + ".complex.vtp"), loaded_, m.complex, provenance); },
+      [&] { write_points(folder_.claim(name + ".points.csv"), loaded_, outcome, persistence, provenance); }};
   core::parallel_for(0, writers.size(), 1, [&](std::size_t i, std::size_t) { writers[i](); });
 }
 

@@ -1,16 +1,16 @@
 #pragma once
 /// The files of `morsel compare --export`.
 
-#include <filesystem>
 #include <string>
 
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 
-/// Writes, per method, into one folder (made if it is not there):
+/// Writes, per method, into one folder:
 ///   NAME.surface.vtp  the surface with the field, critical types and segment labels as arrays
 ///   NAME.complex.vtp  the nodes and arcs of the Morse-Smale complex
 ///   NAME.points.csv   the critical points; column `provenance` has a text in the first row alone
@@ -18,13 +18,13 @@ namespace morsel::tools {
 /// NAME is the method's; a second method of the same name gets "-2", and so on.
 class ExportSink : public ComparisonSink {
  public:
-  /// Throws WriteFailed if the folder cannot be made. Refers to `loaded`.
-  ExportSink(std::filesystem::path folder, const core::LoadedMesh& loaded, Provenance provenance);
+  /// Refers to `folder` and `loaded`.
+  ExportSink(ResultFolder& folder, const core::LoadedMesh& loaded, Provenance provenance);
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
 
  private:
-  std::filesystem::path folder_;
+  ResultFolder& folder_;
   const core::LoadedMesh& loaded_;
   Provenance provenance_;
   std::string field_name_;

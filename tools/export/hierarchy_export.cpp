@@ -7,7 +7,6 @@
 
 #include "morsel/core/parallel.h"
 #include "morsel/tools/export/complex_file.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/export/surface_file.h"
 
 namespace morsel::tools {
@@ -26,11 +25,8 @@ VtpArray linked_cells(std::string name, const std::vector<Index>& labels,
 
 }  // namespace
 
-HierarchyExport::HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded,
-                                 Provenance provenance)
-    : folder_(std::move(folder)), loaded_(loaded), provenance_(std::move(provenance)) {
-  make_folder(folder_);
-}
+HierarchyExport::HierarchyExport(ResultFolder& folder, const core::LoadedMesh& loaded, Provenance provenance)
+    : folder_(folder), loaded_(loaded), provenance_(std::move(provenance)) {}
 
 void HierarchyExport::begin(const HierarchyBasis& basis) {
   field_name_ = basis.made.input.name;
@@ -44,9 +40,9 @@ void HierarchyExport::level(const Level& level) {
   provenance.set("level", {{"place", level.place}, {"asked", level.name.asked}});
   core::parallel_for(0, 2, 1, [&](std::size_t i, std::size_t) {
     if (i == 0)
-      write_surface(folder_ / ("surface." + place + ".vtp"), level, provenance);
+      write_surface(folder_.claim("surface." + place + ".vtp"), level, provenance);
     else
-      write_complex(folder_ / ("complex." + place + ".vtp"), level, provenance);
+      write_complex(folder_.claim("complex." + place + ".vtp"), level, provenance);
   });
 }
 

@@ -6,18 +6,19 @@
 
 #include "morsel/tools/hierarchy/hierarchy.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 
-/// Writes, per level, into one folder (made if it is not there):
+/// Writes, per level, into one folder:
 ///   surface.K.vtp  the surface as surface_file.h's, and per triangle, for each kind of cell, KIND_parent and
 ///                  KIND_merges_into: the label of the cell of the level before and after that its cell is linked to
 ///   complex.K.vtp  the complex as complex_file.h's, and per node `parent`, the vertex of its critical point's parent
 /// K is the level's place, 0 the finest, so that ParaView opens each kind as a series; −1 stands where there is no link.
 class HierarchyExport : public HierarchySink {
  public:
-  /// Throws WriteFailed if the folder cannot be made. Refers to `loaded`.
-  HierarchyExport(std::filesystem::path folder, const core::LoadedMesh& loaded, Provenance provenance);
+  /// Refers to `folder` and `loaded`.
+  HierarchyExport(ResultFolder& folder, const core::LoadedMesh& loaded, Provenance provenance);
   void begin(const HierarchyBasis& basis) override;
   void level(const Level& level) override;
 
@@ -27,7 +28,7 @@ class HierarchyExport : public HierarchySink {
   void write_complex(const std::filesystem::path& path, const Level& level,
                      const Provenance& provenance) const;
 
-  std::filesystem::path folder_;
+  ResultFolder& folder_;
   const core::LoadedMesh& loaded_;
   Provenance provenance_;
   std::string field_name_;

@@ -15,17 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_of(const fs::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension == ".ply" || extension == ".vtp") return {path};
-  if (extension != ".txt")
-    throw core::InvalidArgument("labels are written as .ply, .vtp or .txt, not as \"" + path.string() + "\"");
-  fs::path base = path;
-  base.replace_extension();
-  return {base.string() + ".vertices" + path.extension().string(),
-          base.string() + ".faces" + path.extension().string()};
-}
-
 std::vector<std::int32_t> by_input_vertex(std::span<const core::Index> label,
                                           const core::VertexNumbering& numbering) {
   std::vector<std::int32_t> result(numbering.input_count);
@@ -49,8 +38,19 @@ void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, c
 
 }  // namespace
 
+std::vector<fs::path> label_files(const fs::path& path) {
+  const std::string extension = core::file_extension(path);
+  if (extension == ".ply" || extension == ".vtp") return {path};
+  if (extension != ".txt")
+    throw core::InvalidArgument("labels are written as .ply, .vtp or .txt, not as \"" + path.string() + "\"");
+  fs::path base = path;
+  base.replace_extension();
+  return {base.string() + ".vertices" + path.extension().string(),
+          base.string() + ".faces" + path.extension().string()};
+}
+
 std::vector<fs::path> check_label_path(const fs::path& path) {
-  const std::vector<fs::path> files = files_of(path);
+  const std::vector<fs::path> files = label_files(path);
   for (const fs::path& file : files) const core::FileWriter target(file);
   return files;
 }
@@ -59,7 +59,7 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
                                    const std::string& field_name, const core::VertexNumbering& numbering,
                                    std::span<const core::Point> input_positions,
                                    const Provenance& provenance) {
-  const std::vector<fs::path> files = files_of(path);
+  const std::vector<fs::path> files = label_files(path);
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
   const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
   if (files.size() == 2) {

@@ -33,8 +33,10 @@ std::vector<std::filesystem::path> write_labels(const std::filesystem::path& pat
                                                 std::span<const core::Point> input_positions,
                                                 const Provenance& provenance);
 
-/// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending, and WriteFailed
-/// unless they can be written; to be asked before long work.
+/// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending.
+std::vector<std::filesystem::path> label_files(const std::filesystem::path& path);
+
+/// The same; throws WriteFailed, too, unless they can be written: to be asked before long work.
 std::vector<std::filesystem::path> check_label_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

@@ -6,15 +6,15 @@
 
 namespace morsel::tools::plot {
 
-void write_plots(std::vector<NamedPlot> plots, const Provenance& provenance) {
+void write_plots(ResultFolder& folder, std::vector<NamedPlot> plots, const Provenance& provenance) {
   for (NamedPlot& plot : plots) plot.second.metadata = provenance.json();
   core::parallel_for(0, 2 * plots.size(), 1, [&](std::size_t i, std::size_t) {
-    const auto& [base, plot] = plots[i / 2];
+    const auto& [name, plot] = plots[i / 2];
     constexpr double kPixelsAPoint = 300. / 72;
     if (i % 2 == 0)
-      write_svg(base.string() + ".svg", plot);
+      write_svg(folder.claim(name + ".svg"), plot);
     else
-      write_png(base.string() + ".png", plot, static_cast<int>(std::lround(plot.width * kPixelsAPoint)));
+      write_png(folder.claim(name + ".png"), plot, static_cast<int>(std::lround(plot.width * kPixelsAPoint)));
   });
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// The plots of `morsel compare --figures`.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,10 +8,11 @@
 #include "morsel/tools/export/folder.h"
 #include "morsel/tools/plot/comparison_plots.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 
-/// Writes into one folder (made if it is not there), each as .svg and as .png of 300 pixels an inch:
+/// Writes into one folder, each as .svg and as .png of 300 pixels an inch:
 ///   NAME.diagram  the method's persistence diagram
 ///   diagrams      those of all methods, with the same axes
 ///   persistence   how many pairs are how persistent, a line a method
@@ -20,15 +20,15 @@ namespace morsel::tools {
 /// NAME is the method's; a second method of the same name gets "-2", and so on. Keeps 24 bytes a pair and method.
 class PlotSink : public ComparisonSink {
  public:
-  /// Throws WriteFailed if the folder cannot be made.
-  PlotSink(std::filesystem::path folder, Provenance provenance);
+  /// Refers to `folder`.
+  PlotSink(ResultFolder& folder, Provenance provenance);
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
   /// Writes what shows all methods. To be called once, at the end.
   void finish();
 
  private:
-  std::filesystem::path folder_;
+  ResultFolder& folder_;
   Provenance provenance_;  // without methods
   Provenance all_;         // with all that came by
   std::string field_;

@@ -14,9 +14,9 @@ constexpr std::size_t kFullPanels = 12;       // beyond, a sheet's are halved
 
 }  // namespace
 
-FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera,
-                       Size size, Provenance provenance, core::Progress progress)
-    : folder_(std::move(folder)),
+FigureSink::FigureSink(ResultFolder& folder, const core::LoadedMesh& loaded, CameraText camera, Size size,
+                       Provenance provenance, core::Progress progress)
+    : folder_(folder),
       loaded_(loaded),
       camera_(std::move(camera)),
       provenance_(std::move(provenance)),
@@ -26,7 +26,6 @@ FigureSink::FigureSink(std::filesystem::path folder, const core::LoadedMesh& loa
   request_.size = size;
   check_size(size);
   if (!camera_.inset.empty()) request_.inset = find_inset(parse_inset(camera_.inset), loaded_);
-  make_folder(folder_);
 }
 
 void FigureSink::field(const FieldOutcome& outcome) {
@@ -62,8 +61,8 @@ void FigureSink::finish() {
 }
 
 void FigureSink::write(const std::string& name, const Image& image, const Provenance& provenance) const {
-  core::write_file(folder_ / (name + ".png"), drawing::with_png_comment(encode_png(image), provenance.json()),
-                   core::Sync::never);
+  core::write_file(folder_.claim(name + ".png"),
+                   drawing::with_png_comment(encode_png(image), provenance.json()), core::Sync::never);
 }
 
 }  // namespace morsel::tools::render

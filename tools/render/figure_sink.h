@@ -1,7 +1,6 @@
 #pragma once
 /// The pictures of `morsel compare --figures`.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +11,11 @@
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/render/sheet.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools::render {
 
-/// Writes, into one folder (made if it is not there):
+/// Writes, into one folder:
 ///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's arcs where there
 ///              are no more than 500 points; all from the same side, each with its own colours' range
 ///   sheet.png  these side by side, with captions (method, counts)
@@ -23,9 +23,8 @@ namespace morsel::tools::render {
 /// made it.
 class FigureSink : public ComparisonSink {
  public:
-  /// Throws WriteFailed if the folder cannot be made, InvalidArgument on a wrong view or inset, or an impossible size. Refers to
-  /// `loaded`.
-  FigureSink(std::filesystem::path folder, const core::LoadedMesh& loaded, CameraText camera, Size size,
+  /// Throws InvalidArgument on a wrong view or inset, or an impossible size. Refers to `folder` and `loaded`.
+  FigureSink(ResultFolder& folder, const core::LoadedMesh& loaded, CameraText camera, Size size,
              Provenance provenance, core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
@@ -35,7 +34,7 @@ class FigureSink : public ComparisonSink {
  private:
   void write(const std::string& name, const Image& image, const Provenance& provenance) const;
 
-  std::filesystem::path folder_;
+  ResultFolder& folder_;
   const core::LoadedMesh& loaded_;
   CameraText camera_;
   Provenance provenance_;  // without methods

@@ -7,6 +7,10 @@
 
 namespace morsel::tools::render {
 
+std::filesystem::path thumbnail_path(const std::filesystem::path& prefix, const std::string& which) {
+  return prefix.string() + "." + which + ".png";
+}
+
 ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
                              const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress)
     : prefix_(std::move(prefix)),
@@ -16,7 +20,7 @@ ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, 
       provenance_(std::move(provenance)),
       progress_(std::move(progress)) {
   camera_.check();
-  const core::FileWriter probe(path("first"));
+  const core::FileWriter probe(thumbnail_path(prefix_, "first"));
 }
 
 void ThumbnailSink::field(const FieldOutcome& outcome) {
@@ -36,12 +40,8 @@ void ThumbnailSink::method(const MethodOutcome& outcome) {
   provenance.set("picture", picture_section(request, camera_, "", loaded_.source.numbering));
   const Image image = studio_->take(view_, subject_of(outcome, field_name_), request, progress_);
   const std::string bytes = drawing::with_png_comment(encode_png(image), provenance.json());
-  if (seen_ == 1) core::write_file(path("first"), bytes);
-  if (seen_ == methods_) core::write_file(path("last"), bytes);
-}
-
-std::filesystem::path ThumbnailSink::path(const char* which) const {
-  return prefix_.string() + "." + which + ".png";
+  if (seen_ == 1) core::write_file(thumbnail_path(prefix_, "first"), bytes);
+  if (seen_ == methods_) core::write_file(thumbnail_path(prefix_, "last"), bytes);
 }
 
 }  // namespace morsel::tools::render

@@ -13,6 +13,9 @@
 
 namespace morsel::tools::render {
 
+/// PREFIX.first.png or PREFIX.last.png
+std::filesystem::path thumbnail_path(const std::filesystem::path& prefix, const std::string& which);
+
 /// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface coloured by the method's field, with its critical points. Of a
 /// single method both are there, and equal.
 class ThumbnailSink : public ComparisonSink {
@@ -25,8 +28,6 @@ class ThumbnailSink : public ComparisonSink {
   void method(const MethodOutcome& outcome) override;
 
  private:
-  std::filesystem::path path(const char* which) const;
-
   std::filesystem::path prefix_;
   std::size_t methods_;
   std::size_t seen_ = 0;

@@ -2,21 +2,30 @@
 
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "morsel/core/specification.h"
 #include "morsel/tools/registry/registry.h"
 
 namespace morsel::tools {
 
+std::vector<std::pair<std::string, std::string>> named_files(const std::string& field) {
+  std::vector<std::pair<std::string, std::string>> files;
+  const std::string file_key = make_function(field).file_key;
+  const core::Specification specification = core::parse_specification(field, "--field");
+  for (const auto& [key, raw] : specification.given)
+    if (key == file_key) files.emplace_back("--field " + specification.name + ":" + key, core::unescape(raw));
+  return files;
+}
+
 std::vector<HashedFile> input_files(const std::vector<std::string>& fields) {
   std::map<std::string, std::string> hashes;
-  for (const std::string& field : fields) {
-    const std::string file_key = make_function(field).file_key;
-    for (const auto& [key, raw] : core::parse_specification(field, "--field").given)
-      if (const std::string value = core::unescape(raw);
-          key == file_key && !hashes.contains(value) && std::filesystem::is_regular_file(value))
-        hashes[value] = sha256_of_file(value);
-  }
+  for (const std::string& field : fields)
+    for (const auto& [key, path] : named_files(field)) {
+      std::error_code error;  // then the function has more to tell
+      if (!hashes.contains(path) && std::filesystem::is_regular_file(path, error))
+        hashes[path] = sha256_of_file(path);
+    }
   std::vector<HashedFile> files;
   files.reserve(hashes.size());
   for (const auto& [path, hash] : hashes) files.push_back({path, hash});

@@ -2,12 +2,17 @@
 /// The files besides the mesh that a run reads.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "morsel/tools/report/json_stream.h"
 #include "morsel/tools/report/sha256.h"
 
 namespace morsel::tools {
+
+/// The files that keys of a Morse function, in the words of the command line, name: "--field NAME:KEY" and the path. Throws
+/// InvalidArgument as make_function().
+std::vector<std::pair<std::string, std::string>> named_files(const std::string& field);
 
 /// Each file that these Morse functions, in the words of the command line, are to read, by path; not one that is missing, of which
 /// the function has more to tell. Throws InvalidArgument as make_function(), BadInput on one that cannot be read.

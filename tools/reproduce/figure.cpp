@@ -163,8 +163,7 @@ std::string panel_png(const render::Image& image, const PanelOutcome& panel, con
 }  // namespace
 
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
-                          const std::filesystem::path& folder, Provenance provenance,
-                          const core::Progress& progress) {
+                          ResultFolder& folder, Provenance provenance, const core::Progress& progress) {
   const std::string name = "figure" + std::to_string(recipe.number);
   FigureOutcome figure{&recipe, &model, name + ".png", {}, {}, {}, {}};
   SharedScales scales;
@@ -208,7 +207,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
         render::quantity_of(std::string(kField), panel.run->recipe.chain.steps.back().name), ""};
     render::Image image = model.studio().take(view, subject, request, progress);
     panel.png = panel_png(image, panel, model, options, request);
-    core::write_file(folder / panel.file, panel.png, core::Sync::never);
+    core::write_file(folder.claim(panel.file), panel.png, core::Sync::never);
     provenance.add_method(panel.run->made.outcome.steps);
     sheet.push_back({std::move(image), panel.caption});
   }
@@ -217,7 +216,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
                             ": " + model.file().path.filename().string();
   provenance.set_field(figure.panels.front().run->made.input);
   core::write_file(
-      folder / figure.file,
+      folder.claim(figure.file),
       drawing::with_png_comment(render::encode_png(render::make_sheet(sheet, title)), provenance.json()),
       core::Sync::never);
   return figure;

@@ -1,12 +1,11 @@
 #pragma once
 /// Makes one figure: its panels, each as `morsel render` would, and the sheet that shows them side by side.
 
-#include <filesystem>
-
 #include "morsel/core/progress.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/reproduce/outcome.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools::reproduce {
 
@@ -21,7 +20,6 @@ struct PictureOptions {
 /// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods, pictures and
 /// files throw. `provenance`: of the figure, without field and methods; each panel has its own.
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
-                          const std::filesystem::path& folder, Provenance provenance,
-                          const core::Progress& progress = {});
+                          ResultFolder& folder, Provenance provenance, const core::Progress& progress = {});
 
 }  // namespace morsel::tools::reproduce

@@ -5,7 +5,6 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/export/folder.h"
 #include "morsel/tools/reproduce/document.h"
 #include "morsel/tools/reproduce/page.h"
 #include "morsel/tools/reproduce/table.h"
@@ -75,10 +74,9 @@ Prepared prepare(const Request& request) {
 }
 
 Reproduction run(const Prepared& prepared, const core::Progress& progress) {
-  const std::filesystem::path& folder = prepared.request.folder;
-  make_folder(folder);
-  core::FileWriter csv(folder / "table1.csv"), json_file(folder / "reproduction.json"),
-      page(folder / "index.html");
+  ResultFolder folder(prepared.request.folder);
+  core::FileWriter csv(folder.claim("table1.csv")), json_file(folder.claim("reproduction.json")),
+      page(folder.claim("index.html"));
 
   Reproduction reproduction;
   const Stopwatch total;

@@ -1,0 +1,74 @@
+#include "morsel/tools/commands/output_check.h"
+
+#include "morsel/core/error.h"
+#include "morsel/tools/report/input_files.h"
+#include "morsel/tools/results/file_list.h"
+
+namespace morsel::tools {
+
+void RunFiles::add(std::vector<Named>& list, const std::string& option, const std::filesystem::path& path) {
+  if (!path.empty()) list.push_back({option, path, file_place(path)});
+}
+
+RunFiles& RunFiles::reads(const std::string& option, const std::filesystem::path& file) {
+  add(inputs_, option, file);
+  return *this;
+}
+
+RunFiles& RunFiles::reads_of_field(const std::string& specification) {
+  for (const auto& [key, file] : named_files(specification)) add(inputs_, key, file);
+  return *this;
+}
+
+RunFiles& RunFiles::reads_folder(const std::string& option, const std::filesystem::path& folder) {
+  add(input_folders_, option, folder);
+  return *this;
+}
+
+RunFiles& RunFiles::writes(const std::string& option, const std::filesystem::path& file) {
+  add(outputs_, option, file);
+  return *this;
+}
+
+RunFiles& RunFiles::writes_document(const std::string& option, const std::filesystem::path& file) {
+  return file == "-" ? *this : writes(option, file);
+}
+
+RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path& folder) {
+  add(folders_, option, folder);
+  return *this;
+}
+
+void RunFiles::check() const {
+  std::vector<Named> all = outputs_;
+  all.insert(all.end(), folders_.begin(), folders_.end());
+  for (const Named& output : outputs_)
+    if (output.path.filename() == FileList::kName)
+      throw core::InvalidArgument(output.text() +
+                                  " is the list of files of a folder of results; it is not written to");
+  for (const Named& output : all)
+    for (const Named& input : inputs_)
+      if (output.place == input.place && !output.place.is_device)
+        throw core::InvalidArgument("the output " + output.text() + " is the file that is read as " +
+                                    input.text() + "; give another name");
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j)
+      if (all[i].place == all[j].place && !all[i].place.is_device &&
+          !(all[i].place.is_system && all[j].place.is_system))
+        throw core::InvalidArgument("the outputs " + all[i].text() + " and " + all[j].text() +
+                                    " are one file; give another name");
+  for (const Named& folder : folders_)
+    for (const Named& input : input_folders_)
+      if (is_in(folder.path, input.path) || is_in(input.path, folder.path))
+        throw core::InvalidArgument(
+            "the folder of results " + folder.text() + " and " + input.text() +
+            ", which is read, are one or lie in one another; choose a folder elsewhere");
+}
+
+std::vector<std::filesystem::path> RunFiles::outputs() const {
+  std::vector<std::filesystem::path> paths;
+  for (const Named& output : outputs_) paths.push_back(output.path);
+  return paths;
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,45 @@
+#pragma once
+/// What a command reads and writes, and whether it may: asked before any work.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "morsel/tools/results/file_place.h"
+
+namespace morsel::tools {
+
+/// Every file and folder that the command line names, with the option that does ("-o", "MESH"). Empty paths, and "-" for a
+/// document, stand for none.
+class RunFiles {
+ public:
+  RunFiles& reads(const std::string& option, const std::filesystem::path& file);
+  /// The files that keys of a Morse function name.
+  RunFiles& reads_of_field(const std::string& specification);
+  RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
+  RunFiles& writes(const std::string& option, const std::filesystem::path& file);
+  RunFiles& writes_document(const std::string& option, const std::filesystem::path& file);
+  /// A folder of results (result_folder.h).
+  RunFiles& fills(const std::string& option, const std::filesystem::path& folder);
+
+  /// Throws InvalidArgument where an output is an input, or another output, by identity of the file (file_place.h); and where
+  /// a folder that is read and one that is filled lie in one another. Devices and pipes may be named any number of times;
+  /// two options may fill one folder, and an output file may lie in it.
+  void check() const;
+
+  /// Those of writes().
+  std::vector<std::filesystem::path> outputs() const;
+
+ private:
+  struct Named {
+    std::string option;
+    std::filesystem::path path;
+    FilePlace place;
+    std::string text() const { return option + " " + path.string(); }
+  };
+  static void add(std::vector<Named>& list, const std::string& option, const std::filesystem::path& path);
+
+  std::vector<Named> inputs_, input_folders_, outputs_, folders_;
+};
+
+}  // namespace morsel::tools

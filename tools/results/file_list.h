@@ -1,0 +1,64 @@
+#pragma once
+/// The mark of a folder of results: the list of what was made in it.
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "morsel/tools/results/descriptor.h"
+
+namespace morsel::tools {
+
+/// A file .morsel-results: a line {"schema":"morsel.results/1"}, then a line for each change: "+PATH" before a file or
+/// work folder appears, "-PATH" after it was removed. Paths are relative to the folder and written as URLs have them (%0A
+/// for a line break); those of work folders end with "/". Lines are appended only, so that any number of files cost the same
+/// each; one that was cut off by the end of a process is no line.
+///
+/// What is read is as anybody may have written it: see read(). All but lock() and unlock() only while it is locked.
+class FileList {
+ public:
+  static constexpr const char* kName = ".morsel-results";
+
+  /// Opens the file in the open folder, which messages call `shown`; one that is missing is made after `before_making` was
+  /// called, which may throw. Throws BadInput if something else has its name, WriteFailed where it cannot be written.
+  FileList(int folder, std::filesystem::path shown, const std::stop_token& stop,
+           const std::function<void()>& before_making);
+
+  /// Waits, up to half a minute, while another run has it, then reads what is new. Locks nothing on a file system without
+  /// locks. Throws WriteFailed after that time, Cancelled when told to stop, BadInput on a file with another first line,
+  /// with a path that is absolute, not normal or has "..", or of more than 256 MiB.
+  void lock(const std::stop_token& stop);
+  void unlock() noexcept;
+
+  /// Those that are listed now, in order.
+  const std::set<std::string, std::less<>>& entries() const { return entries_; }
+  bool has(std::string_view entry) const { return entries_.find(entry) != entries_.end(); }
+  /// Throws WriteFailed.
+  void add(const std::string& entry);
+  void remove(const std::string& entry);
+
+ private:
+  void begin(int folder, const std::function<void()>& before_making);
+  void read();
+  void take_line(std::string_view line);
+  void append(const std::string& line);
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+  std::filesystem::path path_;
+  Descriptor file_;
+  std::size_t read_ = 0;  // bytes, of whole lines
+  std::size_t lines_ = 0;
+  bool has_rest_ = false;  // of a line that was cut off
+  std::set<std::string, std::less<>> entries_;
+};
+
+/// A path as URLs have it: bytes that one does not hold as they are become %XX.
+std::string path_text(std::string_view path);
+/// Whether the path can be that of a file in the folder: relative, normal, without ".." and not the list itself.
+bool is_path_inside(std::string_view path);
+
+}  // namespace morsel::tools

@@ -1,0 +1,105 @@
+#pragma once
+/// A folder that the program fills: what it made there is known, and nothing else is touched.
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "morsel/tools/results/descriptor.h"
+#include "morsel/tools/results/file_list.h"
+#include "morsel/tools/results/file_place.h"
+
+namespace morsel::tools {
+
+/// A folder with a list of the files that were made in it (file_list.h). What is listed may be replaced and removed, and
+/// nothing else: a file of somebody else in the place of a result is refused, and no symbolic link below the folder is
+/// followed. The folder itself may be reached through links. Runs may share a folder, as may objects of one run.
+///
+/// Paths are relative to the folder, normal and without ".."; all functions may be called from several threads at once.
+class ResultFolder {
+ public:
+  struct Options {
+    std::vector<std::filesystem::path>
+        taken;             ///< the run's other outputs, which are not for the folder to replace
+    std::stop_token stop;  ///< ends waiting for another run
+  };
+
+  /// A folder that is missing is made, an empty one gets a list. Throws InvalidArgument, a sentence that says what to do,
+  /// on any other without one, BadInput on a damaged list, WriteFailed where the folder cannot be made or written into.
+  explicit ResultFolder(std::filesystem::path path) : ResultFolder(std::move(path), Options()) {}
+  ResultFolder(std::filesystem::path path, Options options);
+  /// Throws InvalidArgument as the constructor would; makes nothing.
+  static void check(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// The path to write a file to, which is listed from now on; the folders that it is in are made. Throws WriteFailed if
+  /// something that is not listed, or no file, has its place, or it is one of the outputs `taken`.
+  std::filesystem::path claim(const std::filesystem::path& file);
+  /// Throws as claim(), and makes nothing.
+  void check_free(const std::filesystem::path& file);
+  /// Throws WriteFailed where there could not be a folder: something else, or a link, is in its place.
+  void check_folder(const std::filesystem::path& folder);
+
+  /// While it lives, other runs wait before they list, move or remove anything here.
+  class Hold {
+   public:
+    explicit Hold(ResultFolder& folder);
+    ~Hold();
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+
+   private:
+    ResultFolder& folder_;
+  };
+
+  /// Moves what was made in a work folder to its place, as claim() has it.
+  void move(const std::filesystem::path& made, const std::filesystem::path& file);
+  /// Removes a file, and folders that it leaves empty, if it is listed. Throws WriteFailed.
+  void remove(const std::filesystem::path& file);
+  /// The listed files in a folder and the folders in it.
+  std::vector<std::string> files_in(const std::filesystem::path& folder);
+
+  /// A new folder in the folder `around`, listed, for files that are not whole yet; locked as long as the object lives, and removed
+  /// with all that is in it when that ends.
+  class Work {
+   public:
+    Work(ResultFolder& folder, std::filesystem::path around);
+    ~Work();
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+
+    const std::filesystem::path& relative() const { return relative_; }
+    std::filesystem::path path() const { return folder_.path() / relative_; }
+
+   private:
+    ResultFolder& folder_;
+    std::filesystem::path relative_;
+    Descriptor lock_;
+  };
+  /// Removes the work folders in `around` that ended processes left. Throws WriteFailed.
+  void remove_left_work(const std::filesystem::path& around);
+  /// Removes a folder in a work folder with all that is in it, as far as that can be done.
+  void remove_work(const std::filesystem::path& relative) noexcept;
+
+ private:
+  /// The folder that a path is in. Not open if it is missing.
+  Descriptor parent_of(const std::filesystem::path& relative, Missing missing) const;
+  void refuse_foreign(const std::filesystem::path& file) const;
+  bool nobody_works_in(const std::filesystem::path& work) const;
+  bool remove_listed_work(const std::filesystem::path& around, const std::string& entry);
+
+  std::filesystem::path path_;
+  std::set<FilePlace> taken_;
+  std::stop_token stop_;
+  Descriptor root_;
+  std::recursive_mutex mutex_;
+  int holds_ = 0;
+  std::optional<FileList> list_;
+};
+
+}  // namespace morsel::tools
