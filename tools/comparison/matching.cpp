@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "morsel/core/neighbors.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::tools {
 namespace {
@@ -34,6 +35,7 @@ class NearestFirst {
         std::tuple<double, std::size_t, Index>;  // distance, reference point, position in `found`
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
     const auto propose = [&](std::size_t i) {
+      core::throw_if_stopped();
       const core::Point& center = mesh_.position(reference_[i].vertex);
       search.within(center, radius_, near);
       Candidate best{radius_, i, core::kNone};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/stop.h"
 #include "morsel/tools/stability/random_stream.h"
 
 namespace morsel::tools {
@@ -148,6 +149,7 @@ core::LoadedMesh decimated(const core::LoadedMesh& clean, double share, std::uin
     for (const Index w : shrinking.neighbors(u)) propose(u, w);
   Index left = mesh.vertex_count();
   while (left > wanted && !queue.empty()) {
+    core::throw_if_stopped();
     const auto [cost, u, w] = queue.top();
     queue.pop();
     if (!shrinking.is_edge(u, w) || !shrinking.can_collapse(u, w)) continue;

@@ -10,6 +10,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parameters.h"
+#include "morsel/core/stop.h"
 
 namespace morsel::tools {
 namespace {
@@ -70,6 +71,7 @@ class Assignment {
     };
     leave(start, 0);
     while (!queue_.empty() && queue_.top().first < best) {
+      core::throw_if_stopped();
       const auto [cost, column] = queue_.top();
       queue_.pop();
       if (cost > distance_[column]) continue;  // was reached more cheaply
@@ -139,6 +141,7 @@ std::vector<PointPair> PointMatcher::match(std::span<const core::Point> other) c
   std::vector<Index> near;
   const auto distance = [&](std::size_t j, Index i) { return (reference_[i] - other[j]).norm(); };
   for (std::size_t j = 0; j < other.size(); ++j) {
+    core::throw_if_stopped();
     search_.within(other[j], radius_, near);
     for (const Index i : near) {
       const double share = radius_ > 0 ? distance(j, i) / radius_ : 0;
