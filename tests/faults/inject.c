@@ -30,7 +30,22 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-enum kind { MEMORY, MAP, OPEN, READ, WRITE, SYNC, NAME, REMOVE, FOLDER, STATUS, THREAD, PROCESS, SIGNAL, KINDS };
+enum kind {
+  MEMORY,
+  MAP,
+  OPEN,
+  READ,
+  WRITE,
+  SYNC,
+  NAME,
+  REMOVE,
+  FOLDER,
+  STATUS,
+  THREAD,
+  PROCESS,
+  SIGNAL,
+  KINDS
+};
 static const char* const names[KINDS] = {"memory", "map",    "open",   "read",   "write",   "sync",  "name",
                                          "remove", "folder", "status", "thread", "process", "signal"};
 
@@ -111,14 +126,16 @@ __attribute__((destructor)) static void end(void) {
 }
 
 // Of a name and a type, the function that the program would have called.
-#define REAL(result, name, ...)                         \
-  static result (*real)(__VA_ARGS__) = NULL;            \
+#define REAL(result, name, ...)              \
+  static result (*real)(__VA_ARGS__) = NULL; \
   if (real == NULL) *(void**)&real = dlsym(RTLD_NEXT, #name)
 
 void* malloc(size_t size) { return fails(MEMORY) ? NULL : __libc_malloc(size); }
 void* calloc(size_t count, size_t size) { return fails(MEMORY) ? NULL : __libc_calloc(count, size); }
 void* realloc(void* memory, size_t size) { return fails(MEMORY) ? NULL : __libc_realloc(memory, size); }
-void* memalign(size_t alignment, size_t size) { return fails(MEMORY) ? NULL : __libc_memalign(alignment, size); }
+void* memalign(size_t alignment, size_t size) {
+  return fails(MEMORY) ? NULL : __libc_memalign(alignment, size);
+}
 void* aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
 int posix_memalign(void** result, size_t alignment, size_t size) {
   void* const memory = memalign(alignment, size);
@@ -144,25 +161,25 @@ static int open_fails(int flags) {
 static mode_t mode_of(int flags, va_list arguments) {
   return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(arguments, mode_t) : 0;
 }
-#define OPEN_FUNCTION(name)                                          \
-  int name(const char* path, int flags, ...) {                       \
-    va_list arguments;                                               \
-    va_start(arguments, flags);                                      \
-    const mode_t mode = mode_of(flags, arguments);                   \
-    va_end(arguments);                                               \
-    if (open_fails(flags)) return -1;                                \
-    return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);    \
+#define OPEN_FUNCTION(name)                                       \
+  int name(const char* path, int flags, ...) {                    \
+    va_list arguments;                                            \
+    va_start(arguments, flags);                                   \
+    const mode_t mode = mode_of(flags, arguments);                \
+    va_end(arguments);                                            \
+    if (open_fails(flags)) return -1;                             \
+    return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode); \
   }
 OPEN_FUNCTION(open)
 OPEN_FUNCTION(open64)
-#define OPENAT_FUNCTION(name)                                        \
-  int name(int folder, const char* path, int flags, ...) {           \
-    va_list arguments;                                               \
-    va_start(arguments, flags);                                      \
-    const mode_t mode = mode_of(flags, arguments);                   \
-    va_end(arguments);                                               \
-    if (open_fails(flags)) return -1;                                \
-    return (int)syscall(SYS_openat, folder, path, flags, mode);      \
+#define OPENAT_FUNCTION(name)                                   \
+  int name(int folder, const char* path, int flags, ...) {      \
+    va_list arguments;                                          \
+    va_start(arguments, flags);                                 \
+    const mode_t mode = mode_of(flags, arguments);              \
+    va_end(arguments);                                          \
+    if (open_fails(flags)) return -1;                           \
+    return (int)syscall(SYS_openat, folder, path, flags, mode); \
   }
 OPENAT_FUNCTION(openat)
 OPENAT_FUNCTION(openat64)
@@ -179,7 +196,9 @@ DIR* opendir(const char* path) {
   return fails(OPEN) ? NULL : real(path);
 }
 
-ssize_t read(int file, void* data, size_t size) { return fails(READ) ? -1 : syscall(SYS_read, file, data, size); }
+ssize_t read(int file, void* data, size_t size) {
+  return fails(READ) ? -1 : syscall(SYS_read, file, data, size);
+}
 ssize_t pread(int file, void* data, size_t size, off_t offset) {
   return fails(READ) ? -1 : syscall(SYS_pread64, file, data, size, offset);
 }
@@ -260,7 +279,8 @@ int fstat(int file, struct stat* status) {
   return fails(STATUS) ? -1 : real(file, status);
 }
 
-int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*body)(void*), void* argument) {
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*body)(void*),
+                   void* argument) {
   REAL(int, pthread_create, pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
   return fails(THREAD) ? code : real(thread, attributes, body, argument);
 }
