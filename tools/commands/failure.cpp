@@ -190,9 +190,12 @@ int tell_failure() noexcept {
 }
 
 void begin_main() noexcept {
-  for (const int signal : kCrashes)
-    if (const auto handler = std::signal(signal, SIG_DFL); handler != end_at_start)
-      static_cast<void>(std::signal(signal, handler));
+  for (const int signal : kCrashes) {
+    struct sigaction now {};
+    if (sigaction(signal, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
+        now.sa_handler == end_at_start)
+      static_cast<void>(std::signal(signal, SIG_DFL));
+  }
 }
 
 bool memory_has_run_out() noexcept {
