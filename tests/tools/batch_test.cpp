@@ -332,10 +332,10 @@ TEST_CASE("bug: a state whose result lacked a member was an internal error, for 
     without += refused - before;
     parent = whole;
   });
-  CHECK(without == 48);  // all members but "axis", which another field does not have
+  CHECK(without == 59);  // all members but "axis", which another field does not have
   CHECK(refused > 200);
   REQUIRE(batch::parse_state(state.dump(), "s"));
-  for (const char* file : {"", "/etc/passwd", "../x", "figures/../../x", "figures//x", "."}) {
+  for (const char* file : {"", "/etc/passwd", "../x", "figures/../../x", "figures/", "."}) {
     state["files"] = {"report.json", file};
     CHECK_THROWS_WITH(batch::parse_state(state.dump(), "s"),
                       Catch::Contains("files[1] is not a file of the mesh's own"));
