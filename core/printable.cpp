@@ -1,6 +1,5 @@
 #include "morsel/core/printable.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -67,20 +66,6 @@ std::string printable(std::string_view text, std::string_view but) {
     text.remove_prefix(size);
   }
   return shown;
-}
-
-std::string quoted_if_needed(std::string_view name) {
-  if (!name.starts_with('"') && name.find('\\') == std::string_view::npos && printable(name) == name)
-    return std::string(name);
-  std::string quoted = "\"";
-  std::string_view rest = name;
-  while (!rest.empty()) {  // from one backslash or quote to the next
-    const std::size_t plain = std::min(rest.find_first_of("\\\""), rest.size());
-    quoted += printable(rest.substr(0, plain));
-    if (plain < rest.size()) quoted += {'\\', rest[plain]};
-    rest.remove_prefix(std::min(plain + 1, rest.size()));
-  }
-  return quoted + '"';
 }
 
 }  // namespace morsel::core

@@ -12,8 +12,4 @@ namespace morsel::core {
 /// Those control characters stay as well that are in `but`.
 std::string printable(std::string_view text, std::string_view but = {});
 
-/// A name on a line of its own that can be read back: as it is; or, if it begins with a quote or has a backslash or anything that printable()
-/// escapes, in double quotes, with backslashes and quotes escaped by a backslash and all else as printable() does.
-std::string quoted_if_needed(std::string_view name);
-
 }  // namespace morsel::core

@@ -199,15 +199,6 @@ class States(Documents):
         self.state.write_text("{")
         self.assertEqual(self.run_any(*self.batch, "--quiet", codes=(0,))[2], "")
 
-    def test_a_plan_can_be_read_whatever_the_names(self):
-        """bug: `batch --plan` broke at a newline in a name"""
-        (self.folder / "meshes" / "a\nb\\\".off").write_text(OCTAHEDRON)
-        (self.folder / "meshes" / '"q.off').write_text(OCTAHEDRON)
-        open(os.fsencode(self.folder / "meshes") + b"/\xff.off", "w").write(OCTAHEDRON)
-        lines = self.run_any(*self.batch, "--plan", codes=(0,))[1].splitlines()
-        self.assertEqual(sorted(line.split("\t")[1] for line in lines),
-                         sorted(['"\\"q.off"', '"a\\nb\\\\\\".off"', '"\\xff.off"']))
-
 
 class Journals(Documents):
     SWEEP = ("sweep", SAMPLES / "lion-head.off", "--method", "salient:iterations=1", "--vary", "sigma=1eps,2eps,3eps,4eps,5eps,6eps",

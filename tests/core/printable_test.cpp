@@ -4,7 +4,6 @@
 #include <string>
 
 using morsel::core::printable;
-using morsel::core::quoted_if_needed;
 
 TEST_CASE("what a terminal would act on is escaped, all else stays") {
   CHECK(printable("") == "");
@@ -36,12 +35,4 @@ TEST_CASE("whatever the bytes, nothing is left to act on") {
   const std::string shown = printable(all);
   for (const char c : shown) CHECK((c < 0 || (c >= ' ' && c != '\x7f')));
   CHECK(printable(shown) == shown);
-}
-
-TEST_CASE("a name that could be mistaken on its line is quoted") {
-  CHECK(quoted_if_needed("sub/a b.off") == "sub/a b.off");
-  CHECK(quoted_if_needed("a\nb\xff.off") == "\"a\\nb\\xff.off\"");
-  CHECK(quoted_if_needed("a\\b\"c") == "\"a\\\\b\\\"c\"");
-  CHECK(quoted_if_needed("a\"c") == "a\"c");
-  CHECK(quoted_if_needed("\"a") == "\"\\\"a\"");
 }

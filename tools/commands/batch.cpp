@@ -79,7 +79,7 @@ void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options&
       continue;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(outcome.mesh.path, error);
-    std::cout << (error ? 0 : size) << '\t' << core::quoted_if_needed(outcome.mesh.name) << '\n';
+    std::cout << (error ? 0 : size) << '\t' << outcome.mesh.name << '\n';
   }
 }
 
@@ -179,10 +179,9 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
                                 "Run nothing: write the summary of what is there");
   only->excludes(without);
   command
-      .add_flag(
-          "--plan", options.plan,
-          "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
-          "in bytes, a tab, NAME (in double quotes, with \\n, \\xff and the like, if it has such bytes)")
+      .add_flag("--plan", options.plan,
+                "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
+                "in bytes, a tab, NAME")
       ->excludes(without)
       ->excludes(only);
   command.add_flag("--with-timings", options.with_timings,

@@ -1,6 +1,6 @@
 """What the Snakefile does before its jobs: reads the settings and deals the meshes that are to be done out to parts.
 
-A part is a file with a command, a NUL after each word, that does up to so many meshes. Parts are kept until the run ends by
+A part is a file with a command, a word on each line, that does up to so many meshes. Parts are kept until the run ends by
 itself; those that a killed run left behind are taken up as they are, so that jobs that a cluster goes on with are not
 submitted twice.
 """
@@ -10,7 +10,6 @@ import hashlib
 import math
 import os
 import pathlib
-import re
 import shlex
 import shutil
 import subprocess
@@ -24,23 +23,9 @@ NUMBERS = ("meshes_per_job", "cpus", "threads", "memory_limit", "time_limit", "j
 OWN_MEMORY = 250  # MiB, of what runs the meshes of a job
 
 
-def lines(data, end="\n"):
-    """The lines, or what else ends with `end`, of bytes in which there are names of files, which may be any bytes themselves."""
-    return os.fsdecode(data).split(end)[:-1]
-
-
-def unquoted(name):
-    """A name as `morsel batch --plan` prints it: in double quotes, with escapes, if it has a line's end or other such bytes."""
-    if not name.startswith('"'):
-        return name
-    def byte(escape):
-        text = os.fsdecode(escape[1])
-        if text[0] == "x":
-            return bytes([int(text[1:], 16)])
-        if text[0] == "u":
-            return chr(int(text[1:], 16)).encode()
-        return {"n": b"\n", "t": b"\t", "r": b"\r"}.get(text, escape[1])
-    return os.fsdecode(re.sub(rb"\\(x[0-9a-f]{2}|u[0-9a-f]{4}|.)", byte, os.fsencode(name[1:-1])))
+def lines(data):
+    """The lines of bytes in which there are names of files, which may be any bytes themselves."""
+    return os.fsdecode(data).split("\n")[:-1]
 
 
 def words(part):
@@ -124,7 +109,7 @@ class Settings:
         if told.returncode != 0:
             raise WorkflowError(os.fsdecode(told.stderr).strip() or f"{self.program} ended with {told.returncode}")
         rows = (line.split("\t", 1) for line in lines(told.stdout))
-        return {unquoted(name): int(size) for size, name in rows}
+        return {name: int(size) for size, name in rows}
 
 
 def deal(meshes, most, slots):
@@ -176,20 +161,20 @@ class Plan:
         return sorted(path for path in self.work.iterdir() if path.is_dir())
 
     def names(self, part):
-        return [word.removeprefix("--only=") for word in lines(part.read_bytes(), "\0") if word.startswith("--only=")]
+        return [word.removeprefix("--only=") for word in lines(part.read_bytes()) if word.startswith("--only=")]
 
     def is_open(self, part, meshes):
         """Whether a killed run left this part to be done, and it is what would be done now."""
         names = self.names(part)
         return (not (part.parent.parent / "done" / part.name).exists() and any(name in meshes for name in names)
-                and lines(part.read_bytes(), "\0") == self.settings.part(names))
+                and lines(part.read_bytes()) == self.settings.part(names))
 
     def write(self, shares):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="deal-", dir=self.work))
         (folder / "parts").mkdir()
         parts = [folder / "parts" / f"{number:04}" for number in range(1, len(shares) + 1)]
         for part, names in zip(parts, shares):
-            part.write_bytes(os.fsencode("".join(f"{word}\0" for word in self.settings.part(names))))
+            part.write_bytes(os.fsencode("".join(f"{word}\n" for word in self.settings.part(names))))
         return parts
 
     def end(self):
