@@ -61,7 +61,7 @@ def commands(mesh, small, report):
         "render": ("render", mesh, "-o", "p.png", "--size", "1200x900"),
         "render-arcs": ("render", mesh, "--field", "mean-curvature", "--arcs", "-o", "p.png"),
         "sweep": ("sweep", small, "--vary", "iterations=1..20", "-o", "s.json"),
-        "stability": ("stability", small, "--noise", "0.1%", "--trials", "5", "-o", "s.json"),
+        "stability": ("stability", small, "--noise", "0.1", "--trials", "5", "-o", "s.json"),
         "stability-decimate": ("stability", small, "--decimate", "0.5", "--trials", "3", "-o", "s.json"),
         "batch": ("batch", "collection", "--out", "out", "--figures", "--export", "--html"),
         "check": ("check", report),
@@ -106,8 +106,9 @@ def write_atoms(path):
     draw = random.Random(1)
     with open(path, "w") as file:
         for i in range(3000):
-            while sum(x * x for x in (place := [draw.uniform(-25, 25) for _ in range(3)])) > 625:
-                pass
+            place = [99.0] * 3
+            while sum(x * x for x in place) > 625:
+                place = [draw.uniform(-25, 25) for _ in range(3)]
             file.write("ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n" % (i + 1, i + 1, *place))
         file.write("END\n")
 
@@ -149,7 +150,7 @@ class Setting:
             try:
                 _, errors = process.communicate(timeout=wait)
                 sent = time.monotonic()
-                latency = busy = 0
+                latency = busy = used = 0
             except subprocess.TimeoutExpired:
                 sent = time.monotonic()
                 used = processor_seconds(process.pid)
@@ -161,6 +162,8 @@ class Setting:
                 latency = time.monotonic() - sent
                 busy = max(0, usage.ru_utime + usage.ru_stime - used)
             left = {path.relative_to(work) for path in work.rglob("*")} - before
+            if process.returncode == -signal.SIGINT and used < 0.1 and not left:
+                process.returncode = 0  # main() had not begun
             problem = self.problem(arguments, process.returncode, errors, left)
             return process.returncode, latency, busy, sent - start, problem
 
