@@ -17,8 +17,10 @@ import unittest
 
 from support import PROGRAM, SAMPLES
 
-# What the suite allows, on machines that are busy with other tests. On an idle one it takes less than a second.
-MOST_SECONDS = 10
+# What the suite allows, of the processor and, for machines that are busy with other tests, of a clock. An idle one needs
+# less than a second.
+MOST_PROCESSOR_SECONDS = 5
+MOST_SECONDS = 60
 TICKS = os.sysconf("SC_CLK_TCK")
 
 METHODS = {
@@ -113,6 +115,10 @@ def write_atoms(path):
         file.write("END\n")
 
 
+# Where the tests run in the background it may be ignored, and what is ignored stays so in the program.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def processor_seconds(pid):
     fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / TICKS
@@ -192,6 +198,7 @@ class Interrupt(unittest.TestCase):
                 with self.subTest(command):
                     code, latency, busy, _, problem = setting.moment(arguments, draw.uniform(0.05, 1.5))
                     self.assertEqual(problem, "")
+                    self.assertLess(busy, MOST_PROCESSOR_SECONDS)
                     self.assertLess(latency, MOST_SECONDS)
                     if code == 130:
                         latencies.append((latency, busy, command))
