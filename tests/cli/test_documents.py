@@ -83,8 +83,9 @@ class Depth(Documents):
             self.assertIn("nested deeper", self.run_any("check", "r.json", codes=(3,))[2])
         self.morsel("compare", self.mesh, "--field", "height", "-o", "r.json")
         report = (self.folder / "r.json").read_text()
-        for place in ('"items": [', '"diagram": [', '"timings": {"x": ', '"minima": '):
-            self.file("deep.json", report.replace(place, place + "[" * DEEP + "]" * DEEP + ",", 1))
+        for place, key in (('"items": [', ""), ('"diagram": [', ""), ('"timings": {', '"x": '), ('"minima": ', "")):
+            self.assertIn(place, report)
+            self.file("deep.json", report.replace(place, place + key + "[" * DEEP + "]" * DEEP + ",", 1))
             self.assertIn("nested deeper", self.run_any("check", "deep.json", codes=(3,))[2])
 
     def test_a_large_document_of_garbage_is_refused_at_once(self):
@@ -101,9 +102,11 @@ class Reports(Documents):
         self.morsel("compare", self.mesh, "--field", "height", "--method", "salient:iterations=1", "--target", "2", "-o", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
         codes = set()
-        for name, edit in edits(report):
+        for name, edit in edits(report, 1):
             damaged = copy.deepcopy(report)
             edit(damaged)
+            if damaged == report:
+                continue
             self.file("edited.json", json.dumps(damaged))
             with self.subTest(name):
                 code, output, errors = self.run_any("check", "edited.json")
@@ -180,11 +183,11 @@ class States(Documents):
             self.state.write_text(json.dumps(damaged))
             with self.subTest(name):
                 _, output, errors = self.run_any(*self.batch, "--summary-only", codes=(0, 1))
-                if "not run" in output and not name.startswith(("key", "schema")):
+                if "not run" in output and not name.startswith(("key", "schema", "files.0='text'")):
                     self.assertRegex(errors, r"\Awarning: 1 damaged state counts as absent: [^\n]+\n\Z")
                 told += "damaged state" in errors
                 json.loads((self.folder / "out" / "summary.json").read_text())
-        self.assertGreater(told, 250)
+        self.assertGreater(told, 200)
 
     def test_a_damaged_state_is_told_and_healed(self):
         for text in ("[" * DEEP, "", "{", "\0\xff", '{"schema": "morsel.batch-state/1"}'):
@@ -219,12 +222,12 @@ class Journals(Documents):
         entry = json.loads(second)
         damages = ["5", "null", "{}", "[" * DEEP, "{", "\0"]
         for name, edit in edits(entry):
-            if name in ("combination='text'",) or ".parameters." in name:
-                continue  # which is right for another combination
+            if ".parameters" in name or not name.endswith(("removed", "=[]", "={}")):
+                continue  # of which some are right
             damaged = copy.deepcopy(entry)
             edit(damaged)
             damages.append(json.dumps(damaged))
-        for damage in damages[:6] + damages[6::9]:
+        for damage in damages[:6] + damages[6::11]:
             self.file("rows.json.journal", f"{head}\n{first}\n{damage}\n")
             with self.subTest(damage[:80]):
                 errors = self.run_any(*self.SWEEP, codes=(0,))[2]
@@ -254,7 +257,7 @@ class Names(Documents):
                                 (("compare", name, "--field", "height", "-o", HOSTILE + ".json"), 0),
                                 (("check", HOSTILE + ".json"), 0), (("compare", name, "--field", HOSTILE), 2),
                                 (("compare", name, "--method", HOSTILE), 2), ((HOSTILE,), 2),
-                                (("field", name, "--field", "vertex-scalar:property=" + HOSTILE, "-o", "x.txt"), 3)):
+                                (("field", name, "--field", "vertex-scalar:file=" + HOSTILE, "-o", "x.txt"), 3)):
             with self.subTest(arguments):
                 self.run_any(*arguments, codes=(code,))
         ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
