@@ -166,7 +166,7 @@ class Triangulation {
   std::vector<std::size_t> twin_of_;
   std::vector<std::size_t> first_triangle_;
   EdgeSet edges_;
-  PolygonTriangulator triangulator_{soup_.positions, edges_};
+  PolygonTriangulator triangulator_{soup_.positions, edges_, progress_};
   TriangleSoup result_;
 };
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <string>
 #include <type_traits>
 
 #include "morsel/core/mesh_formats.h"
@@ -115,9 +117,10 @@ class HeaderReader {
     const std::int64_t count = scanner_.integer("the number of elements");
     if (count < 0) scanner_.fail("the number of elements is " + std::to_string(count));
     element.count = static_cast<std::uint64_t>(count);
-    for (const Element& other : header_.elements)
-      if (other.name == element.name) scanner_.fail("element " + shown(element.name) + " is declared twice");
+    if (!element_names_.insert(element.name).second)
+      scanner_.fail("element " + shown(element.name) + " is declared twice");
     header_.elements.push_back(std::move(element));
+    property_names_.clear();
   }
 
   void read_property() {
@@ -133,11 +136,9 @@ class HeaderReader {
     property.type = type(word);
     property.name = scanner_.word();
     if (property.name.empty()) scanner_.fail("a property without a name");
-    std::vector<Property>& properties = header_.elements.back().properties;
-    for (const Property& other : properties)
-      if (other.name == property.name)
-        scanner_.fail("property " + shown(property.name) + " is declared twice");
-    properties.push_back(std::move(property));
+    if (!property_names_.insert(property.name).second)
+      scanner_.fail("property " + shown(property.name) + " is declared twice");
+    header_.elements.back().properties.push_back(std::move(property));
   }
 
   Type type(std::string_view name) {
@@ -148,6 +149,8 @@ class HeaderReader {
 
   TextScanner& scanner_;
   Header header_;
+  std::set<std::string> element_names_;
+  std::set<std::string> property_names_;  // of the last element
   bool has_format_ = false;
 };
 
