@@ -9,7 +9,8 @@
 namespace morsel::core {
 namespace {
 
-constexpr Index kLeaf = 4;        // sites
+constexpr Index kLeaf = 4;  // sites
+constexpr std::uint64_t kFirstSteps = 128;
 constexpr double kRound = 1e-14;  // more than rounding adds to coordinates of at most 1
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -24,32 +25,47 @@ Eigen::Vector2d principal_axis(double xx, double xy, double yy) {
 }  // namespace
 
 /// A triangle that runs counter-clockwise.
-class CornerTree::Triangle2 {
- public:
-  Triangle2(const Plane& a, const Plane& b, const Plane& c) : corner_{a, b, c}, side_{b - a, c - b, a - c} {}
+struct CornerTree::Triangle2 {
+  std::array<Point, 3> point;
+  std::array<Plane, 3> corner;  ///< the same in the plane
+  std::array<Plane, 3> side = {corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2]};
 
   /// Whether a line separates it from a box with certainty: one of its sides, or a side of the box.
   bool is_apart(const Node& box) const {
     const Plane other = turned(box.axis);
     for (int i = 0; i < 3; ++i) {
-      const Plane from = box.center - corner_[i];
-      const double reach = std::abs(cross(side_[i], box.axis)) * box.extent.x() +
-                           std::abs(cross(side_[i], other)) * box.extent.y();
-      const double size = side_[i].lpNorm<1>() + from.lpNorm<1>() + box.extent.sum();
-      if (cross(side_[i], from) + reach < -kRound * size) return true;
+      const Plane from = box.center - corner[i];
+      const double reach = std::abs(cross(side[i], box.axis)) * box.extent.x() +
+                           std::abs(cross(side[i], other)) * box.extent.y();
+      const double size = side[i].lpNorm<1>() + from.lpNorm<1>() + box.extent.sum();
+      if (cross(side[i], from) + reach < -kRound * size) return true;
     }
     return is_beyond(box.axis, box.center, box.extent.x()) || is_beyond(other, box.center, box.extent.y());
   }
 
- private:
   bool is_beyond(const Plane& axis, const Plane& center, double extent) const {
-    const double a = axis.dot(corner_[0] - center);
-    const double b = axis.dot(corner_[1] - center);
-    const double c = axis.dot(corner_[2] - center);
+    const double a = axis.dot(corner[0] - center);
+    const double b = axis.dot(corner[1] - center);
+    const double c = axis.dot(corner[2] - center);
     return std::min({a, b, c}) > extent + kRound || std::max({a, b, c}) < -extent - kRound;
   }
 
-  std::array<Plane, 3> corner_, side_;
+  bool holds(const Point& p, const Point& normal) const {
+    if (p == point[0] || p == point[1] || p == point[2]) return false;
+    const auto height = [&](const Point& from, const Point& to) {
+      return normal.dot((to - from).cross(p - from));
+    };
+    return height(point[0], point[1]) > 0 && height(point[1], point[2]) > 0 &&
+           height(point[2], point[0]) >= 0;
+  }
+};
+
+/// Nodes of a tree that are still to be looked at.
+struct CornerTree::Search {
+  const Tree& tree;
+  std::array<Index, 64> pending = {0};  // a tree is as deep as the number of sites has bits
+  std::size_t count = 1;
+  std::uint64_t steps = 0;  // boxes and corners looked at so far
 };
 
 CornerTree::CornerTree(std::span<const Point> positions, const Point& normal,
@@ -58,53 +74,68 @@ CornerTree::CornerTree(std::span<const Point> positions, const Point& normal,
   std::vector<std::size_t> sorted(corners.begin(), corners.end());
   std::sort(sorted.begin(), sorted.end(), [&](std::size_t i, std::size_t k) {
     const Point &p = positions[i], &q = positions[k];
-    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    return p == q ? i < k : std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   });
-  site_of_.assign(positions.size(), kNone);
+  std::vector<std::size_t> first(positions.size(),
+                                 positions.size());  // per corner: the first one at its place
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const Point& p = positions[sorted[i]];
-    if (i == 0 || p != positions[sorted[i - 1]])
-      sites_.push_back({{across_.dot(p), up_.dot(p)}, static_cast<Index>(sorted[i])});
-    ++sites_.back().count;
-    site_of_[sorted[i]] = static_cast<Index>(sites_.size() - 1);
+    const bool is_same = i > 0 && positions[sorted[i]] == positions[sorted[i - 1]];
+    first[sorted[i]] = is_same ? first[sorted[i - 1]] : sorted[i];
+  }
+  site_of_.assign(positions.size(), kNone);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (first[i] == positions.size()) continue;
+    if (first[i] == i) {
+      site_of_[i] = static_cast<Index>(sites_.size());
+      const Plane place(across_.dot(positions[i]), up_.dot(positions[i]));
+      sites_.push_back({place, static_cast<Index>(i), 0, {}});
+    }
+    site_of_[i] = site_of_[first[i]];
+    ++sites_[site_of_[i]].count;
   }
   build();
 }
 
-/// Makes the tree of the sites that have corners left.
+/// Makes the trees of the sites that have corners left.
 void CornerTree::build() {
-  order_.clear();
-  for (Index s = 0; s < sites_.size(); ++s)
-    if (sites_[s].count > 0) order_.push_back(s);
-  left_ = order_.size();
-  nodes_.clear();
-  if (left_ > 0) build_node(kNone, 0, static_cast<Index>(left_));
+  left_ = 0;
+  for (std::size_t k = 0; k < trees_.size(); ++k) {
+    Tree& tree = trees_[k];
+    tree.order.clear();
+    for (Index s = 0; s < sites_.size(); ++s)
+      if (sites_[s].count > 0) tree.order.push_back(s);
+    left_ = tree.order.size();
+    tree.nodes.clear();
+    if (left_ > 0) build_node(k, kNone, 0, static_cast<Index>(left_));
+  }
 }
 
-void CornerTree::build_node(Index parent, Index first, Index last) {
-  const auto self = static_cast<Index>(nodes_.size());
-  Node& node = nodes_.emplace_back();
+void CornerTree::build_node(std::size_t tree, Index parent, Index first, Index last) {
+  auto& [order, nodes] = trees_[tree];
+  const auto self = static_cast<Index>(nodes.size());
+  Node& node = nodes.emplace_back();
   node.parent = parent;
   node.first = first;
   node.last = last;
   node.count = last - first;
-  fit_box(node);
+  fit_box(node, std::span(order).subspan(first, last - first));
   if (last - first <= kLeaf) {
-    for (Index i = first; i < last; ++i) sites_[order_[i]].leaf = self;
+    for (Index i = first; i < last; ++i) sites_[order[i]].leaf[tree] = self;
     return;
   }
   const Index middle = first + (last - first) / 2;
-  const Plane axis = node.axis;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                   [&](Index i, Index k) { return axis.dot(sites_[i].place) < axis.dot(sites_[k].place); });
-  build_node(self, first, middle);
-  nodes_[self].right = static_cast<Index>(nodes_.size());
-  build_node(self, middle, last);
+  if (tree == 0) {
+    const Plane axis = node.axis;
+    const auto less = [&](Index i, Index k) { return axis.dot(sites_[i].place) < axis.dot(sites_[k].place); };
+    std::nth_element(order.begin() + first, order.begin() + middle, order.begin() + last, less);
+  }
+  build_node(tree, self, first, middle);
+  nodes[self].right = static_cast<Index>(nodes.size());
+  build_node(tree, self, middle, last);
 }
 
 /// Turns the box so that its first axis is the one along which the sites spread most.
-void CornerTree::fit_box(Node& node) {
-  const auto sites = std::span(order_).subspan(node.first, node.last - node.first);
+void CornerTree::fit_box(Node& node, std::span<const Index> sites) const {
   Plane mean = Plane::Zero();
   for (const Index s : sites) mean += sites_[s].place;
   mean /= static_cast<double>(sites.size());
@@ -135,47 +166,56 @@ void CornerTree::remove(std::size_t corner) {
   Site& site = sites_[site_of_[corner]];
   site_of_[corner] = kNone;
   if (--site.count > 0) return;
-  for (Index n = site.leaf; n != kNone; n = nodes_[n].parent) --nodes_[n].count;
+  for (std::size_t k = 0; k < trees_.size(); ++k)
+    for (Index n = site.leaf[k]; n != kNone; n = trees_[k].nodes[n].parent) --trees_[k].nodes[n].count;
   --left_;
-  if (2 * left_ < order_.size() && order_.size() > 8 * kLeaf) build();  // tighter boxes
+  if (2 * left_ < trees_[0].order.size() && trees_[0].order.size() > 8 * kLeaf) build();  // tighter boxes
 }
 
-bool CornerTree::is_in(std::size_t a, std::size_t b, std::size_t c, const Point& p) const {
-  if (p == positions_[a] || p == positions_[b] || p == positions_[c]) return false;
-  const auto side = [&](std::size_t from, std::size_t to) {
-    return normal_.dot((positions_[to] - positions_[from]).cross(p - positions_[from]));
-  };
-  return side(a, b) > 0 && side(b, c) > 0 && side(c, a) >= 0;
-}
-
-bool CornerTree::any_in(std::size_t a, std::size_t b, std::size_t c, std::uint64_t& tests) const {
+bool CornerTree::any_in(std::size_t a, std::size_t b, std::size_t c, std::uint64_t& tests) {
   if (left_ == 0) return false;
   const auto in_plane = [&](std::size_t i) {
     return Plane(across_.dot(positions_[i]), up_.dot(positions_[i]));
   };
-  const Triangle2 triangle(in_plane(a), in_plane(b), in_plane(c));
-  std::array<Index, 64> pending;  // the tree is as deep as a number of sites has bits
-  std::size_t count = 0;
-  pending[count++] = 0;
-  while (count > 0) {
-    const Index n = pending[--count];
-    const Node& node = nodes_[n];
+  const Triangle2 triangle{{positions_[a], positions_[b], positions_[c]},
+                           {in_plane(a), in_plane(b), in_plane(c)}};
+  std::array<Search, 2> searches = {Search{trees_[better_]}, Search{trees_[1 - better_]}};
+  std::uint64_t steps = kFirstSteps;
+  Outcome outcome = go_on(searches[0], triangle, steps);
+  while (outcome == Outcome::unfinished) {
+    outcome = go_on(searches[1], triangle, steps);
+    if (outcome != Outcome::unfinished)
+      better_ = 1 - better_;
+    else
+      outcome = go_on(searches[0], triangle, steps *= 2);
+  }
+  tests += searches[0].steps + searches[1].steps;
+  return outcome == Outcome::found;
+}
+
+/// Until so many steps were made altogether.
+CornerTree::Outcome CornerTree::go_on(Search& search, const Triangle2& triangle, std::uint64_t steps) const {
+  const auto& [order, nodes] = search.tree;
+  while (search.count > 0) {
+    if (search.steps >= steps) return Outcome::unfinished;
+    const Index n = search.pending[--search.count];
+    const Node& node = nodes[n];
     if (node.count == 0) continue;
-    ++tests;
+    ++search.steps;
     if (triangle.is_apart(node)) continue;
     if (node.right != kNone) {
-      pending[count++] = node.right;
-      pending[count++] = n + 1;
+      search.pending[search.count++] = node.right;
+      search.pending[search.count++] = n + 1;
       continue;
     }
     for (Index i = node.first; i < node.last; ++i) {
-      const Site& site = sites_[order_[i]];
+      const Site& site = sites_[order[i]];
       if (site.count == 0) continue;
-      ++tests;
-      if (is_in(a, b, c, positions_[site.corner])) return true;
+      ++search.steps;
+      if (triangle.holds(positions_[site.corner], normal_)) return Outcome::found;
     }
   }
-  return false;
+  return Outcome::nothing;
 }
 
 }  // namespace morsel::core

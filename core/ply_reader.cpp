@@ -190,6 +190,7 @@ class TextBody {
     return value;
   }
   void check_list(std::uint64_t, Type) {}
+  void count_values(std::size_t) {}  // the scanner does
   void finish() {
     if (scanner_.next_line()) scanner_.fail("the file goes on after the elements that its header announces");
   }
@@ -198,6 +199,8 @@ class TextBody {
  private:
   TextScanner& scanner_;
 };
+
+constexpr std::size_t kPause = 1 << 16;  // values between two reports of progress
 
 /// Values of a binary body.
 template <bool kSwap>
@@ -220,8 +223,7 @@ class BinaryBody {
   void begin(const Element& element, std::uint64_t i) {
     element_ = &element;
     number_ = i;
-    if ((i & 0xFFFF) == 0xFFFF)
-      progress_.update("reading the mesh", static_cast<double>(i) / static_cast<double>(element.count));
+    count_values(element.properties.size());
   }
   void end() {}
   double scalar(Type type) {
@@ -253,6 +255,13 @@ class BinaryBody {
   void check_list(std::uint64_t count, Type type) {
     if (count > room() / size_of(type)) fail_too_short();
   }
+  /// Of those that were read or are read next.
+  void count_values(std::size_t count) {
+    values_ += count;
+    if (values_ < kPause) return;
+    values_ = 0;
+    progress_.update("reading the mesh", static_cast<double>(number_) / static_cast<double>(element_->count));
+  }
   void finish() {
     const bool blank = std::all_of(cursor_, end_, [](char c) { return c == '\n' || c == '\r' || c == ' '; });
     if (!blank)
@@ -283,6 +292,7 @@ class BinaryBody {
   const char* end_;
   const Element* element_ = nullptr;
   std::uint64_t number_ = 0;
+  std::size_t values_ = 0;  // since progress was reported
 };
 
 /// What becomes of the elements, however they are encoded.
@@ -313,7 +323,10 @@ class BodyReader {
       return;
     }
     const std::uint64_t count = list_length(property);
-    for (std::uint64_t i = 0; i < count; ++i) body_.scalar(property.type);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      body_.scalar(property.type);
+      body_.count_values(1);
+    }
   }
 
   void skip(const Element& element) {
@@ -382,6 +395,7 @@ class BodyReader {
             body_.fail("a face names vertex " + std::to_string(v) + ", but there are only " +
                        std::to_string(vertices) + " vertices, numbered from 0");
           soup.corners.push_back(static_cast<Index>(v));
+          body_.count_values(1);
         }
       }
       soup.offsets.push_back(soup.corners.size());
