@@ -4,13 +4,16 @@
 #include <charconv>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/gemmi_bridge.h"
+#include "morsel/core/interruptible.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
@@ -56,45 +59,161 @@ bool has_record(std::string_view line, std::string_view name) {
   throw BadInput(file + ", line " + std::to_string(line) + ": " + what);
 }
 
-/// The records of models and atoms alone, each on its own line and padded, the others blank: gemmi looks into
-/// many more, and refuses a file for what is wrong in one of them. It takes a coordinate that is no number
-/// for 0, so these are checked here.
-std::string atom_lines(std::string_view bytes, const std::string& file, const Progress& progress) {
-  constexpr std::size_t kWidth = 78;  // up to the element; a charge does not matter
-  std::string lines;
-  lines.reserve(bytes.size() + bytes.size() / 64);
-  std::size_t number = 0;
-  while (!bytes.empty()) {
-    if (++number % (1 << 16) == 0) progress.throw_if_cancelled();
-    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-    const std::string_view line = bytes.substr(0, end);
-    bytes.remove_prefix(std::min(end + 1, bytes.size()));
-    const auto fail = [&](const std::string& what) { fail_at_line(file, number, what); };
-    if (number == 1 && line.starts_with("data_")) fail("this is a CIF file, not a PDB file: name it .cif");
-    const bool atom = has_record(line, "ATOM") || has_record(line, "HETATM");
-    if (atom) {
-      if (line.size() < 54) fail("the record of an atom ends before its coordinates do, in column 54");
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::string_view field = trimmed(line.substr(30 + 8 * static_cast<std::size_t>(axis), 8));
-        if (!finite_number(field))
-          fail("the coordinate " + std::string(1, "xyz"[axis]) + " of an atom is " + shown(field) +
-               ", not a number");
+/// Reads the records of models and atoms line by line; the others say nothing about atoms, or are often wrong. Fields are
+/// gemmi's to read; but it takes a coordinate that is no number for 0, so these are checked here. Atoms of a residue come
+/// together, where its first atom is, as far as one stretch of a chain goes. O(n log n).
+class PdbReader {
+ public:
+  PdbReader(const std::string& file, const Progress& progress) : file_(file), progress_(progress) {}
+
+  AtomRecords read(std::string_view bytes) {
+    const std::size_t size = bytes.size();
+    while (!bytes.empty()) {
+      if (++line_number_ % (1 << 16) == 0)
+        progress_.update(kStep, 1 - static_cast<double>(bytes.size()) / static_cast<double>(size));
+      const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+      const std::string_view line = bytes.substr(0, end);
+      bytes.remove_prefix(std::min(end + 1, bytes.size()));
+      if (line_number_ == 1 && line.starts_with("data_"))
+        fail("this is a CIF file, not a PDB file: name it .cif");
+      if (has_record(line, "ATOM") || has_record(line, "HETATM"))
+        read_atom(line);
+      else if (has_record(line, "MODEL"))
+        begin_model(line);
+      else if (has_record(line, "ENDMDL"))
+        end_model();
+      else if (has_record(line, "END"))
+        break;
+    }
+    end_stretch();
+    AtomRecords all;
+    for (std::vector<AtomRecord>& atoms : models_) {
+      if (atoms.empty()) continue;
+      ++all.models;
+      for (AtomRecord& record : atoms) {
+        record.model = all.models;
+        all.records.push_back(std::move(record));
       }
     }
-    if (atom || has_record(line, "MODEL") || has_record(line, "ENDMDL") || has_record(line, "TER")) {
-      const std::size_t first = lines.size();
-      lines.append(line.substr(0, kWidth));
-      std::replace_if(
-          lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end(),
-          [](char c) { return c < ' ' || c > '~'; }, ' ');
-      lines.append(kWidth - (lines.size() - first), ' ');
-    } else if (has_record(line, "END")) {
-      break;
-    }
-    lines += '\n';
+    return all;
   }
-  return lines;
-}
+
+ private:
+  static constexpr std::size_t kNoModel = ~std::size_t{0};
+
+  /// What all atoms of a residue have from its first one.
+  struct FirstAtom {
+    std::string sequence_id;
+    bool hetero;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const { fail_at_line(file_, line_number_, what); }
+
+  /// A line as gemmi's functions expect it: printable, and padded up to the element; a charge does not matter.
+  static gemmi_bridge::PdbLine padded(std::string_view line) {
+    gemmi_bridge::PdbLine result;
+    result.fill(' ');
+    line = line.substr(0, result.size() - 1);
+    std::transform(line.begin(), line.end(), result.begin(),
+                   [](char c) { return c < ' ' || c > '~' ? ' ' : c; });
+    result.back() = '\0';
+    return result;
+  }
+
+  void begin_model(std::string_view line) {
+    if (model_ != kNoModel && in_stretch_) fail("a model begins before the one before it has ended (ENDMDL)");
+    const int number = gemmi_bridge::pdb_model_number(padded(line));
+    model_ = model_of_number_.emplace(number, models_.size()).first->second;
+    if (model_ == models_.size()) models_.emplace_back();
+    if (!models_[model_].empty()) fail("there are two models of the number " + std::to_string(number));
+    end_stretch();
+  }
+
+  void end_model() {
+    end_stretch();
+    model_ = kNoModel;
+  }
+
+  void read_atom(std::string_view line) {
+    if (line.size() < 54) fail("the record of an atom ends before its coordinates do, in column 54");
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view field = trimmed(line.substr(30 + 8 * static_cast<std::size_t>(axis), 8));
+      if (!finite_number(field))
+        fail("the coordinate " + std::string(1, "xyz"[axis]) + " of an atom is " + shown(field) +
+             ", not a number");
+    }
+    gemmi_bridge::PdbAtom from = gemmi_bridge::read_pdb_atom(padded(line));
+    if (!in_stretch_ || from.chain != chain_) begin_stretch(from.chain);
+    const std::size_t residue = residue_of(from);
+    AtomRecord& record = models_[model_].emplace_back();
+    record.atom.position = {from.x, from.y, from.z};
+    record.atom.name = std::move(from.name);
+    record.atom.residue = std::move(from.residue.name);
+    record.atom.chain = std::move(from.chain);
+    record.atom.sequence_id = of_residue_[residue].sequence_id;
+    record.atom.serial = from.serial;
+    record.atom.occupancy = from.occupancy;
+    record.atom.alternate = from.alternate;
+    record.atom.hetero = of_residue_[residue].hetero;
+    complete(record, from.element);
+    residues_.push_back(residue);
+  }
+
+  /// A number within the stretch.
+  std::size_t residue_of(const gemmi_bridge::PdbAtom& atom) {
+    if (!residues_.empty() && atom.residue == last_residue_) return residues_.back();
+    last_residue_ = atom.residue;
+    const auto [known, is_new] = number_of_residue_.emplace(atom.residue, of_residue_.size());
+    if (is_new) of_residue_.push_back({atom.sequence_id, atom.hetero});
+    return known->second;
+  }
+
+  void begin_stretch(const std::string& chain) {
+    end_stretch();
+    if (model_ == kNoModel) {  // there is one model, or frames that end with ENDMDL
+      model_ = models_.size();
+      if (!model_of_number_.emplace(static_cast<int>(model_) + 1, model_).second)
+        fail("there is an atom between two models");
+      models_.emplace_back();
+    }
+    in_stretch_ = true;
+    chain_ = chain;
+  }
+
+  void end_stretch() {
+    if (!std::is_sorted(residues_.begin(), residues_.end())) {
+      std::vector<AtomRecord>& atoms = models_[model_];
+      const std::size_t first = atoms.size() - residues_.size();
+      std::vector<std::size_t> order(residues_.size());
+      std::iota(order.begin(), order.end(), first);
+      std::stable_sort(order.begin(), order.end(), interruptible([&](std::size_t a, std::size_t b) {
+                         return residues_[a - first] < residues_[b - first];
+                       }));
+      std::vector<AtomRecord> sorted;
+      sorted.reserve(order.size());
+      for (const std::size_t i : order) sorted.push_back(std::move(atoms[i]));
+      std::move(sorted.begin(), sorted.end(), atoms.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+    in_stretch_ = false;
+    residues_.clear();
+    number_of_residue_.clear();
+    of_residue_.clear();
+  }
+
+  const std::string& file_;
+  const Progress& progress_;
+  std::size_t line_number_ = 0;
+  std::vector<std::vector<AtomRecord>> models_;
+  std::map<int, std::size_t> model_of_number_;
+  std::size_t model_ = kNoModel;
+  // The stretch of a chain: what follows one another in a model with the same chain name.
+  bool in_stretch_ = false;
+  std::string chain_;
+  std::vector<std::size_t> residues_;  // per atom, numbered as they first appear
+  std::map<gemmi_bridge::PdbResidue, std::size_t> number_of_residue_;
+  gemmi_bridge::PdbResidue last_residue_;
+  std::vector<FirstAtom> of_residue_;
+};
 
 /// gemmi's message, which may have several lines and begin with "FILE:LINE:COLUMN: ", as this project's are.
 std::string reworded(std::string text, const std::string& file) {
@@ -168,15 +287,12 @@ class AtomSites {
   AtomRecords read(const Progress& progress) {
     AtomRecords all;
     all.records.reserve(cif_.rows());
-    std::vector<std::string> models;  // in the order of the file
+    std::map<std::string, std::int64_t> models;  // numbered in the order of the file
     for (std::size_t row = 0; row < cif_.rows(); ++row) {
       if (row % (1 << 16) == 0) progress.throw_if_cancelled();
       all.records.push_back(record(row));
-      const std::string model = text(row, kModel);
-      auto known = models.empty() || models.back() != model ? std::find(models.begin(), models.end(), model)
-                                                            : std::prev(models.end());
-      if (known == models.end()) known = models.insert(known, model);
-      all.records.back().model = known - models.begin() + 1;
+      const auto number = static_cast<std::int64_t>(models.size()) + 1;
+      all.records.back().model = models.try_emplace(text(row, kModel), number).first->second;
     }
     all.models = static_cast<std::int64_t>(models.size());
     return all;
@@ -226,28 +342,7 @@ class AtomSites {
 
 AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress) {
   progress.update(kStep, 0);
-  const std::string lines = atom_lines(bytes, file, progress);
-  const auto models = guarded(file, [&] { return gemmi_bridge::read_pdb(lines, file); });
-  progress.update(kStep, 0.5);
-  AtomRecords all;
-  for (const std::vector<gemmi_bridge::PdbAtom>& atoms : models) {
-    ++all.models;
-    for (const gemmi_bridge::PdbAtom& from : atoms) {
-      AtomRecord& record = all.records.emplace_back();
-      record.model = all.models;
-      record.atom.position = {from.x, from.y, from.z};
-      record.atom.name = from.name;
-      record.atom.residue = from.residue;
-      record.atom.chain = from.chain;
-      record.atom.sequence_id = from.sequence_id;
-      record.atom.serial = from.serial;
-      record.atom.occupancy = from.occupancy;
-      record.atom.alternate = from.alternate;
-      record.atom.hetero = from.hetero;
-      complete(record, from.element);
-    }
-  }
-  return all;
+  return guarded(file, [&] { return PdbReader(file, progress).read(bytes); });
 }
 
 AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress) {

@@ -4,10 +4,12 @@
 /// For a source of its own in C++17, so with the standard library's types alone: in C++20, clang refuses
 /// gemmi's vectors of incomplete types. Functions throw what gemmi throws, std::exception with a message.
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace morsel::core::gemmi_bridge {
@@ -25,17 +27,35 @@ struct Residue {
 };
 Residue find_residue(const std::string& name);
 
+/// A line of a PDB file: 78 columns and a 0.
+using PdbLine = std::array<char, 79>;
+
+/// What tells a residue from others in its chain.
+struct PdbResidue {
+  int number = 0;
+  char insertion = ' ';  ///< as a small letter
+  std::string segment, name;
+  bool operator==(const PdbResidue& o) const {
+    return number == o.number && insertion == o.insertion && segment == o.segment && name == o.name;
+  }
+  bool operator<(const PdbResidue& o) const {
+    return std::tie(number, insertion, segment, name) < std::tie(o.number, o.insertion, o.segment, o.name);
+  }
+};
+
 struct PdbAtom {
   double x, y, z;
-  std::string element, name, residue, chain, sequence_id;
+  std::string element, name, chain, sequence_id;
+  PdbResidue residue;
   int serial;
   double occupancy;
   char alternate;  ///< 0 if there is only one location
   bool hetero;
 };
 
-/// The atoms of each model that has some.
-std::vector<std::vector<PdbAtom>> read_pdb(std::string_view text, const std::string& file);
+/// The atom of a line ATOM or HETATM, and the number in a line MODEL.
+PdbAtom read_pdb_atom(const PdbLine& line);
+int pdb_model_number(const PdbLine& line);
 
 /// A CIF file, and the rows of one of its tables.
 class CifFile {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "morsel/core/interruptible.h"
 #include "morsel/core/mesh_repair.h"
 #include "morsel/core/polygon_triangulation.h"
 
@@ -95,6 +96,7 @@ class Triangulation {
     find_duplicates();
     for (std::size_t p = 0; p < state_.size(); ++p) {
       if (state_[p] != PolygonState::sound) continue;
+      progress_.throw_if_cancelled();
       const auto polygon = soup_.polygon(p);
       for (std::size_t i = 0; i < polygon.size(); ++i)
         edges_.insert(polygon[i], polygon[(i + 1) % polygon.size()]);
@@ -109,13 +111,13 @@ class Triangulation {
       const auto [low, high] = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
       keys.push_back(std::uint64_t{low} << 32 | high);
     }
-    std::sort(keys.begin(), keys.end());
+    std::sort(keys.begin(), keys.end(), interruptible());
   }
 
   /// Polygons of four and more corners with the same sides. (Triangles are compared after triangulation.)
   void find_duplicates() {
     std::vector<std::pair<std::uint64_t, std::size_t>> hashed;
-    std::vector<std::uint64_t> keys, other;
+    std::vector<std::uint64_t> keys;
     for (std::size_t p = 0; p < state_.size(); ++p) {
       if (state_[p] != PolygonState::sound || soup_.polygon(p).size() < 4) continue;
       sides(p, keys);
@@ -123,15 +125,26 @@ class Triangulation {
       for (const std::uint64_t key : keys) hash = (hash ^ key) * 0x9E37'79B9'7F4A'7C15u, hash ^= hash >> 29;
       hashed.emplace_back(hash, p);
     }
-    std::sort(hashed.begin(), hashed.end());
-    for (std::size_t i = 1; i < hashed.size(); ++i) {
-      if (hashed[i].first != hashed[i - 1].first) continue;
-      sides(hashed[i].second, keys);
-      sides(hashed[i - 1].second, other);
-      if (keys != other) continue;
+    std::sort(hashed.begin(), hashed.end(), interruptible());
+    for (std::size_t first = 0, last = 0; first < hashed.size(); first = last) {
+      while (last < hashed.size() && hashed[last].first == hashed[first].first) ++last;
+      if (last - first > 1) find_duplicates(std::span(hashed).subspan(first, last - first));
+    }
+  }
+
+  /// Among polygons whose sides have the same hash, which need not be the same.
+  void find_duplicates(std::span<const std::pair<std::uint64_t, std::size_t>> hashed) {
+    std::vector<std::pair<std::vector<std::uint64_t>, std::size_t>> sorted(hashed.size());
+    for (std::size_t i = 0; i < hashed.size(); ++i) {
+      sorted[i].second = hashed[i].second;
+      sides(hashed[i].second, sorted[i].first);
+    }
+    std::sort(sorted.begin(), sorted.end(), interruptible());
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[i - 1].first) continue;
       if (twin_of_.empty()) twin_of_.resize(state_.size());
-      state_[hashed[i].second] = PolygonState::duplicate;
-      twin_of_[hashed[i].second] = hashed[i - 1].second;
+      state_[sorted[i].second] = PolygonState::duplicate;
+      twin_of_[sorted[i].second] = sorted[i - 1].second;
     }
   }
 
@@ -166,7 +179,7 @@ class Triangulation {
   std::vector<std::size_t> twin_of_;
   std::vector<std::size_t> first_triangle_;
   EdgeSet edges_;
-  PolygonTriangulator triangulator_{soup_.positions, edges_};
+  PolygonTriangulator triangulator_{soup_.positions, edges_, progress_};
   TriangleSoup result_;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/interruptible.h"
 #include "morsel/core/mesh.h"
 #include "morsel/core/mesh_defects.h"
 #include "morsel/core/parallel.h"
@@ -178,7 +179,8 @@ class TriangleMesh::Builder {
   static void sort_group(std::span<Entry> group) {
     constexpr std::size_t kFew = 8;
     if (group.size() > kFew) {
-      std::sort(group.begin(), group.end(), [](const Entry& a, const Entry& b) { return a.end < b.end; });
+      const auto less = [](const Entry& a, const Entry& b) { return a.end < b.end; };
+      std::sort(group.begin(), group.end(), interruptible(less));
       return;
     }
     // Most groups have about six entries: each goes where the number of smaller ones says, without a branch to mispredict.

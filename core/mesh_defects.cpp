@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "morsel/core/interruptible.h"
 #include "morsel/core/union_find.h"
 
 namespace morsel::core {
@@ -110,7 +111,7 @@ std::vector<bool> sound_faces(std::size_t vertices, std::span<const Triangle> tr
       sorted.emplace_back(corners, t);
     }
   }
-  std::sort(sorted.begin(), sorted.end());
+  std::sort(sorted.begin(), sorted.end(), interruptible());
   std::vector<Index> duplicates;
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i].first == sorted[i - 1].first) duplicates.push_back(sorted[i].second);
@@ -135,7 +136,7 @@ void check_edges(std::span<const Triangle> triangles, std::span<const Index> fac
       const auto [smaller, larger] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
       halfedges.push_back({smaller, larger, 3 * t + i});
     }
-  std::sort(halfedges.begin(), halfedges.end());
+  std::sort(halfedges.begin(), halfedges.end(), interruptible());
   Tally non_manifold(DefectKind::non_manifold_edge);
   Tally inconsistent(DefectKind::inconsistent_orientation);
   const auto origin = [&](Index h) { return triangles[h / 3][h % 3]; };
@@ -144,6 +145,7 @@ void check_edges(std::span<const Triangle> triangles, std::span<const Index> fac
   ParityUnionFind orientation(static_cast<Index>(triangles.size()));
   std::vector<Index> contradictions;
   for (std::size_t i = 0; i < halfedges.size();) {
+    throw_if_stopped_at_times();
     std::size_t end = i + 1;
     while (end < halfedges.size() && halfedges[end].smaller == halfedges[i].smaller &&
            halfedges[end].larger == halfedges[i].larger)
@@ -176,6 +178,7 @@ void check_fans(std::size_t vertices, std::span<const Triangle> triangles, const
   UnionFind fans(static_cast<Index>(3 * triangles.size()));
   const auto next = [](Index h) { return h % 3 == 2 ? h - 2 : h + 1; };
   for (const auto& [a, b] : joins) {
+    throw_if_stopped_at_times();
     const bool same_way = triangles[a / 3][a % 3] == triangles[b / 3][b % 3];
     fans.unite(a, same_way ? b : next(b));
     fans.unite(next(a), same_way ? next(b) : b);

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "morsel/core/interruptible.h"
 #include "morsel/core/union_find.h"
 
 namespace morsel::core {
@@ -93,7 +94,7 @@ class Repairer {
       sorted.emplace_back(soup_.triangles[t], static_cast<Index>(t));
       std::sort(sorted.back().first.begin(), sorted.back().first.end());
     }
-    std::sort(sorted.begin(), sorted.end());
+    std::sort(sorted.begin(), sorted.end(), interruptible());
     std::vector<bool> drop(soup_.triangles.size(), false);
     bool any = false;
     for (std::size_t i = 1; i < sorted.size(); ++i)
@@ -108,15 +109,17 @@ class Repairer {
       const auto [smaller, larger] = std::minmax({origin(h), origin(next(h))});
       halfedges_.push_back({smaller, larger, h});
     }
-    std::sort(halfedges_.begin(), halfedges_.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    const auto less = [](const HalfEdge& a, const HalfEdge& b) {
       return std::tie(a.smaller, a.larger, a.halfedge) < std::tie(b.smaller, b.larger, b.halfedge);
-    });
+    };
+    std::sort(halfedges_.begin(), halfedges_.end(), interruptible(less));
   }
 
   /// Calls visit(first, last) with the range in halfedges_ of each edge.
   template <class Visit>
   void for_each_edge(Visit&& visit) const {
     for (std::size_t i = 0; i < halfedges_.size();) {
+      throw_if_stopped_at_times();
       std::size_t end = i + 1;
       while (end < halfedges_.size() && halfedges_[end].smaller == halfedges_[i].smaller &&
              halfedges_[end].larger == halfedges_[i].larger)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -31,10 +32,9 @@ AtomRecords read_records(const std::filesystem::path& path, const Progress& prog
 /// Chains in the order of the file, each once.
 std::vector<std::string> chain_names(const std::vector<AtomRecord>& records) {
   std::vector<std::string> names;
+  std::set<std::string_view> seen;
   for (const AtomRecord& record : records)
-    if ((names.empty() || names.back() != record.atom.chain) &&
-        std::find(names.begin(), names.end(), record.atom.chain) == names.end())
-      names.push_back(record.atom.chain);
+    if (seen.insert(record.atom.chain).second) names.push_back(record.atom.chain);
   return names;
 }
 
@@ -42,8 +42,9 @@ void check_chains(const std::vector<AtomRecord>& records, const std::vector<std:
                   const std::string& file) {
   if (wanted.empty()) return;
   const std::vector<std::string> there = chain_names(records);
+  const std::set<std::string_view> known(there.begin(), there.end());
   for (const std::string& name : wanted) {
-    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
+    if (known.contains(name)) continue;
     std::string message = file + " has no chain " + shown(name) + "; its chains are";
     for (std::size_t i = 0; i < there.size(); ++i)
       message.append(i == 0 ? ": " : ", ").append(shown(there[i]));
@@ -51,15 +52,15 @@ void check_chains(const std::vector<AtomRecord>& records, const std::vector<std:
   }
 }
 
-bool is_left_out(const AtomRecord& record, const MoleculeOptions& options, AtomsLeftOut& count) {
+/// `chains` are those of the options.
+bool is_left_out(const AtomRecord& record, const MoleculeOptions& options,
+                 const std::set<std::string_view>& chains, AtomsLeftOut& count) {
   const Atom& atom = record.atom;
   const auto left_out = [](std::size_t& counter) {
     ++counter;
     return true;
   };
-  if (!options.chains.empty() &&
-      std::find(options.chains.begin(), options.chains.end(), atom.chain) == options.chains.end())
-    return left_out(count.other_chains);
+  if (!chains.empty() && !chains.contains(atom.chain)) return left_out(count.other_chains);
   if (atom.water) return options.waters ? false : left_out(count.waters);
   if (atom.hetero &&
       (options.hetero == HeteroAtoms::none || (options.hetero == HeteroAtoms::residues && !atom.polymer)))
@@ -155,8 +156,10 @@ Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions&
   Molecule molecule;
   molecule.models = all.models;
   molecule.atoms_in_model = all.records.size();
+  const std::set<std::string_view> chains(options.chains.begin(), options.chains.end());
   for (AtomRecord& record : all.records)
-    if (!is_left_out(record, options, molecule.left_out)) molecule.atoms.push_back(std::move(record.atom));
+    if (!is_left_out(record, options, chains, molecule.left_out))
+      molecule.atoms.push_back(std::move(record.atom));
   choose_alternates(molecule.atoms, options.alternate, molecule.left_out);
   if (molecule.atoms.empty())
     throw BadInput(file + " has no atoms left of " + std::to_string(molecule.atoms_in_model) +

@@ -131,14 +131,15 @@ class Reader {
 /// Reads it in parallel; nothing if that does not pay or something is wrong.
 std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::string& file,
                                           const Progress& progress) {
-  const Progress silent;
+  const Progress silent = unreported(progress);
   const char terminator =
       TextScanner(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, silent).terminator();
   if (bytes.find('\\') != std::string_view::npos) return std::nullopt;  // a line may be continued
   const std::vector<std::string_view> chunks = line_chunks(bytes, terminator);
-  const std::vector<std::size_t> vertices_before = items_before(chunks, [&](std::string_view lines) {
-    return Reader(lines, terminator, 0, file, silent).count_vertices();
-  });
+  const std::vector<std::size_t> vertices_before = items_before(
+      chunks,
+      [&](std::string_view lines) { return Reader(lines, terminator, 0, file, silent).count_vertices(); },
+      progress);
   if (chunks.empty() || vertices_before.back() >= kNone) return std::nullopt;
   return read_chunks(
       chunks.size(),

@@ -52,13 +52,16 @@ class Reader {
   bool read_in_chunks() {
     const char terminator = scanner_.terminator();
     const std::vector<std::string_view> chunks = line_chunks(scanner_.rest(), terminator);
-    const Progress silent;
-    const std::vector<std::size_t> lines_before = items_before(chunks, [&](std::string_view lines) {
-      Reader reader(lines, terminator, header_, file_, silent);
-      std::size_t count = 0;
-      while (reader.scanner_.next_line()) ++count;
-      return count;
-    });
+    const Progress silent = unreported(progress_);
+    const std::vector<std::size_t> lines_before = items_before(
+        chunks,
+        [&](std::string_view lines) {
+          Reader reader(lines, terminator, header_, file_, silent);
+          std::size_t count = 0;
+          while (reader.scanner_.next_line()) ++count;
+          return count;
+        },
+        progress_);
     if (chunks.empty() || lines_before.back() != header_.vertices + header_.faces) return false;
     const auto vertices = std::size_t{header_.vertices};
     auto soup = read_chunks(

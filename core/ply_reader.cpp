@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <string>
 #include <type_traits>
 
 #include "morsel/core/mesh_formats.h"
@@ -115,9 +117,10 @@ class HeaderReader {
     const std::int64_t count = scanner_.integer("the number of elements");
     if (count < 0) scanner_.fail("the number of elements is " + std::to_string(count));
     element.count = static_cast<std::uint64_t>(count);
-    for (const Element& other : header_.elements)
-      if (other.name == element.name) scanner_.fail("element " + shown(element.name) + " is declared twice");
+    if (!element_names_.insert(element.name).second)
+      scanner_.fail("element " + shown(element.name) + " is declared twice");
     header_.elements.push_back(std::move(element));
+    property_names_.clear();
   }
 
   void read_property() {
@@ -133,11 +136,9 @@ class HeaderReader {
     property.type = type(word);
     property.name = scanner_.word();
     if (property.name.empty()) scanner_.fail("a property without a name");
-    std::vector<Property>& properties = header_.elements.back().properties;
-    for (const Property& other : properties)
-      if (other.name == property.name)
-        scanner_.fail("property " + shown(property.name) + " is declared twice");
-    properties.push_back(std::move(property));
+    if (!property_names_.insert(property.name).second)
+      scanner_.fail("property " + shown(property.name) + " is declared twice");
+    header_.elements.back().properties.push_back(std::move(property));
   }
 
   Type type(std::string_view name) {
@@ -148,6 +149,8 @@ class HeaderReader {
 
   TextScanner& scanner_;
   Header header_;
+  std::set<std::string> element_names_;
+  std::set<std::string> property_names_;  // of the last element
   bool has_format_ = false;
 };
 
@@ -187,6 +190,7 @@ class TextBody {
     return value;
   }
   void check_list(std::uint64_t, Type) {}
+  void count_values(std::size_t) {}  // the scanner does
   void finish() {
     if (scanner_.next_line()) scanner_.fail("the file goes on after the elements that its header announces");
   }
@@ -195,6 +199,8 @@ class TextBody {
  private:
   TextScanner& scanner_;
 };
+
+constexpr std::size_t kPause = 1 << 16;  // values between two reports of progress
 
 /// Values of a binary body.
 template <bool kSwap>
@@ -217,8 +223,7 @@ class BinaryBody {
   void begin(const Element& element, std::uint64_t i) {
     element_ = &element;
     number_ = i;
-    if ((i & 0xFFFF) == 0xFFFF)
-      progress_.update("reading the mesh", static_cast<double>(i) / static_cast<double>(element.count));
+    count_values(element.properties.size());
   }
   void end() {}
   double scalar(Type type) {
@@ -250,6 +255,13 @@ class BinaryBody {
   void check_list(std::uint64_t count, Type type) {
     if (count > room() / size_of(type)) fail_too_short();
   }
+  /// Of those that were read or are read next.
+  void count_values(std::size_t count) {
+    values_ += count;
+    if (values_ < kPause) return;
+    values_ = 0;
+    progress_.update("reading the mesh", static_cast<double>(number_) / static_cast<double>(element_->count));
+  }
   void finish() {
     const bool blank = std::all_of(cursor_, end_, [](char c) { return c == '\n' || c == '\r' || c == ' '; });
     if (!blank)
@@ -280,6 +292,7 @@ class BinaryBody {
   const char* end_;
   const Element* element_ = nullptr;
   std::uint64_t number_ = 0;
+  std::size_t values_ = 0;  // since progress was reported
 };
 
 /// What becomes of the elements, however they are encoded.
@@ -310,7 +323,10 @@ class BodyReader {
       return;
     }
     const std::uint64_t count = list_length(property);
-    for (std::uint64_t i = 0; i < count; ++i) body_.scalar(property.type);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      body_.scalar(property.type);
+      body_.count_values(1);
+    }
   }
 
   void skip(const Element& element) {
@@ -379,6 +395,7 @@ class BodyReader {
             body_.fail("a face names vertex " + std::to_string(v) + ", but there are only " +
                        std::to_string(vertices) + " vertices, numbered from 0");
           soup.corners.push_back(static_cast<Index>(v));
+          body_.count_values(1);
         }
       }
       soup.offsets.push_back(soup.corners.size());

@@ -5,44 +5,16 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/large_polygon.h"
 
 namespace morsel::core {
 namespace {
 
-constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
 constexpr std::size_t kSmallPolygon = 64;
-constexpr std::uint64_t kTestsPerCorner = 200;
-
-std::uint64_t key_of(Index a, Index b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::uint64_t{std::max(a, b)};
-}
 
 }  // namespace
-
-EdgeSet::EdgeSet() : table_(1024, kEmpty) {}
-
-std::size_t EdgeSet::slot(std::uint64_t key) const {
-  const std::size_t mask = table_.size() - 1;
-  std::size_t i = (key * 0x9E37'79B9'7F4A'7C15u) >> 20 & mask;
-  while (table_[i] != kEmpty && table_[i] != key) i = (i + 1) & mask;
-  return i;
-}
-
-void EdgeSet::insert(Index a, Index b) {
-  if (2 * size_ >= table_.size()) {
-    const std::vector<std::uint64_t> old = std::exchange(table_, std::vector(2 * table_.size(), kEmpty));
-    for (const std::uint64_t key : old)
-      if (key != kEmpty) table_[slot(key)] = key;
-  }
-  std::uint64_t& entry = table_[slot(key_of(a, b))];
-  if (entry == kEmpty) ++size_;
-  entry = key_of(a, b);
-}
-
-bool EdgeSet::contains(Index a, Index b) const { return table_[slot(key_of(a, b))] != kEmpty; }
 
 void PolygonTriangulator::triangulate(std::span<const Index> polygon, std::size_t face,
                                       std::vector<Triangle>& triangles) {
@@ -50,13 +22,18 @@ void PolygonTriangulator::triangulate(std::span<const Index> polygon, std::size_
     triangles.push_back({polygon[0], polygon[1], polygon[2]});
     return;
   }
-  face_ = face;
-  tests_left_ += kTestsPerCorner * polygon.size();
+  progress_.throw_if_cancelled();
   place(polygon);
-  if (polygon.size() == 4)
+  if (polygon.size() == 4) {
     cut_quad(polygon, triangles);
-  else
+  } else if (polygon.size() <= kSmallPolygon) {
     clip_ears(polygon, triangles);
+  } else {
+    tests_left_ += tests_per_corner_ * polygon.size();
+    if (!cut_large_polygon({polygon, local_, normal_}, edges_, tests_left_, triangles, progress_))
+      throw BadInput("face " + std::to_string(face) + " is a polygon of " + std::to_string(polygon.size()) +
+                     " corners, too intricate to be cut into triangles");
+  }
 }
 
 /// Scaling to unit size keeps products of coordinates in range.
@@ -77,14 +54,8 @@ void PolygonTriangulator::place(std::span<const Index> polygon) {
   if (!normal_.allFinite()) normal_ = Point::Zero();
 }
 
-/// 1 for an equilateral triangle, towards 0 for slivers, negative when seen from behind.
 double PolygonTriangulator::shape(std::size_t a, std::size_t b, std::size_t c) const {
-  const Point ab = local_[b] - local_[a];
-  const Point bc = local_[c] - local_[b];
-  const Point ca = local_[a] - local_[c];
-  const double edges = ab.squaredNorm() + bc.squaredNorm() + ca.squaredNorm();
-  const double result = 2 * std::sqrt(3.0) * normal_.dot(ab.cross(bc)) / edges;
-  return std::isfinite(result) ? result : 0;
+  return PlacedPolygon{{}, local_, normal_}.shape(a, b, c);
 }
 
 void PolygonTriangulator::cut_quad(std::span<const Index> polygon, std::vector<Triangle>& triangles) {
@@ -109,11 +80,10 @@ void PolygonTriangulator::cut_quad(std::span<const Index> polygon, std::vector<T
 
 /// Whether no corner lies in the ear abc or on its diagonal ca. A corner inside would bring a reflex one
 /// along, so only those are looked at.
-bool PolygonTriangulator::is_empty(std::size_t a, std::size_t b, std::size_t c) {
+bool PolygonTriangulator::is_empty(std::size_t a, std::size_t b, std::size_t c) const {
   const auto side = [&](std::size_t from, std::size_t to, const Point& p) {
     return normal_.dot((local_[to] - local_[from]).cross(p - local_[from]));
   };
-  tests_left_ -= std::min<std::uint64_t>(tests_left_, reflex_.size());
   for (const std::size_t i : reflex_) {
     if (i == a || i == b || i == c || is_gone(i)) continue;
     const Point& p = local_[i];
@@ -125,14 +95,12 @@ bool PolygonTriangulator::is_empty(std::size_t a, std::size_t b, std::size_t c) 
 
 bool PolygonTriangulator::is_reflex(std::size_t i) const { return !(shape(previous_[i], i, next_[i]) > 0); }
 
-PolygonTriangulator::Ear PolygonTriangulator::find_ear(std::span<const Index> polygon, std::size_t start,
-                                                       bool best_of_all) {
+/// The first of the best shaped from `start` on.
+PolygonTriangulator::Ear PolygonTriangulator::best_ear(std::span<const Index> polygon,
+                                                       std::size_t start) const {
   Ear best;
   std::size_t b = start;
   do {
-    if (tests_left_-- <= 1)
-      throw BadInput("face " + std::to_string(face_) + " is a polygon of " + std::to_string(polygon.size()) +
-                     " corners, too intricate to be cut into triangles");
     const std::size_t a = previous_[b];
     const std::size_t c = next_[b];
     Ear ear{b, Ear::degenerate, shape(a, b, c)};
@@ -142,7 +110,6 @@ PolygonTriangulator::Ear PolygonTriangulator::find_ear(std::span<const Index> po
     if (may_win && ear.rank == Ear::crossing && ear.shape > 0 && is_empty(a, b, c)) ear.rank = Ear::proper;
     // Rounding must not decide between equals.
     if (ear.rank > best.rank || (ear.rank == best.rank && ear.shape > best.shape + 1e-9)) best = ear;
-    if (!best_of_all && best.rank == Ear::proper) break;
     b = c;
   } while (b != start);
   return best;
@@ -161,7 +128,7 @@ void PolygonTriangulator::clip_ears(std::span<const Index> polygon, std::vector<
     if (is_reflex(i)) reflex_.push_back(i);
   std::size_t start = 0;
   for (std::size_t left = n; left > 3; --left) {
-    const std::size_t b = find_ear(polygon, start, n <= kSmallPolygon).corner;
+    const std::size_t b = best_ear(polygon, start).corner;
     const std::size_t a = previous_[b];
     const std::size_t c = next_[b];
     triangles.push_back({polygon[a], polygon[b], polygon[c]});
@@ -169,7 +136,6 @@ void PolygonTriangulator::clip_ears(std::span<const Index> polygon, std::vector<
     next_[a] = c;
     previous_[c] = a;
     previous_[b] = b;  // gone
-    if (left % 64 == 0) std::erase_if(reflex_, [&](std::size_t i) { return is_gone(i) || !is_reflex(i); });
     start = next_[c];
   }
   const std::size_t a = start;

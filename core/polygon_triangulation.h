@@ -1,11 +1,14 @@
 #pragma once
 /// Cutting polygons into triangles. Internal to build_mesh().
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "morsel/core/hash_index.h"
+#include "morsel/core/progress.h"
 #include "morsel/core/types.h"
 
 namespace morsel::core {
@@ -13,14 +16,21 @@ namespace morsel::core {
 /// The edges that a mesh has so far, as unordered pairs of different vertices: a hash table.
 class EdgeSet {
  public:
-  EdgeSet();
-  void insert(Index a, Index b);
-  bool contains(Index a, Index b) const;
+  void insert(Index a, Index b) { edges_.insert(key_of(a, b)); }
+  bool contains(Index a, Index b) const { return edges_.find(key_of(a, b)) != Keys::kFree; }
 
  private:
-  std::size_t slot(std::uint64_t key) const;
-  std::vector<std::uint64_t> table_;
-  std::size_t size_ = 0;
+  struct Keys {
+    static constexpr std::uint64_t kFree = ~std::uint64_t{0};
+    static std::size_t hash(std::uint64_t key) { return key * 0x9E37'79B9'7F4A'7C15u >> 20; }
+    static std::uint64_t key(std::uint64_t entry) { return entry; }
+    static bool equal(std::uint64_t a, std::uint64_t b) { return a == b; }
+    static bool less(std::uint64_t a, std::uint64_t b) { return a < b; }
+  };
+  static std::uint64_t key_of(Index a, Index b) {
+    return std::uint64_t{std::min(a, b)} << 32 | std::uint64_t{std::max(a, b)};
+  }
+  HashIndex<std::uint64_t, Keys> edges_;
 };
 
 /// Cuts one polygon at a time by diagonals, keeping its orientation.
@@ -28,21 +38,34 @@ class EdgeSet {
 /// Polygons need be neither convex nor quite flat: they are seen along the normal of their best plane
 /// (Newell's). A quad gets the diagonal whose worse triangle is the better shaped one, the first corner's in
 /// a tie; a larger polygon loses the best shaped ear again and again (Meisters 1975), or, above 64 corners,
-/// the next ear in turn. An edge that the mesh already has is avoided as a diagonal as long as there is
+/// the next ear in turn (large_polygon.h). An edge that the mesh already has is avoided as a diagonal as long as there is
 /// another: two faces on the same four corners, say, would otherwise share it. A polygon whose sides cross,
 /// or without an area, is cut in some way that names each corner's vertex.
 ///
-/// Deterministic. O(n) to O(n²) tests a polygon of n corners, more than that only if it is very intricate.
+/// Deterministic. O(n log n) tests for a polygon of n corners as a rule, and O(n^1.5) for one made to be costly.
 class PolygonTriangulator {
  public:
-  /// `edges` holds the sides of all polygons and receives the diagonals; both must outlive this. Work ends
-  /// with an error after `most_tests` tests and 200 more for each corner: some seconds.
-  PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges,
-                      std::uint64_t most_tests = 300'000'000)
-      : positions_(positions), edges_(edges), tests_left_(most_tests) {}
+  /// What is spent on polygons of more than 64 corners at most, altogether: so many tests, and more for each corner. The
+  /// default is some seconds.
+  struct Limits {
+    std::uint64_t tests = 300'000'000;
+    std::uint64_t tests_per_corner = 200;
+  };
+
+  /// `edges` holds the sides of all polygons and receives the diagonals; all but the limits must outlive this.
+  PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges, const Progress& progress)
+      : PolygonTriangulator(positions, edges, progress, Limits()) {}
+  PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges, const Progress& progress,
+                      Limits limits)
+      : positions_(positions),
+        edges_(edges),
+        progress_(progress),
+        tests_left_(limits.tests),
+        tests_per_corner_(limits.tests_per_corner) {}
 
   /// Appends the n − 2 triangles of a polygon of n ≥ 3 corners, all vertices of which exist and none of which
-  /// follows itself. Throws BadInput (`face` is for the message) where polygons would take minutes.
+  /// follows itself. Throws BadInput (`face` is for the message) where the limits are exceeded, Cancelled if a stop was
+  /// requested.
   void triangulate(std::span<const Index> polygon, std::size_t face, std::vector<Triangle>& triangles);
 
  private:
@@ -58,19 +81,20 @@ class PolygonTriangulator {
   double shape(std::size_t a, std::size_t b, std::size_t c) const;
   void cut_quad(std::span<const Index> polygon, std::vector<Triangle>& triangles);
   void clip_ears(std::span<const Index> polygon, std::vector<Triangle>& triangles);
-  Ear find_ear(std::span<const Index> polygon, std::size_t start, bool best_of_all);
-  bool is_empty(std::size_t a, std::size_t b, std::size_t c);
+  Ear best_ear(std::span<const Index> polygon, std::size_t start) const;
+  bool is_empty(std::size_t a, std::size_t b, std::size_t c) const;
   bool is_reflex(std::size_t i) const;
   bool is_gone(std::size_t i) const { return previous_[i] == i; }
 
   std::span<const Point> positions_;
   EdgeSet& edges_;
+  const Progress& progress_;
   std::vector<Point> local_;                  // the polygon's corners, scaled to unit size
   Point normal_ = Point::Zero();              // of its best plane, unit length or zero
   std::vector<std::size_t> previous_, next_;  // the ring of corners not clipped yet
   std::vector<std::size_t> reflex_;           // those that may lie in an ear
-  std::size_t face_ = 0;
   std::uint64_t tests_left_;
+  std::uint64_t tests_per_corner_;
 };
 
 }  // namespace morsel::core

@@ -4,53 +4,52 @@
 #include <cstdint>
 #include <cstring>
 
+#include "morsel/core/hash_index.h"
 #include "morsel/core/mesh_formats.h"
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
 namespace {
 
-/// Numbers equal positions alike: a hash table with open addressing of vertex numbers.
-class Welder {
- public:
-  explicit Welder(std::vector<Point>& positions) : positions_(positions), table_(1024, kNone) {}
+/// What HashIndex has to know of positions, whose entries are their numbers.
+struct PositionKeys {
+  static constexpr Index kFree = kNone;
+  const std::vector<Point>& positions;
 
-  Index operator()(Point p) {
-    p += Point::Zero();  // −0 and 0 are the same place
-    if (p.hasNaN()) {    // equals nothing, not even itself
-      positions_.push_back(p);
-      return static_cast<Index>(positions_.size() - 1);
-    }
-    if (2 * positions_.size() >= table_.size()) grow();
-    Index& slot = find(p);
-    if (slot == kNone) {
-      slot = static_cast<Index>(positions_.size());
-      positions_.push_back(p);
-    }
-    return slot;
-  }
-
- private:
-  Index& find(const Point& p) {
+  static std::size_t hash(const Point& p) {
     std::uint64_t hash = 0;
     for (int axis = 0; axis < 3; ++axis) {
       hash = (hash ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9E37'79B9'7F4A'7C15u;
       hash ^= hash >> 32;
     }
-    const std::size_t mask = table_.size() - 1;
-    std::size_t i = hash & mask;
-    while (table_[i] != kNone && positions_[table_[i]] != p) i = (i + 1) & mask;
-    return table_[i];
+    return hash;
+  }
+  const Point& key(Index v) const { return positions[v]; }
+  static bool equal(const Point& a, const Point& b) { return a == b; }
+  static bool less(const Point& a, const Point& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  }
+};
+
+/// Numbers equal positions alike.
+class Welder {
+ public:
+  explicit Welder(std::vector<Point>& positions) : positions_(positions), index_(PositionKeys{positions}) {}
+
+  Index operator()(Point p) {
+    p += Point::Zero();  // −0 and 0 are the same place
+    const bool is_equal_to_itself = !p.hasNaN();
+    const Index known = is_equal_to_itself ? index_.find(p) : kNone;
+    if (known != kNone) return known;
+    const auto added = static_cast<Index>(positions_.size());
+    positions_.push_back(p);
+    if (is_equal_to_itself) index_.insert(added);
+    return added;
   }
 
-  void grow() {
-    table_.assign(2 * table_.size(), kNone);
-    for (Index v = 0; v < positions_.size(); ++v)
-      if (!positions_[v].hasNaN()) find(positions_[v]) = v;
-  }
-
+ private:
   std::vector<Point>& positions_;
-  std::vector<Index> table_;
+  HashIndex<Index, PositionKeys> index_;
 };
 
 void add_triangle(PolygonSoup& soup, const std::array<Index, 3>& corners) {

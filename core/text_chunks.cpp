@@ -38,6 +38,10 @@ PolygonSoup joined(std::vector<PolygonSoup>& parts) {
 
 }  // namespace
 
+Progress unreported(const Progress& progress) {
+  return Progress([&progress](std::string_view, double) { progress.throw_if_cancelled(); });
+}
+
 std::vector<std::string_view> line_chunks(std::string_view text, char terminator) {
   std::vector<std::string_view> chunks;
   if (text.size() < 2 * kChunk || thread_count() == 1) return chunks;
@@ -53,9 +57,13 @@ std::vector<std::string_view> line_chunks(std::string_view text, char terminator
 }
 
 std::vector<std::size_t> items_before(const std::vector<std::string_view>& chunks,
-                                      const std::function<std::size_t(std::string_view)>& count) {
+                                      const std::function<std::size_t(std::string_view)>& count,
+                                      const Progress& progress) {
   std::vector<std::size_t> before(chunks.size() + 1, 0);
-  parallel_for(0, chunks.size(), 1, [&](std::size_t k, std::size_t) { before[k + 1] = count(chunks[k]); });
+  parallel_for(0, chunks.size(), 1, [&](std::size_t k, std::size_t) {
+    progress.throw_if_cancelled();
+    before[k + 1] = count(chunks[k]);
+  });
   std::partial_sum(before.begin(), before.end(), before.begin());
   return before;
 }

@@ -12,14 +12,18 @@
 
 namespace morsel::core {
 
+/// A Progress for any thread: it reports nothing and stops when `progress` does, which must outlive it.
+Progress unreported(const Progress& progress);
+
 /// Cuts a text into pieces of whole lines. None where that does not pay: the text is short, or there is one
 /// thread; nor where a piece would begin with a byte-order mark, which readers skip.
 std::vector<std::string_view> line_chunks(std::string_view text, char terminator);
 
 /// The number of items (such as lines) in each chunk, and the number of those before it; one entry more than
-/// chunks, which is the sum.
+/// chunks, which is the sum. Heeds cancellation.
 std::vector<std::size_t> items_before(const std::vector<std::string_view>& chunks,
-                                      const std::function<std::size_t(std::string_view)>& count);
+                                      const std::function<std::size_t(std::string_view)>& count,
+                                      const Progress& progress);
 
 /// Reads chunk after chunk with `read`, in parallel, and joins the soups in their order. Nothing if one of
 /// them threw BadInput: then the text is to be read from its start, so that the error is the first one and

@@ -77,9 +77,14 @@ bool TextScanner::next_raw_line() {
   const auto* found = static_cast<const char*>(std::memchr(cursor_, terminator_, remaining()));
   line_end_ = found == nullptr ? end_ : found;
   next_ = found == nullptr ? end_ : found + 1;
-  if ((++line_ & 0xFFFF) == 0)
-    progress_.update("reading the mesh", static_cast<double>(cursor_ - begin_) / (end_ - begin_));
+  ++line_;
+  advance();
   return true;
+}
+
+void TextScanner::report() const {
+  progress_.update("reading the mesh",
+                   static_cast<double>(cursor_ - begin_) / static_cast<double>(end_ - begin_));
 }
 
 bool TextScanner::next_line() {
@@ -116,6 +121,7 @@ std::string_view TextScanner::word() {
   if (at_line_end()) return {};
   const std::string_view result = peek_word();
   cursor_ += result.size();
+  advance();
   return result;
 }
 
@@ -140,6 +146,7 @@ double TextScanner::parse(std::string_view what) {
     value = *start == '-' ? -Float{0} : Float{0};
   }
   cursor_ = stop;
+  advance();
   return value;
 }
 
@@ -158,6 +165,7 @@ std::int64_t TextScanner::leading_integer(std::string_view what) {
   if (error == std::errc::result_out_of_range)
     fail(std::string(what) + " is too large a number: " + shown(peek_word()));
   cursor_ = stop;
+  advance();
   return value;
 }
 

@@ -18,7 +18,7 @@ std::string shown(std::string_view word);
 
 /// Goes over lines that have a word, and over the words of the line it stands on. Lines end with \n, \r\n, or
 /// (in a file without any \n) \r. Independent of locales. Errors name the file and the line. Reports progress
-/// and heeds cancellation every 65,536 lines.
+/// and heeds cancellation every 65,536 lines and words.
 class TextScanner {
  public:
   struct Syntax {
@@ -69,6 +69,11 @@ class TextScanner {
  private:
   template <class Float>
   double parse(std::string_view what);
+  /// After each line and word.
+  void advance() {
+    if ((++steps_ & 0xFFFF) == 0) report();
+  }
+  void report() const;
 
   const char* begin_;
   const char* end_;
@@ -76,6 +81,7 @@ class TextScanner {
   const char* cursor_ = nullptr;  // in the current line
   const char* line_end_ = nullptr;
   std::size_t line_ = 0;
+  std::size_t steps_ = 0;  // lines and words gone past
   char terminator_ = '\n';
   Syntax syntax_;
   const std::string& file_;

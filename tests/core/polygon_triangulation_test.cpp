@@ -9,7 +9,6 @@
 #include <random>
 #include <set>
 
-#include "morsel/core/error.h"
 #include "morsel/core/mesh_builder.h"
 #include "support/meshes.h"
 
@@ -183,28 +182,6 @@ TEST_CASE("small closed quad meshes stay manifold") {
       }
     CHECK(core::build_mesh(soup).mesh.genus() == 1);
   }
-}
-
-TEST_CASE("a polygon too intricate to be cut in time is refused") {
-  // A comb: thousands of corners lie in the way of any ear but the teeth's own.
-  const auto comb = [](int teeth) {
-    std::vector<Point> polygon;
-    for (int i = 0; i < teeth; ++i) {
-      polygon.emplace_back(i, 0, 0);
-      polygon.emplace_back(i + 0.5, 1000.0 + i % 7, 0);
-    }
-    polygon.emplace_back(teeth, 2000, 0);
-    polygon.emplace_back(-1, 2000, 0);
-    return polygon;
-  };
-  check_flat(comb(1000));
-
-  const PolygonSoup soup = one_polygon(comb(3000));
-  core::EdgeSet edges;
-  std::vector<Triangle> triangles;
-  core::PolygonTriangulator impatient(soup.positions, edges, 1000);
-  CHECK_THROWS_WITH(impatient.triangulate(soup.polygon(0), 17, triangles),
-                    "face 17 is a polygon of 6002 corners, too intricate to be cut into triangles");
 }
 
 TEST_CASE("an edge set knows its edges either way round") {

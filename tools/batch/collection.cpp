@@ -96,16 +96,24 @@ std::vector<CollectionMesh> found_directly(const fs::path& folder_or_list, const
 
 /// Throws where results of two meshes would have the same place.
 void check_names(const fs::path& folder_or_list, const std::vector<CollectionMesh>& meshes) {
-  std::set<std::string_view> names;
+  // Where / comes before all other characters, a name is followed by those in a folder of that name.
+  const auto less = [](std::string_view a, std::string_view b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+      return x != y && y != '/' &&
+             (x == '/' || static_cast<unsigned char>(x) < static_cast<unsigned char>(y));
+    });
+  };
+  std::set<std::string_view, decltype(less)> names(less);
   for (const CollectionMesh& mesh : meshes)
     if (!names.insert(mesh.name).second)
       throw core::BadInput(folder_or_list.string() + " has two meshes that would be called " + mesh.name);
-  for (const std::string_view name : names)
-    for (std::size_t at = 0; (at = name.find('/', at)) != std::string_view::npos; ++at)
-      if (names.contains(name.substr(0, at)))
-        throw core::BadInput(folder_or_list.string() + " has a mesh that would be called " +
-                             std::string(name.substr(0, at)) + " and one in a folder of that name, " +
-                             std::string(name));
+  std::string_view before;
+  for (const std::string_view name : names) {
+    if (!before.empty() && name.starts_with(before) && name[before.size()] == '/')
+      throw core::BadInput(folder_or_list.string() + " has a mesh that would be called " +
+                           std::string(before) + " and one in a folder of that name, " + std::string(name));
+    before = name;
+  }
 }
 
 }  // namespace

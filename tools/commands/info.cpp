@@ -34,7 +34,7 @@ struct Findings {
 Findings inspect(const std::string& path, bool repair, const core::Progress& progress) {
   Findings findings{core::read_polygon_soup(path, progress), std::nullopt, {}};
   try {
-    findings.built = core::build_mesh(findings.file.soup, {.repair = repair});
+    findings.built = core::build_mesh(findings.file.soup, {.repair = repair}, progress);
   } catch (const core::MeshError& error) {
     findings.defects = error.defects();
   }

@@ -21,8 +21,11 @@ constexpr std::size_t kLine = 150;
 constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; what follows in a file may be large
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
-    text.replace(at, what.size(), with);
+  std::string replaced;
+  std::size_t begin = 0;
+  for (std::size_t at = 0; (at = text.find(what, begin)) != std::string::npos; begin = at + what.size())
+    replaced.append(text, begin, at - begin).append(with);
+  text = replaced.append(text, begin);
 }
 
 /// Calls take(i) for each character of JSON text that is in no string until it returns false.
