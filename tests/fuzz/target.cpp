@@ -13,7 +13,11 @@ std::span<const Target> targets() {
                                                {"mmcif", "mmcif", "", mmcif},
                                                {"values", "values", "", values},
                                                {"specification", "specification", "", specification},
-                                               {"chain", "chain", "", chain}};
+                                               {"chain", "chain", "", chain},
+                                               {"report", "report", "", report},
+                                               {"state", "state", "", state},
+                                               {"journal", "journal", "", journal},
+                                               {"provenance", "provenance", "", provenance}};
   return kTargets;
 }
 

@@ -30,6 +30,10 @@ void mmcif(std::string_view bytes);
 void values(std::string_view bytes);
 void specification(std::string_view bytes);
 void chain(std::string_view bytes);
+void report(std::string_view bytes);
+void state(std::string_view bytes);
+void journal(std::string_view bytes);
+void provenance(std::string_view bytes);
 
 struct Target {
   std::string_view name;
