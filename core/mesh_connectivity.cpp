@@ -148,7 +148,8 @@ class TriangleMesh::Builder {
       begin = offset[v];
       sort_group(group);
       for (std::size_t i = 0; i < group.size(); ++edges) {
-        const auto [start, end, halfedge] = group[i];
+        const Index end = group[i].end;
+        const Index halfedge = group[i].halfedge;
         if (end == kNone) return kNone;
         const auto continues = [&](std::size_t k) { return k < group.size() && (group[k].end ^ end) <= 1; };
         if (continues(i + 1)) {

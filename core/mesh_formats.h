@@ -7,6 +7,7 @@
 /// the precision the file has them in; corners are checked to name vertices that exist. No count in a header
 /// is believed before the file is seen to be long enough for it.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -15,13 +16,18 @@
 
 namespace morsel::core {
 
+/// Bytes of each piece of a text that is read in parallel: longer texts are cut. A parameter for the sake of tests.
+inline constexpr std::size_t kTextChunk = std::size_t{1} << 16;
+
 /// OFF and its variants COFF, NOFF, STOFF and their combinations, comments, polygons; header word missing or
 /// grown together with the counts. A vertex or face a line. Colours, normals and texture coordinates are
 /// skipped. Binary OFF and 4OFF, nOFF (other dimensions than three) are refused.
-LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress);
+LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk = kTextChunk);
 
 /// Wavefront OBJ: v and f with absolute or relative indices; other statements of the format are skipped.
-LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress);
+LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk = kTextChunk);
 
 /// PLY, ASCII and binary of both byte orders. An ASCII value has the precision of its declared type, so that
 /// the ASCII and the binary form of a file give the same mesh. Elements other than vertex and face are

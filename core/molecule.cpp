@@ -144,8 +144,13 @@ std::string AtomsLeftOut::described() const {
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions& options,
                        const Progress& progress) {
   check_options(options);
-  const std::string file = path.string();
-  AtomRecords all = read_records(path, progress);
+  Molecule molecule = choose_atoms(read_records(path, progress), path.string(), options);
+  progress.update("reading the atoms", 1);
+  return molecule;
+}
+
+Molecule choose_atoms(AtomRecords all, const std::string& file, const MoleculeOptions& options) {
+  check_options(options);
   if (all.records.empty()) throw BadInput(file + " has no atoms");
   if (options.model > all.models)
     throw BadInput(file + " has no model " + std::to_string(options.model) + ", it has " +
@@ -172,7 +177,6 @@ Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions&
                    (count > 1 ? ", the first of " + std::to_string(count) : std::string()) +
                    ", so it has no van der Waals radius");
   }
-  progress.update("reading the atoms", 1);
   return molecule;
 }
 

@@ -128,14 +128,14 @@ class Reader {
   std::size_t highest_line_ = 0;  // 0: no face yet
 };
 
-/// Reads it in parallel; nothing if that does not pay or something is wrong.
+/// Reads it in parallel, in pieces of `chunk` bytes; nothing if that does not pay or something is wrong.
 std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::string& file,
-                                          const Progress& progress) {
+                                          const Progress& progress, std::size_t chunk) {
   const Progress silent = unreported(progress);
   const char terminator =
       TextScanner(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, silent).terminator();
   if (bytes.find('\\') != std::string_view::npos) return std::nullopt;  // a line may be continued
-  const std::vector<std::string_view> chunks = line_chunks(bytes, terminator);
+  const std::vector<std::string_view> chunks = line_chunks(bytes, terminator, chunk);
   const std::vector<std::size_t> vertices_before = items_before(
       chunks,
       [&](std::string_view lines) { return Reader(lines, terminator, 0, file, silent).count_vertices(); },
@@ -152,9 +152,10 @@ std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::str
 
 }  // namespace
 
-LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress) {
+LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk) {
   if (bytes.empty()) fail_reading(file, "it is empty");
-  if (auto soup = read_in_chunks(bytes, file, progress)) return {std::move(*soup), {}};
+  if (auto soup = read_in_chunks(bytes, file, progress, chunk)) return {std::move(*soup), {}};
   return Reader(bytes, file, progress).read();
 }
 

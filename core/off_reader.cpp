@@ -36,9 +36,10 @@ class Reader {
         progress_(progress),
         header_(header) {}
 
-  LoadedSoup read() {
+  /// In parallel if the text is longer than two pieces of `chunk` bytes.
+  LoadedSoup read(std::size_t chunk) {
     read_header();
-    if (read_in_chunks()) return std::move(result_);
+    if (read_in_chunks(chunk)) return std::move(result_);
     read_vertices(0, header_.vertices);
     read_faces(0, header_.faces);
     if (scanner_.next_line())
@@ -49,9 +50,9 @@ class Reader {
 
  private:
   /// Reads all that follows the header, in parallel. False if that does not pay or something is wrong.
-  bool read_in_chunks() {
+  bool read_in_chunks(std::size_t chunk) {
     const char terminator = scanner_.terminator();
-    const std::vector<std::string_view> chunks = line_chunks(scanner_.rest(), terminator);
+    const std::vector<std::string_view> chunks = line_chunks(scanner_.rest(), terminator, chunk);
     const Progress silent = unreported(progress_);
     const std::vector<std::size_t> lines_before = items_before(
         chunks,
@@ -193,8 +194,9 @@ class Reader {
 
 }  // namespace
 
-LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress) {
-  return Reader(bytes, file, progress).read();
+LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk) {
+  return Reader(bytes, file, progress).read(chunk);
 }
 
 }  // namespace morsel::core

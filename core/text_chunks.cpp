@@ -11,8 +11,6 @@
 namespace morsel::core {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes
-
 PolygonSoup joined(std::vector<PolygonSoup>& parts) {
   std::vector<std::size_t> position(parts.size() + 1, 0);
   std::vector<std::size_t> polygon(parts.size() + 1, 0);
@@ -42,12 +40,11 @@ Progress unreported(const Progress& progress) {
   return Progress([&progress](std::string_view, double) { progress.throw_if_cancelled(); });
 }
 
-std::vector<std::string_view> line_chunks(std::string_view text, char terminator) {
+std::vector<std::string_view> line_chunks(std::string_view text, char terminator, std::size_t chunk) {
   std::vector<std::string_view> chunks;
-  if (text.size() < 2 * kChunk || thread_count() == 1) return chunks;
+  if (text.size() / 2 < chunk || thread_count() == 1) return chunks;
   while (!text.empty()) {
-    const std::size_t end =
-        text.size() <= kChunk ? std::string_view::npos : text.find(terminator, kChunk - 1);
+    const std::size_t end = text.size() <= chunk ? std::string_view::npos : text.find(terminator, chunk - 1);
     const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
     chunks.push_back(text.substr(0, size));
     text.remove_prefix(size);

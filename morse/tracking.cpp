@@ -35,7 +35,8 @@ Index nearest(const core::TriangleMesh& mesh, Index v, double reach, const Wante
   std::unordered_map<Index, double> distance = {{v, 0.0}};
   queue.emplace(0.0, v);
   while (!queue.empty()) {
-    const auto [d, u] = queue.top();
+    const double d = queue.top().first;
+    const Index u = queue.top().second;
     queue.pop();
     if (d > distance.at(u)) continue;
     if (wanted(u)) return u;

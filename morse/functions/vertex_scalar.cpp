@@ -1,93 +1,21 @@
 #include "morsel/morse/functions/vertex_scalar.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <span>
-#include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/exhaustion.h"
+#include "morsel/core/text_scanner.h"
+#include "morsel/morse/functions/value_file.h"
 
 namespace morsel::morse {
 namespace {
 
 using core::BadInput;
 using core::Index;
-
-/// A piece of a damaged file, fit for a message.
-std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string result = "\"";
-  for (const char c : text.substr(0, kMost)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > kMost ? "…\"" : "\"");
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\v\f";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-/// The values of a text file, and on which line each stood.
-class ValueFile {
- public:
-  ValueFile(const std::filesystem::path& path, const core::Progress& progress) : name_(path.string()) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-      throw BadInput("cannot read values from " + name_ + ": it is a folder");
-    errno = 0;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
-      core::throw_if_exhausted(errno, "cannot read values from " + name_);
-      throw BadInput("cannot read values from " + name_ + ": " +
-                     (errno != 0 ? std::generic_category().message(errno) : "it does not open"));
-    }
-    std::string line;
-    for (std::size_t number = 1; std::getline(stream, line); ++number) {
-      if (number % (1 << 16) == 0) progress.throw_if_cancelled();
-      std::string_view text = line;
-      if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte order mark
-      text = trimmed(text.substr(0, text.find('#')));
-      if (text.empty())
-        skipped_.push_back(values_.size());
-      else
-        values_.push_back(parse(text, number));
-    }
-    if (stream.bad()) throw BadInput("cannot read values from " + name_ + ": reading failed");
-  }
-
-  std::span<const double> values() const { return values_; }
-
-  /// "line 12".
-  std::string place(std::size_t i) const {
-    const auto skipped = std::upper_bound(skipped_.begin(), skipped_.end(), i) - skipped_.begin();
-    return "line " + std::to_string(i + static_cast<std::size_t>(skipped) + 1);
-  }
-
- private:
-  double parse(std::string_view text, std::size_t number) const {
-    double value = 0;
-    const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error == std::errc() && stop == end) return value;
-    throw BadInput(name_ + ", line " + std::to_string(number) + ": " + shown(text) +
-                   (error == std::errc::result_out_of_range && stop == end
-                        ? " is beyond the range of double precision"
-                        : " is not one number"));
-  }
-
-  std::string name_;
-  std::vector<double> values_;
-  std::vector<std::size_t> skipped_;  // per line without a value: how many values came before
-};
+using core::shown;
 
 std::size_t input_vertex_count(const core::TriangleMesh& mesh, const core::VertexNumbering& numbering) {
   const bool same = numbering.to_input.empty() && numbering.from_input.empty();
@@ -162,7 +90,7 @@ core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::Mesh
     return make_field(mesh, numbering, property.values, "the property " + shown(property.name),
                       [](std::size_t i) { return "entry " + std::to_string(i); });
   }
-  const ValueFile file(options.file, progress);
+  const ValueFile file = ValueFile::read(options.file, progress);
   return make_field(mesh, numbering, file.values(), options.file.string(),
                     [&](std::size_t i) { return file.place(i); });
 }

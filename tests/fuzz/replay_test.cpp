@@ -1,4 +1,4 @@
-// The fuzzer's entry point over the corpus and over seeded mutations of it, as an ordinary test.
+// The fuzz targets over their corpora and over seeded mutations of them, as ordinary tests.
 
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -7,16 +7,12 @@
 #include <vector>
 
 #include "support/corpus.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#include "target.h"
 
 using namespace morsel::test;
+using morsel::fuzz::Target;
 
 namespace {
-
-void run(const std::string& bytes) {
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-}
 
 /// One small change of the kinds that damage files or find bugs.
 std::string mutated(const std::string& bytes, const std::vector<CorpusFile>& corpus, std::mt19937& random) {
@@ -70,24 +66,34 @@ std::string mutated(const std::string& bytes, const std::vector<CorpusFile>& cor
   return result;
 }
 
-}  // namespace
-
-TEST_CASE("every file of the corpus read as every format gives a mesh or an error") {
-  for (const CorpusFile& file : mesh_corpus()) {
-    INFO(file.name);
-    CHECK_NOTHROW(run(file.bytes));
-  }
+/// The files of its kind.
+std::vector<CorpusFile> own_files(const Target& target) {
+  std::vector<CorpusFile> files = corpus(target.corpus);
+  std::erase_if(files, [&](const CorpusFile& file) { return !file.name.ends_with(target.extension); });
+  REQUIRE(files.size() >= 5);
+  return files;
 }
 
-TEST_CASE("mutations of the corpus give a mesh or an error") {
-  const std::vector<CorpusFile> corpus = mesh_corpus();
-  std::mt19937 random(20240607);
-  for (int round = 0; round < 60; ++round)
-    for (const CorpusFile& file : corpus) {
-      std::string bytes = file.bytes;
-      for (unsigned changes = 1 + random() % 4; changes > 0; --changes)
-        bytes = mutated(bytes, corpus, random);
-      INFO(file.name << ", round " << round << ":\n" << bytes);
-      REQUIRE_NOTHROW(run(bytes));
+}  // namespace
+
+TEST_CASE("fuzz targets find nothing in their corpora") {
+  for (const Target& target : morsel::fuzz::targets())
+    for (const CorpusFile& file : corpus(target.corpus)) {  // files of other formats, too
+      INFO(target.name << ": " << file.name);
+      CHECK_NOTHROW(target.run(file.bytes));
     }
+}
+
+TEST_CASE("fuzz targets find nothing in mutations of their corpora") {
+  for (const Target& target : morsel::fuzz::targets()) {
+    const std::vector<CorpusFile> files = own_files(target);
+    std::mt19937 random(20240607);
+    for (std::size_t run = 0; run < 2000; ++run) {
+      const CorpusFile& file = files[run % files.size()];
+      std::string bytes = file.bytes;
+      for (unsigned changes = 1 + random() % 4; changes > 0; --changes) bytes = mutated(bytes, files, random);
+      INFO(target.name << ": " << file.name << ", run " << run << ":\n" << bytes);
+      REQUIRE_NOTHROW(target.run(bytes));
+    }
+  }
 }

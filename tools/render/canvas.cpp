@@ -42,7 +42,7 @@ struct Canvas::Surface {
   }
 };
 
-Canvas::Canvas(Size size, bool transparent) : size_(size), transparent_(transparent) {
+Canvas::Canvas(Size size, bool transparent) : size_(size) {
   check_size(size);
   surface_ = std::make_unique<Surface>(size);
   if (!transparent) fill(0, 0, size.width, size.height, 0xffffff);

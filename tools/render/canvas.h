@@ -48,7 +48,6 @@ class Canvas {
  private:
   struct Surface;
   Size size_;
-  bool transparent_;
   std::unique_ptr<Surface> surface_;
 };
 

@@ -333,7 +333,8 @@ Image Tracer::trace(const Camera& camera, const TraceOptions& options, const cor
   if (options.samples < 1 || options.samples > 1024)
     throw core::InvalidArgument("a picture takes 1 to 1024 samples a pixel, not " +
                                 std::to_string(options.samples));
-  const auto [width, height] = options.size;
+  const int width = options.size.width;
+  const int height = options.size.height;
   Image image(options.size, options.transparent);
   std::vector<Pixel> pixels(static_cast<std::size_t>(width) * height);
   const Sampler sampler(scene_, rays_, camera, options);

@@ -1,0 +1,24 @@
+#include "target.h"
+
+#include <vector>
+
+namespace morsel::fuzz {
+
+std::span<const Target> targets() {
+  static const std::vector<Target> kTargets = {{"off", "meshes", ".off", off},
+                                               {"obj", "meshes", ".obj", obj},
+                                               {"ply", "meshes", ".ply", ply},
+                                               {"stl", "meshes", ".stl", stl},
+                                               {"pdb", "pdb", "", pdb},
+                                               {"mmcif", "mmcif", "", mmcif},
+                                               {"values", "values", "", values},
+                                               {"specification", "specification", "", specification},
+                                               {"chain", "chain", "", chain},
+                                               {"report", "report", "", report},
+                                               {"state", "state", "", state},
+                                               {"journal", "journal", "", journal},
+                                               {"provenance", "provenance", "", provenance}};
+  return kTargets;
+}
+
+}  // namespace morsel::fuzz

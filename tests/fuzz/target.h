@@ -1,0 +1,48 @@
+#pragma once
+/// The fuzz targets: each reads any bytes as one kind of input and checks what must hold of what comes out.
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace morsel::fuzz {
+
+/// What must hold does not.
+class Violation : public std::logic_error {
+ public:
+  using logic_error::logic_error;
+};
+
+inline void require(bool holds, const char* what) {
+  if (!holds) throw Violation(what);
+}
+
+/// One source file each. A core::BadInput or core::InvalidArgument is an answer that they take; whatever comes out of them is
+/// a bug found.
+void off(std::string_view bytes);
+void obj(std::string_view bytes);
+void ply(std::string_view bytes);
+void stl(std::string_view bytes);
+void pdb(std::string_view bytes);
+void mmcif(std::string_view bytes);
+void values(std::string_view bytes);
+void specification(std::string_view bytes);
+void chain(std::string_view bytes);
+void report(std::string_view bytes);
+void state(std::string_view bytes);
+void journal(std::string_view bytes);
+void provenance(std::string_view bytes);
+
+struct Target {
+  std::string_view name;
+  std::string corpus;     ///< a folder in tests/corpus
+  std::string extension;  ///< of its files there; empty: all
+  void (*run)(std::string_view bytes);
+};
+
+/// All of them, by these names.
+std::span<const Target> targets();
+
+}  // namespace morsel::fuzz
