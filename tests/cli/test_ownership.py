@@ -235,8 +235,9 @@ class Batch(OwnershipTest):
         result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", "--plan"], cwd=self.folder, capture_output=True, check=True)
         rows = [line.split("\t") for line in os.fsdecode(result.stdout).splitlines()]
         self.assertEqual({len(row) for row in rows}, {2})
-        self.assertEqual({json.loads(name) if name.startswith('"') else name for _, name in rows},
-                         {*names, os.fsdecode(b"bytes\xff\n.off")})
+        self.assertEqual({name for _, name in rows},
+                         {"a.off", "b.off", r'"line\nbreak\t\x7f.off"', r'"\"quoted\".off"', r'"back\\slash.off"',
+                          r'"new\n\"line\\.off"', r'"bytes\xff\n.off"'})
         self.assertFalse((self.folder / "out").exists())
         for name in names:
             self.batch("meshes", "out", "--only", name, "--no-summary")
@@ -460,9 +461,9 @@ class Outputs(OwnershipTest):
         soft.symlink_to(path.name)
         far.symlink_to(soft)
         os.link(path, hard)
-        names = [soft.name, hard.name, far.name, f"./{soft.name}", str(soft)]
+        names = [hard.name, f"./{far.name}"]
         if path.suffix == ending:
-            names += [path.name, f"./{path.name}", f"linked/{path.name}"]
+            names += [path.name, f"linked/{path.name}"]
         return names, (soft, hard, far)
 
     def test_no_output_is_an_input(self):

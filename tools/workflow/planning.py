@@ -28,22 +28,6 @@ def lines(data):
     return os.fsdecode(data).split("\n")[:-1]
 
 
-def words(part):
-    """Those of a part's command."""
-    return os.fsdecode(part.read_bytes()).split("\0")[:-1]
-
-
-def planned_name(text):
-    """The name that a line of `morsel batch --plan` has: as it is, or in double quotes with some bytes escaped."""
-    def plain(match):
-        what = match.group(1)
-        if what[0] == "x":
-            return os.fsdecode(bytes([int(what[1:], 16)]))
-        return chr(int(what[1:], 16)) if what[0] == "u" else {"n": "\n", "t": "\t", "r": "\r"}.get(what, what)
-
-    return re.sub(r"\\(x[0-9a-f]{2}|u[0-9a-f]{4}|.)", plain, text[1:-1]) if text.startswith('"') else text
-
-
 class Settings:
     """config.yaml with what the user changed in it, checked."""
 
