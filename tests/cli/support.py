@@ -64,6 +64,11 @@ def interrupted(folder, arguments, how, code, ready):
     return sum(path.read_bytes().count(b"\n") - 1 for path in folder.glob("*.journal"))
 
 
+def made_in(folder):
+    """What is in a folder of results, without the list of it."""
+    return sorted(path for path in folder.iterdir() if path.name != ".morsel-results")
+
+
 def data_lines(path):
     """The lines of a text file without its comments."""
     return [line for line in path.read_text().splitlines() if not line.startswith("#")]

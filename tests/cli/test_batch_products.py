@@ -19,7 +19,8 @@ def size_of(picture):
 class Products(BatchTest):
     def files(self, kind, out="out"):
         folder = self.folder / out / kind
-        return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+        return sorted(str(path.relative_to(folder)) for path in folder.rglob("*")
+                      if path.is_file() and path.name != ".morsel-results")
 
     def test_each_mesh_has_what_compare_makes(self):
         self.batch(*ALL, "--no-items", pictures=True)

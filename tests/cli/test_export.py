@@ -3,7 +3,7 @@
 import csv
 import unittest
 
-from support import OCTAHEDRON, SAMPLES, ProgramTest
+from support import OCTAHEDRON, SAMPLES, ProgramTest, made_in
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 
@@ -99,7 +99,7 @@ class Export(ProgramTest):
     def test_methods_of_one_name_get_files_of_their_own(self):
         mesh = self.file("o.off", OCTAHEDRON)
         self.morsel("compare", mesh, "--method", "tps", "--method", "tps:threshold=1%", "--export", "out")
-        names = sorted(p.name for p in (self.folder / "out").iterdir())
+        names = [p.name for p in made_in(self.folder / "out")]
         self.assertEqual(names, [f"{m}.{kind}" for m in ("tps-2", "tps")
                                  for kind in ("complex.vtp", "points.csv", "surface.vtp")])
 

@@ -5,7 +5,7 @@ import os
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, made_in
 from test_export import arrays, read
 
 HIERARCHY_SCHEMA = SCHEMA.parent / "hierarchy.schema.json"
@@ -196,7 +196,7 @@ class Files(Hierarchy):
         for kind in ("iteration", "persistence"):
             document = self.hierarchy(LION, "--by", kind, "--export", kind)
             names = [f"{what}.{k}.vtp" for what in ("complex", "surface") for k in range(3)]
-            self.assertEqual(sorted(os.listdir(self.folder / kind)), names)
+            self.assertEqual([path.name for path in made_in(self.folder / kind)], names)
             for level in document["levels"]:
                 self.check_surface(read(self.folder / kind / f"surface.{level['level']}.vtp"), document, level)
                 self.check_complex(read(self.folder / kind / f"complex.{level['level']}.vtp"), level)

@@ -460,9 +460,9 @@ class Outputs(OwnershipTest):
         soft.symlink_to(path.name)
         far.symlink_to(soft)
         os.link(path, hard)
-        names = [soft.name, hard.name, far.name, f"./{soft.name}", str(soft)]
+        names = [hard.name, f"./{far.name}"]
         if path.suffix == ending:
-            names += [path.name, f"./{path.name}", f"linked/{path.name}"]
+            names += [path.name, f"linked/{path.name}"]
         return names, (soft, hard, far)
 
     def test_no_output_is_an_input(self):

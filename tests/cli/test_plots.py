@@ -7,7 +7,7 @@ import unittest
 import xml.etree.ElementTree as xml
 import zlib
 
-from support import OCTAHEDRON, SAMPLES, ProgramTest
+from support import OCTAHEDRON, SAMPLES, ProgramTest, made_in
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -56,7 +56,7 @@ def pixels(path):
 class Plots(ProgramTest):
     def compare(self, *arguments, folder="plots"):
         report = self.report(*arguments, "--figures", folder, "--size", "120x84")
-        return report, {path.name: path for path in (self.folder / folder).iterdir()}
+        return report, {path.name: path for path in made_in(self.folder / folder)}
 
     def test_the_lions_plots_show_what_the_report_says(self):
         report, files = self.compare(SAMPLES / "lion-head.off")

@@ -3,7 +3,7 @@
 import unittest
 
 from png import Png
-from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest, made_in
 
 BUNNY = SAMPLES / "bunny00.off"
 LION = SAMPLES / "lion-head.off"
@@ -94,7 +94,7 @@ class Render(ProgramTest):
         self.morsel("compare", mesh, "--field", "height", "--method", "conventional", "--method", "conventional",
                     "--figures", "figures", "--view", "30/20")
         figures = self.folder / "figures"
-        self.assertEqual(sorted(p.name for p in figures.iterdir() if "diagram" not in p.name and "pers" not in p.name),
+        self.assertEqual(sorted(p.name for p in made_in(figures) if "diagram" not in p.name and "pers" not in p.name),
                          ["conventional-2.png", "conventional.png", "sheet.png"])
         self.assertEqual((figures / "conventional.png").read_bytes(), (figures / "conventional-2.png").read_bytes())
         sheet = Png((figures / "sheet.png").read_bytes())
@@ -104,7 +104,7 @@ class Render(ProgramTest):
         self.assertNotEqual(sheet.pixel(480, 400), (255, 255, 255))
         for wrong in (["--view", "below"], ["--inset", "x"]):
             self.morsel("compare", mesh, "--figures", "more", *wrong, code=2)
-        self.morsel("compare", mesh, "--figures", "o.off", code=4)
+        self.morsel("compare", mesh, "--figures", "o.off", code=2)
 
 
 if __name__ == "__main__":

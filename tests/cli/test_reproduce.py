@@ -20,7 +20,7 @@ from base64 import b64decode
 
 import jsonschema
 from png import Png
-from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, made_in
 
 REPRODUCTION_SCHEMA = SCHEMA.parent / "reproduction.schema.json"
 PICTURES = pathlib.Path(__file__).parent / "pictures"
@@ -107,7 +107,7 @@ class Reproduction(ProgramTest):
 
     def test_everything_is_there(self):
         names = {f"{panel}.png" for panel in PANELS} | {f"figure{n}.png" for n in (1, 2, 3, 4)}
-        self.assertEqual({path.name for path in self.out.iterdir()},
+        self.assertEqual({path.name for path in made_in(self.out)},
                          names | {"table1.csv", "reproduction.json", "index.html"})
         for panel in PANELS:
             picture = self.picture(panel + ".png")

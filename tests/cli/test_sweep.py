@@ -8,7 +8,7 @@ import signal
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted, made_in
 
 SWEEP_SCHEMA = SCHEMA.parent / "sweep.schema.json"
 LION = SAMPLES / "lion-head.off"
@@ -119,7 +119,7 @@ class Files(Sweep):
 
     def test_plots(self):
         self.morsel("sweep", SMALL, *GRID, "--vary", "range=local,literal", "--vary", "support=2", "--figures", "plots")
-        self.assertEqual(sorted(os.listdir(self.folder / "plots")),
+        self.assertEqual([path.name for path in made_in(self.folder / "plots")],
                          [f"{key}.{kind}" for key in ("iterations", "range", "sigma") for kind in ("png", "svg")])
         drawing = (self.folder / "plots/iterations.svg").read_text()
         for text in ("critical points", "iterations", "sigma=8eps, range=literal"):

@@ -61,7 +61,7 @@ def scenarios():
     cut = ("cut", "mesh.off", "--quiet", "--threads", "2", "--field")
     axis = ("--field", "height:axis=x")
     both = ("meshes/a.off", "meshes/b.off")
-    work = (r"out/work(/.*)?", r"out/state(/\.lock)?", r"out/\.[^/]*")
+    work = (r"out/work(/.*)?", r"out/state", r"out/\.[^/]*")
     return [
         Scenario("report", (*compare,), before=("compare", "mesh.off", *axis, "--quiet", "-o", "report.json")),
         Scenario("compare", (*compare, *everything),
@@ -118,8 +118,10 @@ def without_times(value):
 
 
 def tree(folder):
-    """Every entry of a folder: of files their contents, of folders None."""
-    return {str(path.relative_to(folder)): plain(path) if path.is_file() else None for path in folder.rglob("*")}
+    """Every entry of a folder: of files their contents, of folders None. Not the lists of folders of results, which name files
+    before they appear, in the order of the run."""
+    return {str(path.relative_to(folder)): plain(path) if path.is_file() else None for path in folder.rglob("*")
+            if path.name != ".morsel-results"}
 
 
 class Prepared:

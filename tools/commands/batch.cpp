@@ -67,6 +67,24 @@ void warn_of_damaged_states(const std::vector<batch::MeshOutcome>& outcomes, Con
                   " as absent: " + first->state_damage);
 }
 
+/// A name as a plan has it: a JSON string if it has control characters, or looks like one; else as it is.
+std::string planned_name(const std::string& name) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (!name.starts_with('"') && std::ranges::none_of(name, is_control)) return name;
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "\"";
+  for (const char c : name) {
+    if (is_control(c)) {
+      const auto byte = static_cast<unsigned char>(c);
+      text += {'\\', 'u', '0', '0', kDigits[byte >> 4], kDigits[byte & 15]};
+    } else {
+      if (c == '"' || c == '\\') text += '\\';
+      text += c;
+    }
+  }
+  return text + '"';
+}
+
 /// A line for each of the meshes that a run would work on.
 void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options& options,
                 const batch::OutFolder& out, Console& console) {
@@ -79,7 +97,7 @@ void print_plan(const std::vector<batch::CollectionMesh>& meshes, const Options&
       continue;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(outcome.mesh.path, error);
-    std::cout << (error ? 0 : size) << '\t' << outcome.mesh.name << '\n';
+    std::cout << (error ? 0 : size) << '\t' << planned_name(outcome.mesh.name) << '\n';
   }
 }
 
@@ -181,7 +199,7 @@ void add_how_it_is_run(CLI::App& command, Options& options) {
   command
       .add_flag("--plan", options.plan,
                 "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
-                "in bytes, a tab, NAME")
+                "in bytes, a tab, NAME (a JSON string if it has control characters or begins with a quote)")
       ->excludes(without)
       ->excludes(only);
   command.add_flag("--with-timings", options.with_timings,

@@ -66,10 +66,13 @@ void ExportSink::method(const MethodOutcome& outcome) {
     types[point.vertex] = static_cast<std::uint8_t>(point.type);
   const SurfaceFile surface{loaded_, field_name_, outcome.field, types, persistence, m.segmentation};
   const Provenance provenance = provenance_.with_method(outcome.steps);
+  const std::filesystem::path surface_path = folder_.claim(name + ".surface.vtp");  // in this order always
+  const std::filesystem::path complex_path = folder_.claim(name + ".complex.vtp");
+  const std::filesystem::path points_path = folder_.claim(name + ".points.csv");
   const std::array<std::function<void()>, 3> writers = {
-      [&] { write_surface_file(folder_.claim(name + ".surface.vtp"), surface, provenance); },
-      [&] { write_complex_file(folder_.claim(name + ".complex.vtp"), loaded_, m.complex, provenance); },
-      [&] { write_points(folder_.claim(name + ".points.csv"), loaded_, outcome, persistence, provenance); }};
+      [&] { write_surface_file(surface_path, surface, provenance); },
+      [&] { write_complex_file(complex_path, loaded_, m.complex, provenance); },
+      [&] { write_points(points_path, loaded_, outcome, persistence, provenance); }};
   core::parallel_for(0, writers.size(), 1, [&](std::size_t i, std::size_t) { writers[i](); });
 }
 

@@ -38,11 +38,13 @@ void HierarchyExport::level(const Level& level) {
   const std::string place = std::to_string(level.place);
   Provenance provenance = provenance_;
   provenance.set("level", {{"place", level.place}, {"asked", level.name.asked}});
+  const std::filesystem::path surface = folder_.claim("surface." + place + ".vtp");  // in this order always
+  const std::filesystem::path complex = folder_.claim("complex." + place + ".vtp");
   core::parallel_for(0, 2, 1, [&](std::size_t i, std::size_t) {
     if (i == 0)
-      write_surface(folder_.claim("surface." + place + ".vtp"), level, provenance);
+      write_surface(surface, level, provenance);
     else
-      write_complex(folder_.claim("complex." + place + ".vtp"), level, provenance);
+      write_complex(complex, level, provenance);
   });
 }
 

@@ -1,12 +1,13 @@
 """What the Snakefile does before its jobs: reads the settings and deals the meshes that are to be done out to parts.
 
-A part is a file with a command, a word on each line, that does up to so many meshes. Parts are kept until the run ends by
+A part is a file with a command, a zero byte after each word, that does up to so many meshes. Parts are kept until the run ends by
 itself; those that a killed run left behind are taken up as they are, so that jobs that a cluster goes on with are not
 submitted twice.
 """
 
 import fcntl
 import hashlib
+import json
 import math
 import os
 import pathlib
@@ -34,14 +35,8 @@ def words(part):
 
 
 def planned_name(text):
-    """The name that a line of `morsel batch --plan` has: as it is, or in double quotes with some bytes escaped."""
-    def plain(match):
-        what = match.group(1)
-        if what[0] == "x":
-            return os.fsdecode(bytes([int(what[1:], 16)]))
-        return chr(int(what[1:], 16)) if what[0] == "u" else {"n": "\n", "t": "\t", "r": "\r"}.get(what, what)
-
-    return re.sub(r"\\(x[0-9a-f]{2}|u[0-9a-f]{4}|.)", plain, text[1:-1]) if text.startswith('"') else text
+    """The name that a line of `morsel batch --plan` has: one with control characters is a JSON string."""
+    return json.loads(text) if text.startswith('"') else text
 
 
 class Settings:
@@ -109,7 +104,7 @@ class Settings:
         if told.returncode != 0:
             raise WorkflowError(os.fsdecode(told.stderr).strip() or f"{self.program} ended with {told.returncode}")
         rows = (line.split("\t", 1) for line in lines(told.stdout))
-        return {name: int(size) for size, name in rows}
+        return {planned_name(name): int(size) for size, name in rows}
 
 
 def deal(meshes, most, slots):
@@ -161,20 +156,20 @@ class Plan:
         return sorted(path for path in self.work.iterdir() if path.is_dir())
 
     def names(self, part):
-        return [word.removeprefix("--only=") for word in lines(part.read_bytes()) if word.startswith("--only=")]
+        return [word.removeprefix("--only=") for word in words(part) if word.startswith("--only=")]
 
     def is_open(self, part, meshes):
         """Whether a killed run left this part to be done, and it is what would be done now."""
         names = self.names(part)
         return (not (part.parent.parent / "done" / part.name).exists() and any(name in meshes for name in names)
-                and lines(part.read_bytes()) == self.settings.part(names))
+                and words(part) == self.settings.part(names))
 
     def write(self, shares):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="deal-", dir=self.work))
         (folder / "parts").mkdir()
         parts = [folder / "parts" / f"{number:04}" for number in range(1, len(shares) + 1)]
         for part, names in zip(parts, shares):
-            part.write_bytes(os.fsencode("".join(f"{word}\n" for word in self.settings.part(names))))
+            part.write_bytes(os.fsencode("".join(f"{word}\0" for word in self.settings.part(names))))
         return parts
 
     def end(self):
