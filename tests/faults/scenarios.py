@@ -26,6 +26,8 @@ OCTAHEDRON = """OFF
 3 1 2 5
 """
 
+LIST = ".morsel-results"  # of the files that were made in a folder
+
 METHODS = ("--field", "height", "--method", "conventional", "--method", "salient:iterations=1")
 
 
@@ -80,9 +82,19 @@ def scenarios():
     ]
 
 
+def listed(data):
+    """What a folder's list says was made in it."""
+    entries = set()
+    for line in data.decode().splitlines()[1:]:
+        (entries.add if line[0] == "+" else entries.discard)(line[1:])
+    return entries
+
+
 def plain(path):
     """The contents of a file without what differs from run to run: times."""
     data = path.read_bytes()
+    if path.name == LIST:
+        return json.dumps(sorted(listed(data)))
     if path.suffix == ".json":
         try:
             return json.dumps(without_times(json.loads(data)))
@@ -142,7 +154,7 @@ class Prepared:
 
 
 def is_working(scenario, name):
-    return any(re.fullmatch(pattern, name) for pattern in scenario.working)
+    return pathlib.Path(name).name == LIST or any(re.fullmatch(pattern, name) for pattern in scenario.working)
 
 
 def left_over(prepared, folder, ignored=()):

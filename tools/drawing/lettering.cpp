@@ -105,6 +105,7 @@ double Lettering::width(std::string_view text, double size) {
   cairo_set_font_size(context_, kMeasured);
   cairo_text_extents_t extents;
   cairo_text_extents(context_, std::string(text).c_str(), &extents);
+  if (cairo_status(context_) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();  // the width would be 0
   return extents.x_advance * size / kMeasured;
 }
 
@@ -124,6 +125,7 @@ std::string Lettering::shortened(std::string_view text, double size, double limi
 void Lettering::use(cairo_t* context, double size) {
   cairo_set_font_face(context, cairo_get_font_face(context_));
   cairo_font_options_t* options = cairo_font_options_create();
+  if (cairo_font_options_status(options) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
   cairo_get_font_options(context_, options);
   cairo_set_font_options(context, options);
   cairo_font_options_destroy(options);

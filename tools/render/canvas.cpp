@@ -127,6 +127,8 @@ void Canvas::ramp(const Colormap& map, double x, double y, double width, double 
 }
 
 Image Canvas::image() const {
+  if (cairo_status(surface_->cairo) != CAIRO_STATUS_SUCCESS)
+    throw std::bad_alloc();  // of what was drawn something may be missing
   cairo_surface_flush(surface_->surface);
   Image image(size_, true);
   const unsigned char* data = cairo_image_surface_get_data(surface_->surface);
