@@ -40,7 +40,7 @@ METHODS = {
     "tps-count": "tps:count=100",
 }
 FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature", "curvedness", "shape-index", "eigenfunction",
-          "geodesic")
+          "geodesic:source=max-z")
 
 
 def commands(mesh, small, report):
@@ -57,7 +57,7 @@ def commands(mesh, small, report):
         "cut-noisy": ("cut", mesh, "--field", "mean-curvature", "-o", "c.ply"),
         "quads": ("quads", small, "-o", "q.obj", "--json", "q.json", "--field", "eigenfunction:index=12"),
         "hierarchy": ("hierarchy", mesh, "-o", "h.json"),
-        "hierarchy-iterations": ("hierarchy", small, "--by", "iterations", "--method", "salient", "-o", "h.json"),
+        "hierarchy-iterations": ("hierarchy", small, "--by", "iteration", "--method", "salient", "-o", "h.json"),
         "hierarchy-export": ("hierarchy", small, "--export", "e"),
         "molecule": ("molecule", "atoms.pdb", "-o", "m.off", "--resolution", "0.2"),
         "render": ("render", mesh, "-o", "p.png", "--size", "1200x900"),

@@ -85,7 +85,7 @@ def scenarios():
 def listed(data):
     """What a folder's list says was made in it."""
     entries = set()
-    for line in data.decode().splitlines()[1:]:
+    for line in filter(None, data.decode().split("\n")[1:-1]):  # one that was cut off is no line
         (entries.add if line[0] == "+" else entries.discard)(line[1:])
     return entries
 

@@ -1,8 +1,10 @@
 #include "morsel/tools/report/report_reader.h"
 
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 
+#include "morsel/core/exhaustion.h"
 #include "morsel/tools/report/json_view.h"
 
 namespace morsel::tools {
@@ -20,6 +22,7 @@ bool is_file(const std::filesystem::path& path) {
 LoadedReport read_report(const std::filesystem::path& path) {
   std::error_code error;
   std::ifstream in(path, std::ios::binary);
+  if (!in) core::throw_if_exhausted(errno, "cannot read the report " + path.string());
   if (!in || std::filesystem::is_directory(path, error))
     throw core::BadInput("cannot read the report " + path.string());
   return read_report(in, path.string());
