@@ -59,9 +59,10 @@ bool has_record(std::string_view line, std::string_view name) {
   throw BadInput(file + ", line " + std::to_string(line) + ": " + what);
 }
 
-/// Reads the records of models and atoms line by line; the others say nothing about atoms, or are often wrong. Fields are
-/// gemmi's to read; but it takes a coordinate that is no number for 0, so these are checked here. Atoms of a residue come
-/// together, where its first atom is, as far as one stretch of a chain goes. O(n log n).
+/// Reads the records of models and atoms line by line; the others say nothing about atoms, or are often
+/// wrong. Fields are gemmi's to read; but it takes a coordinate that is no number for 0, so these are checked
+/// here. Atoms of a residue come together, where its first atom is, as far as one stretch of a chain goes.
+/// O(n log n).
 class PdbReader {
  public:
   PdbReader(const std::string& file, const Progress& progress) : file_(file), progress_(progress) {}
@@ -109,7 +110,8 @@ class PdbReader {
 
   [[noreturn]] void fail(const std::string& what) const { fail_at_line(file_, line_number_, what); }
 
-  /// A line as gemmi's functions expect it: printable, and padded up to the element; a charge does not matter.
+  /// A line as gemmi's functions expect it: printable, and padded up to the element; a charge does not
+  /// matter.
   static gemmi_bridge::PdbLine padded(std::string_view line) {
     gemmi_bridge::PdbLine result;
     result.fill(' ');

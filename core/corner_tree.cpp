@@ -16,7 +16,8 @@ constexpr double kRound = 1e-14;  // more than rounding adds to coordinates of a
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 Eigen::Vector2d turned(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
-/// The direction in which points spread most, from the sums of their squared and mixed differences from the mean.
+/// The direction in which points spread most, from the sums of their squared and mixed differences from the
+/// mean.
 Eigen::Vector2d principal_axis(double xx, double xy, double yy) {
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
   return {std::cos(angle), std::sin(angle)};

@@ -73,7 +73,8 @@ struct CifFile::Content {
 
 namespace {
 
-/// As gemmi's check_for_duplicates(), whose time is quadratic in the number of blocks: it clears a large hash table for each.
+/// As gemmi's check_for_duplicates(), whose time is quadratic in the number of blocks: it clears a large hash
+/// table for each.
 void refuse_duplicates(const gemmi::cif::Document& document) {
   std::set<std::string> blocks;
   for (const gemmi::cif::Block& block : document.blocks) {

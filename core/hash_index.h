@@ -8,9 +8,9 @@
 
 namespace morsel::core {
 
-/// Entries that are found by their keys: a hash table with open addressing in which a search probes a bounded number of
-/// places; entries that find no free one there, as in a file made so that all its keys collide, go to an ordered tree. So
-/// a search takes O(1) as a rule and O(log n) at worst, whatever the keys.
+/// Entries that are found by their keys: a hash table with open addressing in which a search probes a bounded
+/// number of places; entries that find no free one there, as in a file made so that all its keys collide, go
+/// to an ordered tree. So a search takes O(1) as a rule and O(log n) at worst, whatever the keys.
 ///
 /// `Keys` tells what the entries' keys are:
 ///

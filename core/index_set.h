@@ -8,7 +8,8 @@
 
 namespace morsel::core {
 
-/// A set of numbers below a bound, as a tree of bits whose nodes have 64 children: everything takes O(log bound).
+/// A set of numbers below a bound, as a tree of bits whose nodes have 64 children: everything takes O(log
+/// bound).
 class IndexSet {
  public:
   static constexpr std::size_t kNone = ~std::size_t{0};

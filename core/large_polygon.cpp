@@ -123,8 +123,8 @@ class EarClipping {
 
   std::size_t corner_to_cut(std::size_t start) {
     if (const std::size_t ear = next_ear(start); ear != IndexSet::kNone) return ear;
-    // Only rounding or crossing sides bring one about at a corner whose neighbours stayed. All searches together look at each
-    // corner some tens of times.
+    // Only rounding or crossing sides bring one about at a corner whose neighbours stayed. All searches
+    // together look at each corner some tens of times.
     if (searches_ < kSearches || cut_since_search_ > left_ / 8) {
       look_for_ears();
       if (const std::size_t ear = next_ear(start); ear != IndexSet::kNone) return ear;
@@ -138,7 +138,8 @@ class EarClipping {
     for (;;) {
       std::size_t ear = ears_.next(start);
       if (ear == IndexSet::kNone) ear = ears_.next(0);
-      // Another corner may have been cut off by the same edge, where the polygon passes through a vertex more than once.
+      // Another corner may have been cut off by the same edge, where the polygon passes through a vertex more
+      // than once.
       if (ear == IndexSet::kNone || rank(ear) == Candidate::free) return ear;
       ears_.erase(ear);
     }

@@ -38,21 +38,23 @@ class EdgeSet {
 /// Polygons need be neither convex nor quite flat: they are seen along the normal of their best plane
 /// (Newell's). A quad gets the diagonal whose worse triangle is the better shaped one, the first corner's in
 /// a tie; a larger polygon loses the best shaped ear again and again (Meisters 1975), or, above 64 corners,
-/// the next ear in turn (large_polygon.h). An edge that the mesh already has is avoided as a diagonal as long as there is
-/// another: two faces on the same four corners, say, would otherwise share it. A polygon whose sides cross,
-/// or without an area, is cut in some way that names each corner's vertex.
+/// the next ear in turn (large_polygon.h). An edge that the mesh already has is avoided as a diagonal as long
+/// as there is another: two faces on the same four corners, say, would otherwise share it. A polygon whose
+/// sides cross, or without an area, is cut in some way that names each corner's vertex.
 ///
-/// Deterministic. O(n log n) tests for a polygon of n corners as a rule, and O(n^1.5) for one made to be costly.
+/// Deterministic. O(n log n) tests for a polygon of n corners as a rule, and O(n^1.5) for one made to be
+/// costly.
 class PolygonTriangulator {
  public:
-  /// What is spent on polygons of more than 64 corners at most, altogether: so many tests, and more for each corner. The
-  /// default is some seconds.
+  /// What is spent on polygons of more than 64 corners at most, altogether: so many tests, and more for each
+  /// corner. The default is some seconds.
   struct Limits {
     std::uint64_t tests = 300'000'000;
     std::uint64_t tests_per_corner = 200;
   };
 
-  /// `edges` holds the sides of all polygons and receives the diagonals; all but the limits must outlive this.
+  /// `edges` holds the sides of all polygons and receives the diagonals; all but the limits must outlive
+  /// this.
   PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges, const Progress& progress)
       : PolygonTriangulator(positions, edges, progress, Limits()) {}
   PolygonTriangulator(std::span<const Point> positions, EdgeSet& edges, const Progress& progress,
@@ -64,8 +66,8 @@ class PolygonTriangulator {
         tests_per_corner_(limits.tests_per_corner) {}
 
   /// Appends the n − 2 triangles of a polygon of n ≥ 3 corners, all vertices of which exist and none of which
-  /// follows itself. Throws BadInput (`face` is for the message) where the limits are exceeded, Cancelled if a stop was
-  /// requested.
+  /// follows itself. Throws BadInput (`face` is for the message) where the limits are exceeded, Cancelled if
+  /// a stop was requested.
   void triangulate(std::span<const Index> polygon, std::size_t face, std::vector<Triangle>& triangles);
 
  private:

@@ -13,7 +13,8 @@ namespace {
 /// A size that takes longer is the family's last.
 constexpr double kLongest = 20;
 
-/// Measures a family at n, 2n, 4n, 8n. The growth of a row is the exponent p of seconds ∝ size^p between n and its size.
+/// Measures a family at n, 2n, 4n, 8n. The growth of a row is the exponent p of seconds ∝ size^p between n
+/// and its size.
 void run_family(const Family& family, const Plan& plan, int threads, const Report& report) {
   double first = 0;
   for (std::size_t size = family.smallest; size <= 8 * family.smallest; size *= 2) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Families of inputs that are made to be costly. The suite "adversarial" shows how their cost grows with their size.
+/// Families of inputs that are made to be costly. The suite "adversarial" shows how their cost grows with
+/// their size.
 
 #include <cstddef>
 #include <functional>
@@ -14,8 +15,8 @@ namespace morsel::benchmark {
 struct Family {
   std::string name;
   std::size_t smallest = 0;  ///< n: it is measured at n, 2n, 4n and 8n; n should take some milliseconds
-  /// Makes the input of a size, untimed; what it returns is timed, once or more. An input may be refused: a core::Error ends
-  /// the work, and the row says so.
+  /// Makes the input of a size, untimed; what it returns is timed, once or more. An input may be refused: a
+  /// core::Error ends the work, and the row says so.
   std::function<std::function<void()>(const Plan& plan, std::size_t size)> make;
 };
 

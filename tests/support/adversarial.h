@@ -35,7 +35,8 @@ struct PolygonFamily {
   std::function<std::vector<Point>(std::size_t corners)> make;
 };
 std::vector<PolygonFamily> simple_polygons();
-/// Two of them: long teeth, and the outline of a random maze without a cycle, thousands of whose corners lie around any ear.
+/// Two of them: long teeth, and the outline of a random maze without a cycle, thousands of whose corners lie
+/// around any ear.
 std::vector<Point> comb(std::size_t corners);
 std::vector<Point> maze(std::size_t corners, unsigned seed);
 
@@ -48,7 +49,8 @@ std::string mmcif_of_models(std::size_t count);
 /// A CIF file of so many blocks that say nothing about atoms.
 std::string cif_of_blocks(std::size_t count);
 
-/// Triangles that all have one edge; a fan around one vertex; triangles on the same vertices; triangles apart from one another.
+/// Triangles that all have one edge; a fan around one vertex; triangles on the same vertices; triangles apart
+/// from one another.
 Soup book(std::size_t pages);
 Soup fan(std::size_t triangles);
 Soup duplicates(std::size_t triangles);

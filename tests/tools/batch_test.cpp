@@ -65,6 +65,19 @@ TEST_CASE("a folder's meshes are found in all folders of it, by name", "[batch]"
   CHECK(meshes[0].path == folder.path() / "a/y.obj");
 }
 
+TEST_CASE("a mesh named as a folder of another one is found among many, however deep", "[batch]") {
+  const test::Scratch folder;
+  std::string deep = "m.off";
+  for (int i = 0; i < 100'000; ++i) deep = "a/" + deep;  // each of these folders might be a mesh's name
+  std::string lines = deep + "\nx/y.off!z/b.off\nx/y.off-b.off\n";
+  for (int i = 0; i < 1000; ++i) lines += "x/" + std::to_string(i) + ".off\n";
+  CHECK(batch::read_collection(folder.file("apart", lines + "x/y.off\n")).size() == 1004);
+  CHECK_THROWS_WITH(
+      batch::read_collection(folder.file("within", lines + "x/y.off/c.off\nx/y.off\n")),
+      Catch::Contains(
+          "has a mesh that would be called x/y.off and one in a folder of that name, x/y.off/c.off"));
+}
+
 TEST_CASE("chosen meshes are those that the whole collection has by these names", "[batch]") {
   const test::Scratch folder;
   for (const char* name : {"all/b.off", "all/a/y.obj", "all/c.ply", "all/note.txt", "elsewhere/d.off"})
