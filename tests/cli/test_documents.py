@@ -71,11 +71,10 @@ class Depth(Documents):
         for name, text in files.items():
             with self.subTest(name):
                 (self.folder / name).write_bytes(text.encode("latin-1"))
-                is_mesh = name in ("m.off", "m.obj", "m.ply")
+                is_mesh = name in ("m.off", "m.obj", "m.ply", "m.stl")
                 code, _, errors = self.run_any("info", name, codes=(0,) if is_mesh else (3,))
                 self.run_any("info", "--json", name, codes=(code,))
-                if name != "m.stl":  # which is no mesh without a facet
-                    self.assertIn("nested deeper than 64 levels", errors)
+                self.assertIn("nested deeper than 64 levels", errors)
 
     def test_reports(self):
         for text in ("[" * DEEP, '{"schema": "morsel.comparison/1", "x": ' + '{"a":' * DEEP, '{"x":' * DEEP + "1" + "}" * DEEP):
