@@ -42,13 +42,6 @@ fs::path followed(fs::path path) {
   return path;
 }
 
-/// Devices, and files by their descriptors (/dev/stdout, /dev/fd/3, /proc/self/fd/3), which must not be
-/// replaced.
-bool is_system_path(const fs::path& path) {
-  const std::string text = path.lexically_normal().string();
-  return text.starts_with("/dev/") || text.starts_with("/proc/");
-}
-
 }  // namespace
 
 struct FileWriter::Output {
@@ -106,7 +99,7 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) fail(shown, EISDIR);
-  if ((exists && !S_ISREG(status.st_mode)) || is_system_path(target)) {
+  if ((exists && !S_ISREG(status.st_mode)) || is_descriptor_path(target)) {
     device = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (device < 0) fail(shown, errno);
   } else {

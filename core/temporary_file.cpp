@@ -115,6 +115,11 @@ int link_as(int file, const fs::path& path) {
 
 }  // namespace
 
+bool is_descriptor_path(const fs::path& path) {
+  const std::string text = path.lexically_normal().string();
+  return text.starts_with("/dev/fd/") || text.starts_with("/dev/std") || text.starts_with("/proc/");
+}
+
 int sync_to_disk(int file) {
   while (::fsync(file) != 0) {
     if (errno == EINVAL || errno == EROFS || errno == ENOTSUP) return 0;

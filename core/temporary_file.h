@@ -1,5 +1,5 @@
 #pragma once
-/// Files that appear under their name only once they are whole. Internal to FileWriter, but for the last function.
+/// Files that appear under their name only once they are whole. Internal to FileWriter, but for the functions at the end.
 
 #include <filesystem>
 
@@ -41,6 +41,10 @@ class TemporaryFile {
   int slot_ = -1;               // of the registry of names
   int file_ = -1;
 };
+
+/// Whether the path names an open file by its descriptor (/dev/stdout, /dev/fd/3, /proc/self/fd/3): it is written as the
+/// data come, never replaced.
+bool is_descriptor_path(const std::filesystem::path& path);
 
 /// fsync(), but for files that cannot be synced (pipes, some file systems). 0 or the error number.
 int sync_to_disk(int file);

@@ -145,6 +145,15 @@ TEST_CASE("a device is written directly and its errors are seen") {
   CHECK(fs::is_character_file("/dev/null"));
 }
 
+TEST_CASE("bug: files in /dev/shm were taken for devices and could not be made") {
+  if (!fs::is_directory("/dev/shm")) return;
+  const fs::path path = "/dev/shm/morsel-file-writer-test-" + std::to_string(::getpid());
+  core::write_file(path, "a");
+  core::write_file(path, "b");
+  CHECK(contents(path) == "b");
+  fs::remove(path);
+}
+
 TEST_CASE("places where no file can be are refused with a reason") {
   const Scratch scratch;
   CHECK_THROWS_WITH(FileWriter(scratch.path()), Catch::Contains("Is a directory"));

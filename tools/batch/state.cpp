@@ -28,9 +28,13 @@ constexpr int kMostExitCode = 255;
 constexpr int kMostSignal = 64;
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // a thousand times what a state has
 
-/// Whether a child had no memory left, by its exit code and sentence; the code is that of other resources, too.
+/// Whether a child had no memory left, by its exit code and sentence; the code is that of other resources, too. Threads cannot
+/// be made either where there is no memory for their stacks.
 bool ran_out_of_memory(const ChildEnd& end) {
-  return end.exit_code == kOutOfMemory && end.message.find("out of memory") != std::string::npos;
+  constexpr std::array kSaid = {"out of memory", "Resource temporarily unavailable"};
+  return end.exit_code == kOutOfMemory && std::any_of(kSaid.begin(), kSaid.end(), [&](const char* text) {
+           return end.message.find(text) != std::string::npos;
+         });
 }
 
 std::optional<JsonView> unless_null(const JsonView& value) {

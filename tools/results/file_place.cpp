@@ -5,6 +5,8 @@
 #include <system_error>
 #include <tuple>
 
+#include "morsel/core/temporary_file.h"
+
 namespace morsel::tools {
 namespace {
 
@@ -41,8 +43,7 @@ bool operator<(const FilePlace& a, const FilePlace& b) {
 
 FilePlace file_place(const fs::path& path) {
   FilePlace place = place_of(path, kMostLinks);
-  const std::string text = path.lexically_normal().string();
-  place.is_system = text.starts_with("/dev/") || text.starts_with("/proc/");
+  place.is_system = core::is_descriptor_path(path);
   return place;
 }
 
