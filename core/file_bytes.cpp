@@ -15,8 +15,7 @@ namespace morsel::core {
 namespace {
 
 [[noreturn]] void fail(const std::string& name, int error) {
-  throw_if_exhausted(error, "cannot read \"" + name + "\"");
-  fail_reading(name, std::generic_category().message(error));
+  fail_to_read(error, "cannot read \"" + name + "\"");
 }
 
 }  // namespace

@@ -31,11 +31,7 @@ ValueFile ValueFile::read(const std::filesystem::path& path, const core::Progres
     throw BadInput("cannot read values from " + path.string() + ": it is a folder");
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    core::throw_if_exhausted(errno, "cannot read values from " + path.string());
-    throw BadInput("cannot read values from " + path.string() + ": " +
-                   (errno != 0 ? std::generic_category().message(errno) : "it does not open"));
-  }
+  if (!stream) core::fail_to_read(errno, "cannot read values from " + path.string());
   return {stream, path.string(), progress};
 }
 
@@ -52,7 +48,7 @@ ValueFile::ValueFile(std::istream& stream, std::string name, const core::Progres
     else
       values_.push_back(parse(text, number));
   }
-  if (stream.bad()) throw BadInput("cannot read values from " + name_ + ": reading failed");
+  if (stream.bad()) core::fail_to_read(errno, "cannot read values from " + name_);
 }
 
 std::string ValueFile::place(std::size_t i) const {

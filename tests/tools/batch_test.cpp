@@ -181,6 +181,11 @@ TEST_CASE("the memory limit is the child's", "[batch]") {
   end.message = "cannot read a.off: Too many open files";
   CHECK(batch::error_of(end, {0, 100})->kind == "exit-code");
   CHECK(batch::error_of(end, {0, 100})->may_pass());
+  end.exit_code = 3;
+  end.message = "cannot read a.off: Input/output error";
+  CHECK(batch::error_of(end, {})->may_pass());
+  end.message = "cannot read a.off: it is empty";
+  CHECK_FALSE(batch::error_of(end, {})->may_pass());
   batch::ChildEnd aborted;
   aborted.signal = SIGABRT;
   CHECK(batch::error_of(aborted, {0, 100})->kind == "signal");
@@ -419,7 +424,7 @@ TEST_CASE("a mesh whose results would have too long a name is refused by itself"
   CHECK(out.refusal(in_folder(255)).empty());
   CHECK_FALSE(out.refusal(in_folder(256)).empty());
   std::string deep = "b.off";
-  while (deep.size() < 4000) deep = std::string(100, 'd') + "/" + deep;
+  while (deep.size() < 4000) deep.insert(0, std::string(100, 'd').append("/"));
   CHECK(out.refusal(deep).find("4096") != std::string::npos);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -23,10 +24,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kSchema = "morsel.batch-state/1";
-constexpr int kOutOfMemory = 5;  // of the program's exit codes
+constexpr int kBadInput = 3;  // of the program's exit codes
+constexpr int kOutOfMemory = 5;
 constexpr int kMostExitCode = 255;
 constexpr int kMostSignal = 64;
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // a thousand times what a state has
+
+/// Whether what a file could not be read for is its disk or network, not the file.
+bool is_of_a_device(const std::string& message) {
+  constexpr std::array kErrors = {EIO, ESTALE, ETIMEDOUT, ENODEV, EHOSTDOWN};
+  return std::any_of(kErrors.begin(), kErrors.end(), [&](int error) {
+    return message.find(std::generic_category().message(error)) != std::string::npos;
+  });
+}
 
 /// Whether a child had no memory left, by its exit code and sentence; the code is that of other resources, too. Threads cannot
 /// be made either where there is no memory for their stacks.
@@ -121,7 +131,9 @@ bool MeshError::may_pass() const {
   if (kind == "signal")
     return std::find(kFromOutside.begin(), kFromOutside.end(), signal) != kFromOutside.end();
   constexpr std::array kCodes = {4, kOutOfMemory, 127, 130, 143};
-  return kind == "exit-code" && std::find(kCodes.begin(), kCodes.end(), exit_code) != kCodes.end();
+  if (kind != "exit-code") return false;
+  if (exit_code == kBadInput) return is_of_a_device(message);
+  return std::find(kCodes.begin(), kCodes.end(), exit_code) != kCodes.end();
 }
 
 std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits) {

@@ -1,6 +1,8 @@
 #include "morsel/tools/report/json_reader.h"
+#include "morsel/core/exhaustion.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <iterator>
 #include <utility>
@@ -45,7 +47,7 @@ class Bytes {
     if (stream_ != nullptr) {
       stream_->read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
       count = static_cast<std::size_t>(stream_->gcount());
-      if (stream_->bad()) throw core::BadInput("cannot read " + name_ + " to its end");
+      if (stream_->bad()) core::fail_to_read(errno, "cannot read " + name_ + " to its end");
       begin_ = buffer_.data();
     } else {
       count = std::min(kPiece, text_.size() - before_);

@@ -21,10 +21,11 @@ bool is_file(const std::filesystem::path& path) {
 
 LoadedReport read_report(const std::filesystem::path& path) {
   std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    core::fail_to_read(EISDIR, "cannot read the report " + path.string());
+  errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) core::throw_if_exhausted(errno, "cannot read the report " + path.string());
-  if (!in || std::filesystem::is_directory(path, error))
-    throw core::BadInput("cannot read the report " + path.string());
+  if (!in) core::fail_to_read(errno, "cannot read the report " + path.string());
   return read_report(in, path.string());
 }
 

@@ -9,7 +9,6 @@
 #include <new>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/core/exhaustion.h"
 
 namespace morsel::tools {
@@ -48,18 +47,16 @@ class Sha256 {
 }  // namespace
 
 std::string sha256_of_file(const std::filesystem::path& path) {
+  errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    core::throw_if_exhausted(errno, "cannot read " + path.string());
-    throw core::BadInput("cannot read " + path.string());
-  }
+  if (!in) core::fail_to_read(errno, "cannot read " + path.string());
   Sha256 hash;
   std::vector<char> buffer(std::size_t{1} << 20);
   while (in) {
     in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
     hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
   }
-  if (in.bad()) throw core::BadInput("cannot read " + path.string());
+  if (in.bad()) core::fail_to_read(errno, "cannot read " + path.string());
   return hash.finish();
 }
 
