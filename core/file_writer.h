@@ -17,10 +17,10 @@ enum class Sync {
   never            ///< for large files that are easily made again
 };
 
-/// Writes to a file without a name in the target's folder (temporary_file.h); commit() makes it the target. Without
-/// commit() (an error, a Cancelled on its way up, the end of the process) the target stays as it was. A target that
-/// exists keeps its permissions, and a symbolic link to it stays a link. A device or pipe (/dev/stdout)
-/// cannot be renamed to: it is written as the data come.
+/// Writes to a file without a name in the target's folder (temporary_file.h); commit() makes it the target.
+/// Without commit() (an error, a Cancelled on its way up, the end of the process) the target stays as it was.
+/// A target that exists keeps its permissions, and a symbolic link to it stays a link. A device or pipe
+/// (/dev/stdout) cannot be renamed to: it is written as the data come.
 ///
 /// All functions throw WriteFailed with the path and the system's reason. Buffered; not thread-safe.
 class FileWriter {

@@ -16,7 +16,8 @@
 
 namespace morsel::core {
 
-/// Bytes of each piece of a text that is read in parallel: longer texts are cut. A parameter for the sake of tests.
+/// Bytes of each piece of a text that is read in parallel: longer texts are cut. A parameter for the sake of
+/// tests.
 inline constexpr std::size_t kTextChunk = std::size_t{1} << 16;
 
 /// OFF and its variants COFF, NOFF, STOFF and their combinations, comments, polygons; header word missing or

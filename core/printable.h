@@ -6,10 +6,11 @@
 
 namespace morsel::core {
 
-/// The text with everything escaped that a terminal would take for more than a character to show: control characters (C0,
-/// DEL, C1), line and paragraph separators and what changes the direction of writing (\n, \t, \r, \x1b, \u0085, \u202e), noncharacters that XML forbids, and
-/// bytes that are not UTF-8 (\xff). All else stays, backslashes too: this is for reading, not for reading back.
-/// Those control characters stay as well that are in `but`.
+/// The text with everything escaped that a terminal would take for more than a character to show: control
+/// characters (C0, DEL, C1), line and paragraph separators and what changes the direction of writing (\n, \t,
+/// \r, \x1b, \u0085, \u202e), noncharacters that XML forbids, and bytes that are not UTF-8 (\xff). All else
+/// stays, backslashes too: this is for reading, not for reading back. Those control characters stay as well
+/// that are in `but`.
 std::string printable(std::string_view text, std::string_view but = {});
 
 }  // namespace morsel::core

@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = ".morsel-";
 constexpr std::string_view kSuffix = ".tmp";
 
-/// The names in use, where a signal handler can read them: in static memory. Names beyond the last slot are swept later.
+/// The names in use, where a signal handler can read them: in static memory. Names beyond the last slot are
+/// swept later.
 struct Slot {
   enum State : int { free, claimed, filled };
   std::atomic<int> state{free};
@@ -201,8 +202,8 @@ int TemporaryFile::link_under_temporary_name() {
 }
 
 int TemporaryFile::rename_to_target(bool sync) {
-  // Opened before anything is replaced, so that running out of descriptors is told in time. Who may write in a
-  // folder need not be allowed to read it.
+  // Opened before anything is replaced, so that running out of descriptors is told in time. Who may write in
+  // a folder need not be allowed to read it.
   const int folder = sync ? ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
   int error = sync && folder < 0 && errno != EACCES ? errno : 0;
   if (error == 0 && ::rename(name_.c_str(), target_.c_str()) != 0) error = errno;

@@ -15,9 +15,9 @@ namespace morsel::core {
 /// A Progress for any thread: it reports nothing and stops when `progress` does, which must outlive it.
 Progress unreported(const Progress& progress);
 
-/// Cuts a text into pieces of whole lines, each of `chunk` bytes or a line more. None where that does not pay: the text
-/// is shorter than two of them, or there is one thread; nor where a piece would begin with a byte-order mark, which readers
-/// skip.
+/// Cuts a text into pieces of whole lines, each of `chunk` bytes or a line more. None where that does not
+/// pay: the text is shorter than two of them, or there is one thread; nor where a piece would begin with a
+/// byte-order mark, which readers skip.
 std::vector<std::string_view> line_chunks(std::string_view text, char terminator, std::size_t chunk);
 
 /// The number of items (such as lines) in each chunk, and the number of those before it; one entry more than

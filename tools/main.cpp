@@ -20,7 +20,8 @@ namespace {
 using namespace morsel;
 using namespace morsel::tools;
 
-/// From here to the end of the process as many threads as are wanted and can be made; results are the same with any number.
+/// From here to the end of the process as many threads as are wanted and can be made; results are the same
+/// with any number.
 void limit_threads(int wanted, Console& console) {
   // Never destroyed: without a limit oneTBB would make more, if only to end them.
   static std::array<core::ThreadLimit*, 2> limits{};

@@ -13,8 +13,8 @@
 
 namespace morsel::morse {
 
-/// The values of a text, and on which line each stood. Blank lines and what follows a # do not count; values need not be
-/// finite.
+/// The values of a text, and on which line each stood. Blank lines and what follows a # do not count; values
+/// need not be finite.
 class ValueFile {
  public:
   /// Throws BadInput, naming the file as `name`, its line and what stands there, if a line is not one number.

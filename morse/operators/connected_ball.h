@@ -27,7 +27,8 @@ class ConnectedBalls {
     /// Replaces `found` by the vertices of v's ball, v first, in the order of a breadth-first search.
     /// O(edges in the ball and at its rim).
     void within(core::Index v, double radius, std::vector<core::Index>& found);
-    /// Replaces `found` by as much of v's ball as that search finds until there are more than `most` vertices.
+    /// Replaces `found` by as much of v's ball as that search finds until there are more than `most`
+    /// vertices.
     void begin(core::Index v, double radius, std::size_t most, std::vector<core::Index>& found);
     /// Adds to what within() has just found the neighbours of all of these, ring by ring, until there are at least
     /// `least` vertices or the component has no more.

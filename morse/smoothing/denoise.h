@@ -38,17 +38,19 @@ struct LaplacianDenoising {
 /// one-ring curvatures of the result see that: of clean, unevenly sampled meshes they may have more critical points
 /// than before.
 ///
-/// The mean edge says little about neighbourhoods where few long edges meet many short ones, as at a vertex of very
-/// large degree: balls of the default σ_c could hold all vertices each. So with the default, and where the balls of the
-/// first surface hold more than kMostInBall vertices on average, a ball's radius is at most the distance to the
-/// kMostInBall-th nearest vertex (its centre counts). A σ_c that is given is taken as it is.
+/// The mean edge says little about neighbourhoods where few long edges meet many short ones, as at a vertex
+/// of very large degree: balls of the default σ_c could hold all vertices each. So with the default, and
+/// where the balls of the first surface hold more than kMostInBall vertices on average, a ball's radius is at
+/// most the distance to the kMostInBall-th nearest vertex (its centre counts). A σ_c that is given is taken
+/// as it is.
 ///
 /// Laplacian: v ← v + λ (Σ w x / Σ w − v) over the neighbours, with edge_weights() of the current surface. It
 /// shrinks closed surfaces; boundary vertices stay, or boundaries would shrink to points. A vertex whose weights do
 /// not sum to more than 0 stays too (cotangents may be negative, and then steps may grow instead of settle; clamped
 /// and uniform ones never do).
 ///
-/// Not thread-safe; O(n · vertices in a ball), O(n log n) with the default σ_c, or O(n) a step, parallel, the same bits for every number of threads.
+/// Not thread-safe; O(n · vertices in a ball), O(n log n) with the default σ_c, or O(n) a step, parallel, the
+/// same bits for every number of threads.
 class SurfaceSmoothing {
  public:
   static constexpr std::size_t kMostInBall = 256;

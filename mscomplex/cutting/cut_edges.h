@@ -52,8 +52,8 @@ struct TracedPath {
 };
 
 /// These edges (inner ones, ascending, each once) taken apart where is_end(v, number of them at v) holds: it
-/// must at least where that is not 2. Ordered by the paths' first vertices, then by their first edges. O(n log
-/// n).
+/// must at least where that is not 2. Ordered by the paths' first vertices, then by their first edges. O(n
+/// log n).
 std::vector<TracedPath> trace_paths(const core::TriangleMesh& mesh, std::span<const core::Index> edges,
                                     const std::function<bool(core::Index, std::size_t)>& is_end);
 

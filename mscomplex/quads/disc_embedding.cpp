@@ -34,8 +34,8 @@ double half_tangent(const Corners& p, int i) {
   return std::clamp(std::tan(std::atan2(u.cross(v).norm(), u.dot(v)) / 2), 1e-3, 1e3);
 }
 
-/// Equations with more unknowns than this are ordered for by themselves. What COLAMD orders by, the products of
-/// columns, they fill: the factors of a disc with such an equation would have its square of entries.
+/// Equations with more unknowns than this are ordered for by themselves. What COLAMD orders by, the products
+/// of columns, they fill: the factors of a disc with such an equation would have its square of entries.
 constexpr std::size_t kManyUnknowns = 256;
 
 /// Renumbers rows and columns alike, which suits equations that are each about an unknown of their own.

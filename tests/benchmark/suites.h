@@ -35,7 +35,8 @@ void run_methods(const Plan& plan, const Report& report);
 void run_structures(const Plan& plan, const Report& report);
 /// What reading and writing take of `morsel compare`.
 void run_files(const Plan& plan, const Report& report);
-/// How cost grows with size for inputs that are made to be costly (adversarial.h): seconds at n, 2n, 4n, 8n, and exponents.
+/// How cost grows with size for inputs that are made to be costly (adversarial.h): seconds at n, 2n, 4n, 8n,
+/// and exponents.
 void run_adversarial(const Plan& plan, const Report& report);
 
 }  // namespace morsel::benchmark

@@ -1,5 +1,5 @@
-// What libFuzzer calls; MORSEL_FUZZ_TARGET is one of the functions in target.h. An exception that leaves it ends the process, which
-// libFuzzer reports with the input.
+// What libFuzzer calls; MORSEL_FUZZ_TARGET is one of the functions in target.h. An exception that leaves it
+// ends the process, which libFuzzer reports with the input.
 
 #include <cstddef>
 #include <cstdint>

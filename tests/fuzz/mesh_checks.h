@@ -8,11 +8,12 @@
 
 namespace morsel::fuzz {
 
-/// What parse_polygon_soup() reads the bytes to: whether it is a soup, comes back equal when written and read again, and gives meshes that
-/// keep their rules. Nothing if it refuses them.
+/// What parse_polygon_soup() reads the bytes to: whether it is a soup, comes back equal when written and read
+/// again, and gives meshes that keep their rules. Nothing if it refuses them.
 void check_mesh_format(std::string_view bytes, core::MeshFormat format);
 
-/// Reads the bytes by `read`, once in pieces of each size and once as a whole: both must give the same soup or the same error.
+/// Reads the bytes by `read`, once in pieces of each size and once as a whole: both must give the same soup
+/// or the same error.
 void check_pieces(std::string_view bytes,
                   const std::function<core::LoadedSoup(std::string_view bytes, std::size_t chunk)>& read);
 

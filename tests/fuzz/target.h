@@ -19,8 +19,8 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw Violation(what);
 }
 
-/// One source file each. A core::BadInput or core::InvalidArgument is an answer that they take; whatever comes out of them is
-/// a bug found.
+/// One source file each. A core::BadInput or core::InvalidArgument is an answer that they take; whatever
+/// comes out of them is a bug found.
 void off(std::string_view bytes);
 void obj(std::string_view bytes);
 void ply(std::string_view bytes);

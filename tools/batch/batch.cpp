@@ -106,8 +106,8 @@ class Run {
     if (tell_) tell_(outcome);
   }
 
-  /// Puts what was made in the place of what was made before. Whenever this is broken off, the state's absence says so; and
-  /// runs that make the same mesh's things, perhaps with other options, do not mix them.
+  /// Puts what was made in the place of what was made before. Whenever this is broken off, the state's
+  /// absence says so; and runs that make the same mesh's things, perhaps with other options, do not mix them.
   void publish(const std::string& name, const fs::path& work, MeshState& state) {
     const std::vector<Product> products = products_of(name, request_, OutFolder());
     if (!state.error) state.files = made_files(products, results_.path() / work);

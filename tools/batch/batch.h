@@ -39,8 +39,8 @@ struct MeshOutcome {  // NOLINT(bugprone-exception-escape): of the JSON library
 /// Told of each mesh that ends, in the order in which they do.
 using TellOutcome = std::function<void(const MeshOutcome&)>;
 
-/// Where the meshes stand after what earlier runs have left in `out`; nothing is run and nothing written. In the meshes' order. Throws InvalidArgument
-/// on a request with unknown names.
+/// Where the meshes stand after what earlier runs have left in `out`; nothing is run and nothing written. In
+/// the meshes' order. Throws InvalidArgument on a request with unknown names.
 std::vector<MeshOutcome> look_at(const std::vector<CollectionMesh>& meshes, const BatchRequest& request,
                                  const RunOptions& options, const OutFolder& out,
                                  const core::Progress& progress = {});
@@ -51,7 +51,9 @@ std::vector<MeshOutcome> look_at(const std::vector<CollectionMesh>& meshes, cons
 ///
 /// In the meshes' order. Runs may share a folder: a mesh that is in several at the same time is made by each, and has the things of one of them,
 /// the last (where file systems have no locks: if they ran with the same options). Throws InvalidArgument on a request with unknown
-/// names, WriteFailed where `out` cannot be written, before the work if it has something of somebody else in the place of a result, Cancelled when told to stop (the children have ended and their half-made files are gone).
+/// names, WriteFailed where `out` cannot be written, before the work if it has something of somebody else in
+/// the place of a result, Cancelled when told to stop (the children have ended and their half-made files are
+/// gone).
 std::vector<MeshOutcome> run_batch(const std::vector<CollectionMesh>& meshes, const BatchRequest& request,
                                    const RunOptions& options, ResultFolder& out,
                                    const core::Progress& progress = {}, const TellOutcome& tell = {});

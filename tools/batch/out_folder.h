@@ -7,8 +7,8 @@
 
 namespace morsel::tools::batch {
 
-/// Where things are; none is made by asking for its path. `name` is a mesh's within its collection. Without a root they are paths
-/// within the folder, as result_folder.h has them.
+/// Where things are; none is made by asking for its path. `name` is a mesh's within its collection. Without a
+/// root they are paths within the folder, as result_folder.h has them.
 class OutFolder {
  public:
   explicit OutFolder(std::filesystem::path root = {}) : root_(std::move(root)) {}
@@ -27,8 +27,9 @@ class OutFolder {
   /// What is not whole yet is in folders in this one.
   std::filesystem::path work() const { return root_ / "work"; }
 
-  /// Why results of this mesh could have no file here, such as a name that is too long for the file system with its ending;
-  /// empty if they could. Asks the system about the folder, or the nearest around it that is there.
+  /// Why results of this mesh could have no file here, such as a name that is too long for the file system
+  /// with its ending; empty if they could. Asks the system about the folder, or the nearest around it that is
+  /// there.
   std::string refusal(const std::string& name) const;
 
  private:

@@ -65,7 +65,8 @@ int wait_time(const std::list<Running>& running) {
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
 }
 
-/// None if the system has no room for a process now. Then those that run are waited for; if none runs, the error is thrown.
+/// None if the system has no room for a process now. Then those that run are waited for; if none runs, the
+/// error is thrown.
 std::optional<Child> started(const std::vector<std::string>& words, const ChildLimits& limits,
                              bool is_alone) {
   try {

@@ -38,8 +38,8 @@ bool is_of_a_device(const std::string& message) {
   });
 }
 
-/// Whether a child had no memory left, by its exit code and sentence; the code is that of other resources, too. Threads cannot
-/// be made either where there is no memory for their stacks.
+/// Whether a child had no memory left, by its exit code and sentence; the code is that of other resources,
+/// too. Threads cannot be made either where there is no memory for their stacks.
 bool ran_out_of_memory(const ChildEnd& end) {
   constexpr std::array kSaid = {"out of memory", "Resource temporarily unavailable"};
   return end.exit_code == kOutOfMemory && std::any_of(kSaid.begin(), kSaid.end(), [&](const char* text) {

@@ -38,7 +38,8 @@ struct MeshState {                 // NOLINT(bugprone-exception-escape): of the 
 /// What a child's end means; none if it ended well.
 std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits);
 
-/// What the summary needs of a report, of which the report's items are the larger part. Throws BadInput if it is damaged.
+/// What the summary needs of a report, of which the report's items are the larger part. Throws BadInput if it
+/// is damaged.
 void take_result(const std::filesystem::path& report, MeshState& state);
 
 /// Whether the mesh may be passed over: its key is as it was, and all its files are there, or it failed within the same limits and would again.
@@ -47,8 +48,9 @@ bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limi
 
 /// Throws WriteFailed.
 void write_state(const std::filesystem::path& path, const MeshState& state);
-/// None if there is none, or another version's. Throws BadInput if it is damaged: not JSON, too large, or anything in it has not the
-/// type and range that write_state() gives it, so that whoever uses a state need not look.
+/// None if there is none, or another version's. Throws BadInput if it is damaged: not JSON, too large, or
+/// anything in it has not the type and range that write_state() gives it, so that whoever uses a state need
+/// not look.
 std::optional<MeshState> read_state(const std::filesystem::path& path);
 /// The same of a state's text; errors call it `name`.
 std::optional<MeshState> parse_state(std::string_view text, const std::string& name);

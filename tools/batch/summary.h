@@ -31,7 +31,8 @@ std::string to_string(Status status);
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                    const SummaryOptions& options, ResultFolder& out);
 
-/// Throws WriteFailed if one of these files could not be written, as something of somebody else is in its place.
+/// Throws WriteFailed if one of these files could not be written, as something of somebody else is in its
+/// place.
 void check_summary(ResultFolder& out);
 
 /// A method's number of pairs with a persistence over 1 % of its field's extent, infinite ones included.

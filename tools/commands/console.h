@@ -21,7 +21,8 @@ class Console {
   /// A hook that draws the bar and carries the stop token; refers to this console.
   core::Progress progress();
   const std::stop_token& stop_token() const { return stop_; }
-  /// A line. What a terminal would take for more than text is escaped (printable.h), here and in what follows.
+  /// A line. What a terminal would take for more than text is escaped (printable.h), here and in what
+  /// follows.
   void message(std::string_view text);
   /// A line about what was guessed, left out or passed over.
   void warning(std::string_view text);

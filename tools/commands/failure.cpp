@@ -64,7 +64,8 @@ int exit_code(core::ErrorKind kind) {
   return kBadInput;
 }
 
-/// A text that may hold parts of files and names: control characters are escaped or, without memory for that, replaced.
+/// A text that may hold parts of files and names: control characters are escaped or, without memory for that,
+/// replaced.
 class Escaped {
  public:
   explicit Escaped(const char* text) noexcept {
@@ -133,7 +134,8 @@ int tell_handled() {
   }
 }
 
-/// Of exceptions that nobody can handle: in the libraries' static initialisation, in functions that may not throw.
+/// Of exceptions that nobody can handle: in the libraries' static initialisation, in functions that may not
+/// throw.
 [[noreturn]] void end_by_terminate() noexcept {
   static std::atomic<bool> is_ending{false};
   while (is_ending.exchange(true)) ::pause();  // another thread tells it
@@ -152,8 +154,8 @@ int tell_handled() {
 
 constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGABRT};
 
-/// Some libraries do not check in their static initialisation what malloc() returns (pixman, which cairo draws with). No
-/// input has been read then: nothing else that differs from run to run can be the cause.
+/// Some libraries do not check in their static initialisation what malloc() returns (pixman, which cairo
+/// draws with). No input has been read then: nothing else that differs from run to run can be the cause.
 void end_at_start(int) {
   tell("a library cannot be started: out of memory, as it seems");
   ::_exit(kOutOfMemory);

@@ -9,8 +9,8 @@
 
 namespace morsel::tools {
 
-/// Every file and folder that the command line names, with the option that does ("-o", "MESH"). Empty paths, and "-" for a
-/// document, stand for none.
+/// Every file and folder that the command line names, with the option that does ("-o", "MESH"). Empty paths,
+/// and "-" for a document, stand for none.
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
@@ -22,9 +22,10 @@ class RunFiles {
   /// A folder of results (result_folder.h).
   RunFiles& fills(const std::string& option, const std::filesystem::path& folder);
 
-  /// Throws InvalidArgument where an output is an input, or another output, by identity of the file (file_place.h); and where
-  /// a folder that is read and one that is filled lie in one another. Devices and pipes may be named any number of times;
-  /// two options may fill one folder, and an output file may lie in it.
+  /// Throws InvalidArgument where an output is an input, or another output, by identity of the file
+  /// (file_place.h); and where a folder that is read and one that is filled lie in one another. Devices and
+  /// pipes may be named any number of times; two options may fill one folder, and an output file may lie in
+  /// it.
   void check() const;
 
   /// Those of writes().

@@ -32,7 +32,8 @@ void act_by_default(int signal) {
   raise(signal);
 }
 
-// request_stop() takes a lock that only the making and unmaking of callbacks holds: who does that blocks signals meanwhile.
+// request_stop() takes a lock that only the making and unmaking of callbacks holds: who does that blocks
+// signals meanwhile.
 void stop_in_order(int signal) {
   const int error = errno;
   int none = 0;

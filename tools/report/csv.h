@@ -1,9 +1,10 @@
 #pragma once
 /// Tables of comma-separated values (RFC 4180).
 ///
-/// Spreadsheets run a field as a formula that begins with = + - @, a tab or a line's end, also in quotes; and names of files, and errors, may begin
-/// with anything. So a path that does is written as ./PATH, which is the same path, and any other text that does and is not a
-/// number with an apostrophe before it. Numbers stay numbers.
+/// Spreadsheets run a field as a formula that begins with = + - @, a tab or a line's end, also in quotes; and
+/// names of files, and errors, may begin with anything. So a path that does is written as ./PATH, which is
+/// the same path, and any other text that does and is not a number with an apostrophe before it. Numbers stay
+/// numbers.
 
 #include <cstdint>
 #include <optional>

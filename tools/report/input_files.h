@@ -10,8 +10,8 @@
 
 namespace morsel::tools {
 
-/// The files that keys of a Morse function, in the words of the command line, name: "--field NAME:KEY" and the path. Throws
-/// InvalidArgument as make_function().
+/// The files that keys of a Morse function, in the words of the command line, name: "--field NAME:KEY" and
+/// the path. Throws InvalidArgument as make_function().
 std::vector<std::pair<std::string, std::string>> named_files(const std::string& field);
 
 /// Each file that these Morse functions, in the words of the command line, are to read, by path; not one that is missing, of which

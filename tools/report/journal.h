@@ -15,16 +15,18 @@
 
 namespace morsel::tools {
 
-/// A file of lines, each a JSON value: first {"schema": "morsel.journal/1", "key": …}, whose key says what entries follow from besides
-/// themselves, then entries. Each is handed to the system before add() returns, so that no end of the process takes it away. While it is open
-/// no other process can open it.
+/// A file of lines, each a JSON value: first {"schema": "morsel.journal/1", "key": …}, whose key says what
+/// entries follow from besides themselves, then entries. Each is handed to the system before add() returns,
+/// so that no end of the process takes it away. While it is open no other process can open it.
 ///
-/// The file is untrusted: a line that is not JSON, and an entry that whoever reads them refuses (drop()), count as absent. They are overwritten
-/// by white space, so that they are told once; a line that was cut off is removed.
+/// The file is untrusted: a line that is not JSON, and an entry that whoever reads them refuses (drop()),
+/// count as absent. They are overwritten by white space, so that they are told once; a line that was cut off
+/// is removed.
 class Journal {
  public:
-  /// Reads the entries, if the file is there with the same key; else begins an empty one. Throws InvalidArgument if the file that is there is not a
-  /// journal (nothing in it is changed), WriteFailed if it cannot be written or another process has it open.
+  /// Reads the entries, if the file is there with the same key; else begins an empty one. Throws
+  /// InvalidArgument if the file that is there is not a journal (nothing in it is changed), WriteFailed if it
+  /// cannot be written or another process has it open.
   Journal(std::filesystem::path path, const Json& key);
   /// Leaves the file, unless it has no entries.
   ~Journal();

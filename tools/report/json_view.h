@@ -14,8 +14,8 @@
 
 namespace morsel::tools {
 
-/// A value and where it stands in its document; refers to the value. What is asked of it and does not hold throws BadInput: one sentence,
-/// "report.json is a damaged report: methods[2].name is not a text".
+/// A value and where it stands in its document; refers to the value. What is asked of it and does not hold
+/// throws BadInput: one sentence, "report.json is a damaged report: methods[2].name is not a text".
 class JsonView {
  public:
   static constexpr std::uint64_t kMostCount = std::uint64_t{1} << 53;  // the same in every reader of JSON

@@ -58,8 +58,9 @@ class OtherDocument : public core::BadInput {
   using BadInput::BadInput;
 };
 
-/// Reads a report, or any other JSON document, however it is laid out (json_reader.h: untrusted, limited in depth). `name` is what
-/// errors call it. If a schema is given, throws OtherDocument as soon as the document tells that it has another. Throws BadInput.
+/// Reads a report, or any other JSON document, however it is laid out (json_reader.h: untrusted, limited in
+/// depth). `name` is what errors call it. If a schema is given, throws OtherDocument as soon as the document
+/// tells that it has another. Throws BadInput.
 ReportDocument parse_report(std::istream& in, const std::string& name = "the document",
                             std::string_view schema = {});
 

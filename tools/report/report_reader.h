@@ -21,8 +21,9 @@ struct LoadedReport {
   std::string mesh_sha256;
 };
 
-/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of this schema. Of what methods list,
-/// and of results, nothing is checked but the methods' names: whoever compares them finds what is wrong with them as differences.
+/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of
+/// this schema. Of what methods list, and of results, nothing is checked but the methods' names: whoever
+/// compares them finds what is wrong with them as differences.
 LoadedReport read_report(const std::filesystem::path& path);
 /// The same of a stream; errors call it `name`.
 LoadedReport read_report(std::istream& in, const std::string& name);

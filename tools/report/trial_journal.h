@@ -12,7 +12,8 @@ namespace morsel::tools {
 /// Keeps trials in a journal; an entry has those of one perturbed surface.
 class TrialJournal : public TrialStore {
  public:
-  /// Refers to the journal. `outcomes`: trials of a surface; entries that have another number, or numbers out of range, are dropped.
+  /// Refers to the journal. `outcomes`: trials of a surface; entries that have another number, or numbers out
+  /// of range, are dropped.
   TrialJournal(Journal& journal, std::size_t outcomes);
 
   std::optional<std::vector<Trial>> find(const Perturbation& perturbation, std::size_t number) const override;

@@ -26,14 +26,14 @@ class Descriptor {
 
 enum class Missing { tell, make };
 
-/// The folder `relative` (normal, without "..") below the open folder `root`, which messages call `shown`. One that is
-/// missing is made, or the result is not open. Throws WriteFailed where a part of it is a symbolic link or no folder, or
-/// the system fails.
+/// The folder `relative` (normal, without "..") below the open folder `root`, which messages call `shown`.
+/// One that is missing is made, or the result is not open. Throws WriteFailed where a part of it is a
+/// symbolic link or no folder, or the system fails.
 Descriptor open_below(int root, const std::filesystem::path& relative, Missing missing,
                       const std::filesystem::path& shown);
 
-/// Removes a file, a link, or a folder with all in it, but nothing behind a link and nothing on another file system.
-/// False if something is left.
+/// Removes a file, a link, or a folder with all in it, but nothing behind a link and nothing on another file
+/// system. False if something is left.
 bool remove_tree(int folder, const std::string& name) noexcept;
 
 /// "cannot write PATH: REASON" as WriteFailed, of errno's value.

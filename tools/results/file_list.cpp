@@ -100,8 +100,8 @@ FileList::FileList(int folder, fs::path shown, const std::stop_token& stop,
   unlock();
 }
 
-/// The first line, which a process that has just made the file has not written yet, or left cut off as it ended. The folder
-/// is as it was before then.
+/// The first line, which a process that has just made the file has not written yet, or left cut off as it
+/// ended. The folder is as it was before then.
 void FileList::begin(int folder, const std::function<void()>& before_making) {
   before_making();
   try {

@@ -13,24 +13,27 @@
 
 namespace morsel::tools {
 
-/// A file .morsel-results: a line {"schema":"morsel.results/1"}, then a line for each change: "+PATH" before a file or
-/// work folder appears, "-PATH" after it was removed. Paths are relative to the folder and written as URLs have them (%0A
-/// for a line break); those of work folders end with "/". Lines are appended only, so that any number of files cost the same
-/// each; one that was cut off by the end of a process is no line.
+/// A file .morsel-results: a line {"schema":"morsel.results/1"}, then a line for each change: "+PATH" before
+/// a file or work folder appears, "-PATH" after it was removed. Paths are relative to the folder and written
+/// as URLs have them (%0A for a line break); those of work folders end with "/". Lines are appended only, so
+/// that any number of files cost the same each; one that was cut off by the end of a process is no line.
 ///
-/// What is read is as anybody may have written it: see read(). All but lock() and unlock() only while it is locked.
+/// What is read is as anybody may have written it: see read(). All but lock() and unlock() only while it is
+/// locked.
 class FileList {
  public:
   static constexpr const char* kName = ".morsel-results";
 
-  /// Opens the file in the open folder, which messages call `shown`; one that is missing is made after `before_making` was
-  /// called, which may throw. Throws BadInput if something else has its name, WriteFailed where it cannot be written.
+  /// Opens the file in the open folder, which messages call `shown`; one that is missing is made after
+  /// `before_making` was called, which may throw. Throws BadInput if something else has its name, WriteFailed
+  /// where it cannot be written.
   FileList(int folder, std::filesystem::path shown, const std::stop_token& stop,
            const std::function<void()>& before_making);
 
-  /// Waits, up to half a minute, while another run has it, then reads what is new. Locks nothing on a file system without
-  /// locks. Throws WriteFailed after that time, Cancelled when told to stop, BadInput on a file with another first line,
-  /// with a path that is absolute, not normal or has "..", or of more than 256 MiB.
+  /// Waits, up to half a minute, while another run has it, then reads what is new. Locks nothing on a file
+  /// system without locks. Throws WriteFailed after that time, Cancelled when told to stop, BadInput on a
+  /// file with another first line, with a path that is absolute, not normal or has "..", or of more than 256
+  /// MiB.
   void lock(const std::stop_token& stop);
   void unlock() noexcept;
 
@@ -58,7 +61,8 @@ class FileList {
 
 /// A path as URLs have it: bytes that one does not hold as they are become %XX.
 std::string path_text(std::string_view path);
-/// Whether the path can be that of a file in the folder: relative, normal, without ".." and not the list itself.
+/// Whether the path can be that of a file in the folder: relative, normal, without ".." and not the list
+/// itself.
 bool is_path_inside(std::string_view path);
 
 }  // namespace morsel::tools

@@ -8,8 +8,8 @@
 
 namespace morsel::tools {
 
-/// A file or folder by its device and inode, through links; one that is not there by those of the nearest folder around it
-/// that is, and the path from there.
+/// A file or folder by its device and inode, through links; one that is not there by those of the nearest
+/// folder around it that is, and the path from there.
 struct FilePlace {
   dev_t device = 0;
   ino_t inode = 0;

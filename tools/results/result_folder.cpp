@@ -51,7 +51,8 @@ std::optional<std::string> first_entry(int folder, const fs::path& shown) {
   return std::nullopt;
 }
 
-/// Whether `morsel batch` of version 0.1 filled the folder, which listed nothing: one of the first states that are found is its.
+/// Whether `morsel batch` of version 0.1 filled the folder, which listed nothing: one of the first states
+/// that are found is its.
 bool is_of_version_0_1(const fs::path& folder) {
   constexpr int kLookedAt = 50;
   std::error_code error;
@@ -262,7 +263,8 @@ void ResultFolder::remove_left_work(const fs::path& around) {
     if (nobody_works_in(entry.substr(0, entry.size() - 1))) remove_listed_work(around, entry);
 }
 
-/// Whether a work folder is nobody's any more. One that cannot be told about, or has become something else, is left.
+/// Whether a work folder is nobody's any more. One that cannot be told about, or has become something else,
+/// is left.
 bool ResultFolder::nobody_works_in(const fs::path& work) const {
   try {
     const Descriptor folder = open_below(root_.number(), work, Missing::tell, path_);

@@ -15,11 +15,13 @@
 
 namespace morsel::tools {
 
-/// A folder with a list of the files that were made in it (file_list.h). What is listed may be replaced and removed, and
-/// nothing else: a file of somebody else in the place of a result is refused, and no symbolic link below the folder is
-/// followed. The folder itself may be reached through links. Runs may share a folder, as may objects of one run.
+/// A folder with a list of the files that were made in it (file_list.h). What is listed may be replaced and
+/// removed, and nothing else: a file of somebody else in the place of a result is refused, and no symbolic
+/// link below the folder is followed. The folder itself may be reached through links. Runs may share a
+/// folder, as may objects of one run.
 ///
-/// Paths are relative to the folder, normal and without ".."; all functions may be called from several threads at once.
+/// Paths are relative to the folder, normal and without ".."; all functions may be called from several
+/// threads at once.
 class ResultFolder {
  public:
   struct Options {
@@ -28,8 +30,9 @@ class ResultFolder {
     std::stop_token stop;  ///< ends waiting for another run
   };
 
-  /// A folder that is missing is made, an empty one gets a list. Throws InvalidArgument, a sentence that says what to do,
-  /// on any other without one, BadInput on a damaged list, WriteFailed where the folder cannot be made or written into.
+  /// A folder that is missing is made, an empty one gets a list. Throws InvalidArgument, a sentence that says
+  /// what to do, on any other without one, BadInput on a damaged list, WriteFailed where the folder cannot be
+  /// made or written into.
   explicit ResultFolder(std::filesystem::path path) : ResultFolder(std::move(path), Options()) {}
   ResultFolder(std::filesystem::path path, Options options);
   /// Throws InvalidArgument as the constructor would; makes nothing.
@@ -37,8 +40,9 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// The path to write a file to, which is listed from now on; the folders that it is in are made. Throws WriteFailed if
-  /// something that is not listed, or no file, has its place, or it is one of the outputs `taken`.
+  /// The path to write a file to, which is listed from now on; the folders that it is in are made. Throws
+  /// WriteFailed if something that is not listed, or no file, has its place, or it is one of the outputs
+  /// `taken`.
   std::filesystem::path claim(const std::filesystem::path& file);
   /// Throws as claim(), and makes nothing.
   void check_free(const std::filesystem::path& file);
@@ -64,8 +68,8 @@ class ResultFolder {
   /// The listed files in a folder and the folders in it.
   std::vector<std::string> files_in(const std::filesystem::path& folder);
 
-  /// A new folder in the folder `around`, listed, for files that are not whole yet; locked as long as the object lives, and removed
-  /// with all that is in it when that ends.
+  /// A new folder in the folder `around`, listed, for files that are not whole yet; locked as long as the
+  /// object lives, and removed with all that is in it when that ends.
   class Work {
    public:
     Work(ResultFolder& folder, std::filesystem::path around);
