@@ -3,6 +3,7 @@
 import copy
 import csv
 import io
+import itertools
 import json
 import os
 import re
@@ -29,6 +30,11 @@ def edits(value, most_of_a_list=2):
         yield f"{key} removed", lambda document, key=key: document.__delitem__(key)
         for name, edit in edits(inner, most_of_a_list):
             yield f"{key}.{name}", lambda document, key=key, edit=edit: edit(document[key])
+
+
+def some(all_edits):
+    """Every third of them, since each takes a run of the program; all, if the environment has MORSEL_ALL_EDITS."""
+    return itertools.islice(all_edits, 0, None, 1 if "MORSEL_ALL_EDITS" in os.environ else 3)
 
 
 class Documents(ProgramTest):
@@ -101,7 +107,7 @@ class Reports(Documents):
         self.morsel("compare", self.mesh, "--field", "height", "--method", "salient:iterations=1", "--target", "2", "-o", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
         codes = set()
-        for name, edit in edits(report, 1):
+        for name, edit in some(edits(report, 1)):
             damaged = copy.deepcopy(report)
             edit(damaged)
             if damaged == report:
@@ -176,7 +182,7 @@ class States(Documents):
         whole = self.state.read_text()
         state = json.loads(whole)
         told = 0
-        for name, edit in edits(state):
+        for name, edit in some(edits(state)):
             damaged = copy.deepcopy(state)
             edit(damaged)
             self.state.write_text(json.dumps(damaged))
@@ -186,7 +192,7 @@ class States(Documents):
                     self.assertRegex(errors, r"\Amorsel: warning: 1 damaged state counts as absent: [^\n]+\n\Z")
                 told += "damaged state" in errors
                 json.loads((self.folder / "out" / "summary.json").read_text())
-        self.assertGreater(told, 200)
+        self.assertGreater(told, 70)
 
     def test_a_damaged_state_is_told_and_healed(self):
         for text in ("[" * DEEP, "", "{", "\0\xff", '{"schema": "morsel.batch-state/1"}'):
