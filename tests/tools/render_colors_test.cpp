@@ -173,7 +173,7 @@ TEST_CASE("segments have one colour each and their neighbours others") {
         CAPTURE(name, kind, static_cast<int>(which));
         const RegionColors colors = color_segments(mesh, segments, which);
         REQUIRE(colors.corner.size() == mesh.halfedge_count());
-        const auto label = [&](Index h) {
+        const auto label = [&, &mesh = mesh](Index h) {
           return std::pair(which == Segments::descending ? 0 : segments.ascending.vertex[mesh.origin(h)],
                            which == Segments::ascending ? 0 : segments.descending.triangle[h / 3]);
         };
