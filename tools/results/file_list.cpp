@@ -74,9 +74,9 @@ bool is_path_inside(std::string_view path) {
   return true;
 }
 
-FileList::FileList(int folder, fs::path shown, const std::stop_token& stop,
+FileList::FileList(int folder, const fs::path& shown, const std::stop_token& stop,
                    const std::function<void()>& before_making)
-    : path_(std::move(shown) / kName) {
+    : path_(shown / kName) {
   constexpr int kFlags = O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   file_ = Descriptor(::openat(folder, kName, kFlags));
   if (!file_.is_open() && errno == ENOENT) {

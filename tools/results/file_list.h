@@ -27,7 +27,7 @@ class FileList {
   /// Opens the file in the open folder, which messages call `shown`; one that is missing is made after
   /// `before_making` was called, which may throw. Throws BadInput if something else has its name, WriteFailed
   /// where it cannot be written.
-  FileList(int folder, std::filesystem::path shown, const std::stop_token& stop,
+  FileList(int folder, const std::filesystem::path& shown, const std::stop_token& stop,
            const std::function<void()>& before_making);
 
   /// Waits, up to half a minute, while another run has it, then reads what is new. Locks nothing on a file

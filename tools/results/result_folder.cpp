@@ -214,7 +214,7 @@ std::vector<std::string> ResultFolder::files_in(const fs::path& folder) {
   return files;
 }
 
-ResultFolder::Work::Work(ResultFolder& folder, fs::path around) : folder_(folder) {
+ResultFolder::Work::Work(ResultFolder& folder, const fs::path& around) : folder_(folder) {
   const Hold hold(folder_);
   int error = EEXIST;
   while (error == EEXIST) {

@@ -72,7 +72,7 @@ class ResultFolder {
   /// object lives, and removed with all that is in it when that ends.
   class Work {
    public:
-    Work(ResultFolder& folder, std::filesystem::path around);
+    Work(ResultFolder& folder, const std::filesystem::path& around);
     ~Work();
     Work(const Work&) = delete;
     Work& operator=(const Work&) = delete;
