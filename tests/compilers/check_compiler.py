@@ -101,14 +101,14 @@ def main():
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     root = arguments.root.resolve()
-    todo = list(checks(json.loads(arguments.commands.read_text(encoding="utf-8")), root, arguments.folders))
-    if not todo:
+    sources = list(checks(json.loads(arguments.commands.read_text(encoding="utf-8")), root, arguments.folders))
+    if not sources:
         sys.exit(f"{arguments.commands} compiles nothing in {', '.join(arguments.folders)}")
     work.mkdir(parents=True, exist_ok=True)
-    for path, text in ninja_file(arguments.compiler, todo, work, root).items():
+    for path, text in ninja_file(arguments.compiler, sources, work, root).items():
         if not path.exists() or path.read_text(encoding="utf-8") != text:  # else all would be read again
             path.write_text(text, encoding="utf-8")
-    print(f"{arguments.compiler}: {len(todo)} sources in {', '.join(arguments.folders)}", flush=True)
+    print(f"{arguments.compiler}: {len(sources)} sources in {', '.join(arguments.folders)}", flush=True)
     return subprocess.run([arguments.ninja, "-C", work, "-j", str(arguments.jobs), "-k", "0", "--quiet"]).returncode
 
 
