@@ -1,9 +1,15 @@
+# What every target of this project is compiled with. g++ 12 has false reports on the concatenation of strings.
+set(MORSEL_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)
+
 # morsel_add_module(NAME SOURCES … DEPENDS … PRIVATE_DEPENDS …): the library target morsel_NAME, alias morsel::NAME,
 # whose headers are included as "morsel/NAME/….h" in the build tree and after installation alike.
 #   DEPENDS          what its headers include or what it is linked with: consumers of the installed package get these too
 #   PRIVATE_DEPENDS  what only its sources include; of these, consumers need those that are more than headers
+#   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it shares. Sources
+#                    include what they use all the same: tools/lint compiles them without precompiled headers.
 function(morsel_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
   set(target morsel_${name})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(morsel::${name} ALIAS ${target})
@@ -16,9 +22,7 @@ function(morsel_add_module name)
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # The same expression gives the same bits with every compiler and processor: no fused multiply-adds of its choosing.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                         $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 reports string concatenation
-                         -ffp-contract=off)
+  target_compile_options(${target} PRIVATE ${MORSEL_WARNINGS} -ffp-contract=off)
   target_link_libraries(${target} PUBLIC ${arg_DEPENDS})
   set(linked ${arg_DEPENDS})
   foreach(dependency IN LISTS arg_PRIVATE_DEPENDS)
@@ -30,6 +34,12 @@ function(morsel_add_module name)
       list(APPEND linked ${dependency})
     endif()
   endforeach()
+  if(TARGET "${arg_PRECOMPILED}")
+    get_target_property(module ${arg_PRECOMPILED} ALIASED_TARGET)
+    target_precompile_headers(${target} REUSE_FROM ${module})
+  elseif(arg_PRECOMPILED)
+    target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILED})
+  endif()
   set_property(GLOBAL APPEND PROPERTY MORSEL_MODULES ${name})
   set_property(GLOBAL PROPERTY MORSEL_LINKED_${name} ${linked})
 endfunction()

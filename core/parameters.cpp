@@ -11,7 +11,7 @@
 namespace morsel::core {
 namespace {
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 void check_range(double value, const Range& range, const std::string& what) {
   const bool low = range.min_exclusive ? value <= range.min : value < range.min;
@@ -49,14 +49,14 @@ std::string to_string(const Length& length) {
 double parse_number(std::string_view text, std::string_view what) {
   double value = 0;
   if (!parse_whole(text, value) || !std::isfinite(value))
-    throw InvalidArgument(std::string(what) + " must be a finite number, not " + quoted(text));
+    throw InvalidArgument(std::string(what) + " must be a finite number, not " + in_quotes(text));
   return value;
 }
 
 std::int64_t parse_integer(std::string_view text, std::string_view what) {
   std::int64_t value = 0;
   if (!parse_whole(text, value))
-    throw InvalidArgument(std::string(what) + " must be a whole number, not " + quoted(text));
+    throw InvalidArgument(std::string(what) + " must be a whole number, not " + in_quotes(text));
   return value;
 }
 
@@ -74,7 +74,7 @@ Length parse_length(std::string_view text, std::string_view what) {
   if (!parse_whole(text, value) || !std::isfinite(value))
     throw InvalidArgument(std::string(what) +
                           " must be a length such as 0.25 (in the mesh's unit), 8eps or 3edges, not " +
-                          quoted(given));
+                          in_quotes(given));
   return {value, unit};
 }
 
@@ -147,7 +147,7 @@ std::string ParameterReader::choice(std::string_view key, std::string_view defau
   if (text == nullptr) return std::string(default_value);
   if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
   throw InvalidArgument(owner() + ":" + std::string(key) + " must be one of " + allowed + ", not " +
-                        quoted(*text));
+                        in_quotes(*text));
 }
 
 std::string ParameterReader::text(std::string_view key, const char* default_value,
@@ -176,7 +176,7 @@ void ParameterReader::finish() const {
     if (std::none_of(declared_.begin(), declared_.end(), declares)) {
       std::string valid;
       for (const ParameterInfo& info : declared_) valid += (valid.empty() ? "" : ", ") + info.key;
-      throw InvalidArgument(owner() + " has no parameter " + quoted(key) +
+      throw InvalidArgument(owner() + " has no parameter " + in_quotes(key) +
                             (valid.empty() ? "; it takes none" : "; it takes: " + valid));
     }
     for (std::size_t j = 0; j < i; ++j)

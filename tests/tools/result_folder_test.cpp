@@ -6,9 +6,11 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "morsel/core/error.h"
@@ -49,13 +51,17 @@ bool has(const std::string& text, std::string_view part) { return text.find(part
 
 TEST_CASE("a folder of results is a new one, an empty one, or one that has a list", "[results]") {
   const test::Scratch scratch;
-  { const ResultFolder made(scratch / "a/b"); }
-  CHECK(list_of(scratch / "a/b") == kFirst);
-  { const ResultFolder again(scratch / "a/b"); }
-  CHECK(list_of(scratch / "a/b") == kFirst);
+  {
+    const ResultFolder made(scratch / "a/b");
+    CHECK(list_of(scratch / "a/b") == kFirst);
+    const ResultFolder again(scratch / "a/b");
+    CHECK(list_of(scratch / "a/b") == kFirst);
+  }
   fs::create_directory(scratch / "empty");
-  { const ResultFolder marked(scratch / "empty"); }
-  CHECK(list_of(scratch / "empty") == kFirst);
+  {
+    const ResultFolder marked(scratch / "empty");
+    CHECK(list_of(scratch / "empty") == kFirst);
+  }
   fs::create_directory_symlink("empty", scratch / "link");
   { const ResultFolder through(scratch / "link"); }
 
@@ -70,6 +76,35 @@ TEST_CASE("a folder of results is a new one, an empty one, or one that has a lis
   CHECK_FALSE(fs::exists(scratch / "absent"));
   CHECK_THROWS_AS(ResultFolder(theirs / "thesis.txt"), core::WriteFailed);
   CHECK_THROWS_AS(ResultFolder(theirs / "thesis.txt/below"), core::WriteFailed);
+}
+
+TEST_CASE("a folder of results in which nothing was made is as it was before", "[results]") {
+  const test::Scratch scratch;
+  fs::create_directory(scratch / "empty");
+  fs::create_directory_symlink("empty", scratch / "link");
+  scratch.file("listed/.morsel-results", kFirst);
+  for (const char* name : {"a/b/c", "a/b/c/", "empty", "link", "listed"}) {
+    { const ResultFolder unused(scratch / name); }
+    INFO(name);
+    CHECK_FALSE(fs::exists(scratch / "a"));
+    CHECK(fs::is_empty(scratch / "empty"));
+    CHECK(list_of(scratch / "listed") == kFirst);
+  }
+  fs::create_directory(scratch / "a");
+  {
+    std::optional<ResultFolder> first(std::in_place, scratch / "a/b");
+    ResultFolder second(scratch / "a/b");
+    first.reset();
+    put(second, "c.txt", "1");
+  }
+  CHECK(list_of(scratch / "a/b") == std::string(kFirst) + "+c.txt\n");
+  {
+    ResultFolder outer(scratch / "d");
+    const ResultFolder inner(scratch / "d/e");
+    scratch.file("d/mine.txt", "years");
+  }
+  CHECK(test::contents(scratch / "d/mine.txt") == "years");
+  CHECK_FALSE(fs::exists(scratch / "d/e"));
 }
 
 TEST_CASE("a batch of version 0.1 is told to be one", "[results]") {
@@ -224,8 +259,10 @@ TEST_CASE("a list without its first line is that of an empty folder or none", "[
   const test::Scratch scratch;
   for (const char* begun : {"", "{\"schema\":\"mors"}) {
     scratch.file("empty/.morsel-results", begun);
-    { ResultFolder folder(scratch / "empty"); }
-    CHECK(list_of(scratch / "empty") == kFirst);
+    {
+      ResultFolder folder(scratch / "empty");
+      CHECK(list_of(scratch / "empty") == kFirst);
+    }
     scratch.file("full/a.txt");
     scratch.file("full/.morsel-results", begun);
     CHECK_THROWS_AS(ResultFolder(scratch / "full"), core::InvalidArgument);

@@ -82,6 +82,7 @@ FileList::FileList(int folder, const fs::path& shown, const std::stop_token& sto
   if (!file_.is_open() && errno == ENOENT) {
     before_making();
     file_ = Descriptor(::openat(folder, kName, kFlags | O_CREAT, 0666));
+    is_new_ = file_.is_open();
   }
   if (!file_.is_open()) {
     if (errno == ELOOP || errno == EISDIR || errno == ENXIO) refuse("it is no file");

@@ -37,6 +37,8 @@ class FileList {
   void lock(const std::stop_token& stop);
   void unlock() noexcept;
 
+  /// Whether the constructor made the file.
+  bool is_new() const { return is_new_; }
   /// Those that are listed now, in order.
   const std::set<std::string, std::less<>>& entries() const { return entries_; }
   bool has(std::string_view entry) const { return entries_.find(entry) != entries_.end(); }
@@ -55,6 +57,7 @@ class FileList {
   Descriptor file_;
   std::size_t read_ = 0;  // bytes, of whole lines
   std::size_t lines_ = 0;
+  bool is_new_ = false;
   bool has_rest_ = false;  // of a line that was cut off
   std::set<std::string, std::less<>> entries_;
 };

@@ -112,15 +112,53 @@ void ResultFolder::check(const fs::path& path) {
 
 ResultFolder::ResultFolder(fs::path path, Options options)
     : path_(std::move(path)), stop_(std::move(options.stop)) {
-  std::error_code error;
-  fs::create_directories(path_, error);
-  root_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!root_.is_open() && errno == ENOTDIR) fail_to_make(path_, "a file of that name is there");
-  if (!root_.is_open()) fail_to_make(path_, error ? error.message() : std::generic_category().message(errno));
+  open();
   if (::faccessat(root_.number(), ".", W_OK | X_OK, AT_EACCESS) != 0) fail_to_write(path_, errno);
   for (const fs::path& output : options.taken) taken_.insert(file_place(output));
-  list_.emplace(root_.number(), path_, stop_, [&] { refuse_if_not_empty(root_.number(), path_); });
+  try {
+    list_.emplace(root_.number(), path_, stop_, [&] { refuse_if_not_empty(root_.number(), path_); });
+  } catch (...) {
+    remove_if_unused();
+    throw;
+  }
 }
+
+/// Until the object is destroyed no other run removes the folder.
+void ResultFolder::open() {
+  for (;;) {
+    std::vector<fs::path> missing;
+    std::error_code error;
+    for (fs::path at = path_; !at.empty() && !fs::exists(at, error); at = at.parent_path())
+      missing.push_back(at);
+    fs::create_directories(path_, error);
+    root_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!root_.is_open() && errno == ENOTDIR) fail_to_make(path_, "a file of that name is there");
+    if (!root_.is_open()) fail_to_make(path_, error ? error.message() : std::generic_category().message(errno));
+    made_ = std::move(missing);
+    int result = 0;
+    do result = ::flock(root_.number(), LOCK_SH);
+    while (result != 0 && errno == EINTR);
+    struct stat status {};
+    if (::fstat(root_.number(), &status) != 0 || status.st_nlink > 0) return;
+    // Another run, in which nothing was made, has just removed it.
+  }
+}
+
+/// If no other run has the folder open: what the constructor made.
+void ResultFolder::remove_if_unused() noexcept {
+  if (!try_lock(root_.number())) return;
+  try {
+    if (list_ && list_->is_new()) {
+      list_->lock({});
+      if (!list_->entries().empty() || ::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
+    }
+    for (const fs::path& folder : made_)
+      if (::rmdir(folder.c_str()) != 0) return;
+  } catch (const std::exception&) {  // an empty list does no harm
+  }
+}
+
+ResultFolder::~ResultFolder() { remove_if_unused(); }
 
 ResultFolder::Hold::Hold(ResultFolder& folder) : folder_(folder) {
   folder_.mutex_.lock();

@@ -35,6 +35,11 @@ class ResultFolder {
   /// made or written into.
   explicit ResultFolder(std::filesystem::path path) : ResultFolder(std::move(path), Options()) {}
   ResultFolder(std::filesystem::path path, Options options);
+  /// Removes the list, and the folders that the constructor made, if the list is new, nothing is in it and no
+  /// other run has the folder open: a run that failed before its first file leaves nothing.
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
   /// Throws InvalidArgument as the constructor would; makes nothing.
   static void check(const std::filesystem::path& path);
 
@@ -91,6 +96,8 @@ class ResultFolder {
   void remove_work(const std::filesystem::path& relative) noexcept;
 
  private:
+  void open();
+  void remove_if_unused() noexcept;
   /// The folder that a path is in. Not open if it is missing.
   Descriptor parent_of(const std::filesystem::path& relative, Missing missing) const;
   void refuse_foreign(const std::filesystem::path& file) const;
@@ -100,6 +107,7 @@ class ResultFolder {
   std::filesystem::path path_;
   std::set<FilePlace> taken_;
   std::stop_token stop_;
+  std::vector<std::filesystem::path> made_;  // by the constructor, from the inside out
   Descriptor root_;
   std::recursive_mutex mutex_;
   int holds_ = 0;
