@@ -1,15 +1,24 @@
 // The morsel program: reads the command line, runs one command, turns errors into exit codes.
 
+#include <algorithm>
 #include <array>
+#include <deque>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
+#include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
 #include "morsel/core/parallel.h"
-#include "morsel/core/printable.h"
 #include "morsel/core/stop.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/failure.h"
+#include "morsel/tools/commands/help.h"
+#include "morsel/tools/commands/nearest_name.h"
+#include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/commands/threads.h"
 #include "morsel/tools/report/provenance.h"
@@ -34,51 +43,59 @@ void limit_threads(int wanted, Console& console) {
                   " can be made; results are the same");
 }
 
+std::vector<std::string> names_of(const std::deque<Command>& commands) {
+  std::vector<std::string> names = {"help"};
+  for (const Command& command : commands) names.push_back(command.name);
+  return names;
+}
+
+Command* find(std::deque<Command>& commands, const std::string& name) {
+  const auto found = std::ranges::find(commands, name, &Command::name);
+  return found == commands.end() ? nullptr : &*found;
+}
+
+/// Whether a word in a command's place is the file to compare: there is one, or it is named like one.
+bool is_file(const std::string& word) {
+  std::error_code error;
+  return !core::file_extension(word).empty() || std::filesystem::is_regular_file(word, error);
+}
+
+Command& chosen(std::deque<Command>& commands, const std::string& name) {
+  if (Command* command = find(commands, name)) return *command;
+  throw core::InvalidArgument("there is no command \"" + name + "\"" +
+                              nearest_hint(name, names_of(commands)) + " (morsel --help lists all)");
+}
+
 /// Throws what the streams' errors throw.
-int run(int argc, char** argv, std::stop_token stop) {
+int run(std::vector<std::string> words, std::stop_token stop) {
   std::cout.exceptions(std::ios::badbit | std::ios::failbit);
-  CLI::App app(
-      "Critical points of scalar fields on triangle meshes, by several methods held against each other.",
-      "morsel");
-  app.set_version_flag("--version", std::string("morsel ") + kVersion);
-  app.require_subcommand(1);
-  app.footer(
-      "morsel COMMAND --help tells about each command. Exit codes: 0 done, 1 a check found differences\n"
-      "or a mesh of a batch failed, 2 wrong usage, 3 bad input, 4 writing failed, 5 out of memory, "
-      "threads or open files, 130 and 143 interrupted.");
-  Invocation invocation;
-  std::vector<std::string> words(argv, argv + argc);
-  if (!words.empty()) words.front() = "morsel";
-  invocation.common.command = shaping_command(words);
-  add_compare(app, invocation);
-  add_batch(app, invocation);
-  add_field(app, invocation);
-  add_hierarchy(app, invocation);
-  add_info(app, invocation);
-  add_check(app, invocation);
-  add_molecule(app, invocation);
-  add_segment(app, invocation);
-  add_cut(app, invocation);
-  add_quads(app, invocation);
-  add_render(app, invocation);
-  add_reproduce(app, invocation);
-  add_stability(app, invocation);
-  add_sweep(app, invocation);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) {
-      tell(core::printable(error.what()).c_str(), " (morsel --help tells what is possible)");
-      return kWrongUsage;
-    }
-    app.exit(error);  // prints the help or the version
-    std::cout.flush();
+  Program program;
+  add_commands(program);
+  const auto is_help = [](const std::string& word) { return word == "--help" || word == "-h"; };
+  const auto show = [](const std::string& text) {
+    std::cout << text << std::flush;
     return kDone;
-  }
+  };
+
+  if (words.empty() || is_help(words[0]) || (words[0] == "help" && words.size() == 1))
+    return show(program_help(program.commands));
+  if (words[0] == "--version") return show("morsel " + std::string(kVersion) + "\n");
+  if (words[0] == "help") return show(command_help(chosen(program.commands, words[1])));
+  if (find(program.commands, words[0]) == nullptr && is_file(words[0])) words.insert(words.begin(), "compare");
+  if (words[0].starts_with('-'))
+    throw core::InvalidArgument("the options of a command come after it, and " + words[0] +
+                                " came before (morsel --help lists the commands)");
+  Command& command = chosen(program.commands, words[0]);
+  if (std::any_of(words.begin() + 1, std::ranges::find(words, "--"), is_help)) return show(command_help(command));
+
+  std::vector<std::string> typed = words;
+  typed.insert(typed.begin(), "morsel");
+  program.common.command = shaping_command(typed);
+  parse(command, {words.begin() + 1, words.end()});
   const core::StopScope scope(stop);
-  Console console(invocation.common.quiet, std::move(stop));
-  limit_threads(invocation.common.threads, console);
-  const int code = invocation.action(console);
+  Console console(program.common.quiet, std::move(stop));
+  limit_threads(program.common.threads, console);
+  const int code = command.action(console);
   std::cout.flush();
   return code;
 }
@@ -89,7 +106,7 @@ int main(int argc, char** argv) {
   begin_main();
   try {
     const SignalWatch watch;
-    return run(argc, argv, watch.token());
+    return run({argv + std::min(argc, 1), argv + argc}, watch.token());
   } catch (...) {
     return tell_failure();
   }

@@ -24,7 +24,8 @@ SHARED = ("algorithm", "array", "atomic", "bit", "cmath", "functional", "limits"
           "Eigen/Geometry", "Eigen/SparseCore", "tbb/blocked_range.h", "tbb/parallel_for.h", "tbb/partitioner.h",
           "tbb/task_arena.h")
 # Options of g++ alone, and those about the precompiled headers that it made.
-DROPPED = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-maybe-uninitialized", "-Winvalid-pch", "-c")
+DROPPED = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-stringop-overread",
+           "-Wno-array-bounds", "-Wno-maybe-uninitialized", "-Winvalid-pch", "-c")
 
 
 def options_of(command):

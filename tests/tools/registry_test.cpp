@@ -56,8 +56,10 @@ TEST_CASE("unknown names and keys list the valid ones") {
 }
 
 TEST_CASE("help names every key with its default") {
-  const std::string text = tools::describe_methods();
-  for (const char* key : {"iterations=10", "sigma=8eps", "range=1std", "support=2", "threshold=0.1%"})
+  const std::string text = tools::describe_method("salient");
+  for (const char* key : {"iterations=10", "sigma=8eps", "range=1std", "support=2"})
     CHECK_THAT(text, Contains(key));
-  CHECK_THAT(tools::describe_functions(), Contains("axis=z"));
+  CHECK_THAT(tools::describe_method("tps"), Contains("threshold=0.1%"));
+  CHECK_THAT(tools::describe_function("height"), Contains("axis=z"));
+  CHECK_THROWS_AS(tools::describe_method("height"), core::InvalidArgument);
 }

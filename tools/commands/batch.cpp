@@ -154,97 +154,86 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   return sums.failed + sums.not_run > 0 ? kDifferences : kDone;
 }
 
-void add_what_is_compared(CLI::App& command, Options& options) {
+void add_what_is_compared(Command& command, Options& options) {
   batch::BatchRequest& request = options.request;
   add_comparison_options(command, request.comparison);
-  command.add_flag("--no-items", options.no_items,
-                   "Leave what is listed point by point out of the reports; counts stay");
-  command.add_flag("--no-thumbnails", options.no_thumbnails, "Take no small pictures");
-  command.add_flag("--html", request.pages, "Make a page of each mesh that shows all this in a browser");
-  command.add_flag("--figures", request.figures,
-                   "Make pictures of each mesh: of each method, diagrams and curves");
-  command.add_flag("--export", request.exports,
-                   "Write each mesh's surfaces, complexes (.vtp, for ParaView) and critical points (.csv)");
+  command.flag("--no-items", options.no_items,
+               "Leave what is listed point by point out of the reports; counts stay");
+  command.flag("--no-thumbnails", options.no_thumbnails, "Take no small pictures");
+  command.flag("--html", request.pages, "Make a page of each mesh that shows all this in a browser");
+  command.flag("--figures", request.figures, "Make pictures of each mesh: of each method, diagrams and curves");
+  command.flag("--export", request.exports,
+               "Write each mesh's surfaces, complexes (.vtp, for ParaView) and critical points (.csv)");
   add_figure_options(command, request.figure);
-  command.get_option("--size")->needs("--figures");
-  command.get_option("--inset")->needs("--figures");
+  command.option("--size").needs("--figures");
+  command.option("--inset").needs("--figures");
 }
 
-void add_how_it_is_run(CLI::App& command, Options& options) {
-  command.add_option("--jobs", options.jobs, "Meshes at the same time (default: the cores over --threads)")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
+void add_how_it_is_run(Command& command, Options& options) {
+  command.number("--jobs", options.jobs, "Meshes at the same time")
+      .between(1, 4096)
+      .shows_default("the cores over --threads");
+  command.number("--time-limit", options.run.limits.seconds, "A mesh that takes longer fails")
+      .above(0)
+      .value("SECONDS")
+      .shows_default("none");
   command
-      .add_option("--time-limit", options.run.limits.seconds,
-                  "A mesh that takes longer fails (default: none)")
-      ->check(CLI::PositiveNumber)
-      ->type_name("SECONDS");
+      .number("--memory-limit", options.run.limits.memory_mib,
+              "A mesh that needs more writable memory of its own (heap and stacks; not code) fails, from "
+              "64 MiB on, of which the program itself takes 45")
+      .between(64, 0x1p40)
+      .value("MIB")
+      .shows_default("none");
+  command.flag("--retry", options.run.retry, "Run what failed before again");
   command
-      .add_option(
-          "--memory-limit", options.run.limits.memory_mib,
-          "A mesh that needs more writable memory of its own (heap and stacks; not code) fails, from\n"
-          "64 MiB on, of which the program itself takes 45 (default: none)")
-      ->check(CLI::Range(std::uint64_t{64}, std::uint64_t{1} << 40))
-      ->type_name("MIB");
-  command.add_flag("--retry", options.run.retry, "Run what failed before again");
+      .texts("--only", options.only,
+             "Run this mesh only, by its path within the collection; may be given several times")
+      .value("NAME");
+  command.flag("--no-summary", options.no_summary, "Leave the summary to a later call");
+  command.flag("--summary-only", options.summary_only, "Run nothing: write the summary of what is there")
+      .excludes("--no-summary");
   command
-      .add_option("--only", options.only,
-                  "Run this mesh only, by its path within the collection; may be given several times")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  auto* without = command.add_flag("--no-summary", options.no_summary, "Leave the summary to a later call");
-  auto* only = command.add_flag("--summary-only", options.summary_only,
-                                "Run nothing: write the summary of what is there");
-  only->excludes(without);
-  command
-      .add_flag("--plan", options.plan,
-                "Run nothing: print the meshes that a run would work on, a line each: the size of the file\n"
-                "in bytes, a tab, NAME (a JSON string if it has control characters or begins with a quote)")
-      ->excludes(without)
-      ->excludes(only);
-  command.add_flag("--with-timings", options.with_timings,
-                   "Give summary.csv a column of seconds, which differ from run to run");
+      .flag("--plan", options.plan,
+            "Run nothing: print the meshes that a run would work on, a line each: the size of the file "
+            "in bytes, a tab, NAME (a JSON string if it has control characters or begins with a quote)")
+      .excludes("--no-summary")
+      .excludes("--summary-only");
+  command.flag("--with-timings", options.with_timings,
+               "Give summary.csv a column of seconds, which differ from run to run");
 }
 
 }  // namespace
 
-void add_batch(CLI::App& app, Invocation& invocation) {
+void add_batch(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
-      "batch",
-      "Compare methods on every mesh of a collection, each once and in a process of its own, and sum up");
+  Command& command = program.add(
+      "batch", "Compare methods on every mesh of a collection, each once and in a process of its own, and sum up");
   command
-      .add_option("COLLECTION", options->collection,
-                  "A folder, whose meshes and those of the folders in it are taken, or a list: a file with\n"
-                  "the path of a mesh on each line, relative to the list's folder")
-      ->check(names_file())
-      ->required();
+      .path("COLLECTION", options->collection,
+            "A folder, whose meshes and those of the folders in it are taken, or a list: a file with "
+            "the path of a mesh on each line, relative to the list's folder")
+      .required();
   command
-      .add_option(
-          "--out", options->out,
-          "Where results go: a new or an empty folder, or one of an earlier batch; not within COLLECTION")
-      ->check(names_file())
-      ->type_name("OUT")
-      ->required();
+      .path("--out", options->out,
+            "Where results go: a new or an empty folder, or one of an earlier batch; not within COLLECTION")
+      .value("OUT")
+      .required();
   add_what_is_compared(command, *options);
   add_how_it_is_run(command, *options);
-  add_common_options(command, invocation.common);
-  command.get_option("--threads")
-      ->description("Number of threads of each mesh (default: 1); never changes a result");
-  command.footer(
-      "OUT gets reports/NAME.json, thumbnails/NAME.first.png and .last.png (the first and the last method),\n"
-      "pages/NAME.html, figures/NAME/ and exports/NAME/ if they are asked for, state/NAME.json, and the\n"
-      "summary: summary.csv, summary.json, plots/ and index.html. NAME is the mesh's path within the\n"
-      "collection. What is done is not done again unless the mesh, the options, a file that "
-      "they\n"
-      "name or the program's version changed; what failed, unless these or the limits did, or with --retry.\n"
-      "Exit code: 0 if all meshes are done, 1 if any failed.\n" +
-      specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return run(*options, invocation.common, console);
-    };
-  });
+  add_common_options(command, program.common);
+  command.option("--threads").help = "Number of threads of each mesh; never changes a result";
+  command.option("--threads").shows_default("1");
+  command.examples = {{"batch scans --out results", "a table, a page and a report of each mesh of a folder"},
+                      {"batch scans --out results --figures --jobs 2", "pictures as well, of what is done, too"}};
+  command.notes =
+      "OUT gets reports/NAME.json, thumbnails/NAME.first.png and .last.png (the first and the last method), "
+      "pages/NAME.html, figures/NAME/ and exports/NAME/ if they are asked for, state/NAME.json, and the "
+      "summary: summary.csv, summary.json, plots/ and index.html. NAME is the mesh's path within the "
+      "collection. What is done is not done again unless the mesh, the options, a file that they name or the "
+      "program's version changed; what failed, unless these or the limits did, or with --retry.\n\n"
+      "Exit code: 0 if all meshes are done, 1 if any failed.\n\n" +
+      std::string(kSpecificationNotes);
+  command.action = [options, &program](Console& console) { return run(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

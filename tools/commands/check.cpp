@@ -133,24 +133,22 @@ int check(const Options& options, Console& console) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Invocation& invocation) {
+void add_check(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("check", "Run comparisons of reports again and show what changed");
+  Command& command = program.add("check", "Run comparisons of reports again and show what changed");
   command
-      .add_option("REPORT", options->paths,
-                  "Reports of morsel compare, or folders in which all of them (.json) are checked")
-      ->check(names_file())
-      ->required();
-  command.add_flag("--all", options->all, "Show every difference, not only the first 20 of a report");
-  add_common_options(command, invocation.common, false);
-  command.footer(
-      "Meshes are looked for from the working folder, then from the report's folder. Timings and the "
-      "program's\n"
-      "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.\n"
-      "Exit code: 0 if nothing changed, 1 if anything did, 3 if a report could not be checked.");
-  command.callback([options, &invocation] {
-    invocation.action = [options](Console& console) { return check(*options, console); };
-  });
+      .paths("REPORT", options->paths,
+             "Reports of morsel compare, or folders in which all of them (.json) are checked")
+      .required();
+  command.flag("--all", options->all, "Show every difference, not only the first 20 of a report");
+  add_common_options(command, program.common, false);
+  command.examples = {{"check report.json", "is what the report says still so?"},
+                      {"check results/reports", "all reports of a folder, as of a batch"}};
+  command.notes =
+      "Meshes are looked for from the working folder, then from the report's folder. Timings and the program's "
+      "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.\n\n"
+      "Exit code: 0 if nothing changed, 1 if anything did, 3 if a report could not be checked.";
+  command.action = [options](Console& console) { return check(*options, console); };
 }
 
 }  // namespace morsel::tools

@@ -1,14 +1,16 @@
 #pragma once
-/// The commands of the program: each adds itself to the parser and says what to run.
+/// The commands of the program: each adds its table of options and says what to run.
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
-#include <functional>
+#include <deque>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "morsel/core/parallel.h"
+#include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
 #include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/comparison/made_field.h"
@@ -34,53 +36,55 @@ struct CommonOptions {
   std::string command;  ///< the command line as a Provenance has it
 };
 
-/// What a chosen command runs; returns the exit code.
-using Action = std::function<int(Console&)>;
-
-/// The command that the arguments chose.
-struct Invocation {
+/// The program: its commands, and the options that all of them take.
+struct Program {
   CommonOptions common;
-  Action action;
+  std::deque<Command> commands;  // which stay where they are
+
+  Command& add(std::string name, std::string summary) {
+    return commands.emplace_back(std::move(name), std::move(summary));
+  }
 };
 
-/// Of an option that names a file or folder: '' names none, and is refused.
-CLI::Validator names_file();
+/// All commands, in the order in which help lists them. A new one is a file and a line there.
+void add_commands(Program& program);
 
-void add_common_options(CLI::App& command, CommonOptions& common, bool with_repair = true);
+void add_common_options(Command& command, CommonOptions& common, bool with_repair = true);
 
 /// --target K
-void add_target_option(CLI::App& command, std::optional<std::size_t>& target);
+void add_target_option(Command& command, std::optional<std::size_t>& target);
 
 /// MESH, --field, --method and --target of the commands that work on one field.
-void add_field_options(CLI::App& command, std::string& mesh, FieldRequest& request);
+void add_field_options(Command& command, std::string& mesh, FieldRequest& request);
 /// --view, --up and --inset of the commands that take pictures.
-void add_camera_options(CLI::App& command, render::CameraText& camera);
+void add_camera_options(Command& command, render::CameraText& camera);
 /// --method, any number of times.
-void add_methods_option(CLI::App& command, std::vector<std::string>& methods);
+void add_methods_option(Command& command, std::vector<std::string>& methods);
 /// --field, --method, --target and --snap of the commands that run several methods.
-void add_comparison_options(CLI::App& command, ComparisonRequest& request);
+void add_comparison_options(Command& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures.
-void add_figure_options(CLI::App& command, render::FigureText& figure);
+void add_figure_options(Command& command, render::FigureText& figure);
 /// Says why a wanted number of critical points was not reached.
 void tell_target(const MadeField& made, Console& console);
 
-void add_batch(CLI::App& app, Invocation& invocation);
-void add_compare(CLI::App& app, Invocation& invocation);
-void add_field(CLI::App& app, Invocation& invocation);
-void add_hierarchy(CLI::App& app, Invocation& invocation);
-void add_info(CLI::App& app, Invocation& invocation);
-void add_check(CLI::App& app, Invocation& invocation);
-void add_molecule(CLI::App& app, Invocation& invocation);
-void add_segment(CLI::App& app, Invocation& invocation);
-void add_cut(CLI::App& app, Invocation& invocation);
-void add_quads(CLI::App& app, Invocation& invocation);
-void add_render(CLI::App& app, Invocation& invocation);
-void add_reproduce(CLI::App& app, Invocation& invocation);
-void add_stability(CLI::App& app, Invocation& invocation);
-void add_sweep(CLI::App& app, Invocation& invocation);
+void add_batch(Program& program);
+void add_catalogue(Program& program);
+void add_compare(Program& program);
+void add_field(Program& program);
+void add_hierarchy(Program& program);
+void add_info(Program& program);
+void add_check(Program& program);
+void add_molecule(Program& program);
+void add_segment(Program& program);
+void add_cut(Program& program);
+void add_quads(Program& program);
+void add_render(Program& program);
+void add_reproduce(Program& program);
+void add_stability(Program& program);
+void add_sweep(Program& program);
 
-/// Help texts that more than one command shows.
-std::string specification_help();
+/// Texts that more than one command shows.
+extern const char* const kSpecificationNotes;
 inline constexpr const char* kMeshHelp = "Triangle mesh: .off, .obj, .ply or .stl";
 
 }  // namespace morsel::tools

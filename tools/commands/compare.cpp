@@ -192,58 +192,50 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
 
 }  // namespace
 
-void add_compare(CLI::App& app, Invocation& invocation) {
+void add_compare(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command =
-      *app.add_subcommand("compare",
-                          "Run methods on a field and hold their critical points, diagrams and complexes\n"
-                          "against each other");
-  command.add_option("MESH", options->mesh, kMeshHelp)->check(names_file())->required();
+  Command& command = program.add(
+      "compare", "Run methods on a field and compare their critical points, diagrams and complexes");
+  command.path("MESH", options->mesh, kMeshHelp).required();
   add_comparison_options(command, options->request);
-  command.add_option("-o,--output", options->report, "Write the JSON report here; - is standard output")
-      ->check(names_file())
-      ->type_name("REPORT.json");
-  command.add_flag("--no-items", options->no_items,
-                   "Leave what is listed point by point out of the report: the critical points and the\n"
-                   "diagram's pairs; their counts stay");
+  command.path("-o,--output", options->report, "Write the JSON report here; - is standard output")
+      .value("REPORT.json");
+  command.flag("--no-items", options->no_items,
+               "Leave what is listed point by point out of the report: the critical points and the "
+               "diagram's pairs; their counts stay");
   command
-      .add_option("--export", options->export_folder,
-                  "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
-      ->check(names_file())
-      ->type_name("DIR");
+      .path("--export", options->export_folder,
+            "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
+      .value("DIR");
   command
-      .add_option(
-          "--figures", options->figure_folder,
-          "Write pictures here: one of each method, a sheet with them side by side (.png), persistence\n"
-          "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
-      ->check(names_file())
-      ->type_name("DIR");
+      .path("--figures", options->figure_folder,
+            "Write pictures here: one of each method, a sheet with them side by side (.png), persistence "
+            "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
+      .value("DIR");
   add_figure_options(command, options->figure);
   command
-      .add_option("--thumbnails", options->thumbnails,
-                  "Write a small picture of the first and one of the last method: PREFIX.first.png and\n"
-                  "PREFIX.last.png")
-      ->check(names_file())
-      ->type_name("PREFIX");
+      .path("--thumbnails", options->thumbnails,
+            "Write a small picture of the first and one of the last method: PREFIX.first.png and "
+            "PREFIX.last.png")
+      .value("PREFIX");
   command
-      .add_option(
-          "--html", options->page,
-          "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers;\n"
-          "one file, for which no network is needed")
-      ->check(names_file())
-      ->type_name("REPORT.html");
+      .path("--html", options->page,
+            "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers; "
+            "one file, for which no network is needed")
+      .value("REPORT.html");
   command
-      .add_option("--html-place", options->page_place,
-                  "Where the page will be moved to, for the command line that it shows")
-      ->check(names_file())
-      ->type_name("PATH");
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return compare(*options, invocation.common, console);
-    };
-  });
+      .path("--html-place", options->page_place,
+            "Where the page will be moved to, for the command line that it shows")
+      .value("PATH");
+  add_common_options(command, program.common);
+  command.examples = {
+      {"compare scan.off", "a table: conventional, salient and tps on the mean curvature"},
+      {"compare scan.off --method conventional --method salient:iterations=20,sigma=4eps --figures out",
+       "two methods, with pictures and plots"},
+      {"compare scan.off --field height:axis=z --target 40 -o report.json --html report.html",
+       "40 points of each method on the height, as numbers and as a page"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) { return compare(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

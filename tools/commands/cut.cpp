@@ -115,34 +115,25 @@ int cut(const Options& options, const CommonOptions& common, Console& console) {
 
 }  // namespace
 
-void add_cut(CLI::App& app, Invocation& invocation) {
+void add_cut(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "cut", "Cut a surface of any genus open into one disc a component, along short paths of edges");
   add_field_options(command, options->mesh, options->request);
   command
-      .add_option("-o,--output", options->output,
-                  "The mesh cut open, .off or .ply: vertices keep their numbers, copies come after them")
-      ->check(names_file())
-      ->type_name("OUT")
-      ->required();
-  command.add_flag("--no-shorten", options->no_shorten,
-                   "Cut along the complex's arcs as they are, which are longer");
-  command
-      .add_option("--json", options->json,
-                  "Write here what was cut and which vertices the copies copy; - is standard output")
-      ->check(names_file())
-      ->type_name("FILE");
-  command.add_option("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
-      ->check(names_file())
-      ->type_name("FILE.vtp");
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return cut(*options, invocation.common, console);
-    };
-  });
+      .path("-o,--output", options->output,
+            "The mesh cut open, .off or .ply: vertices keep their numbers, copies come after them")
+      .value("OUT")
+      .required();
+  command.flag("--no-shorten", options->no_shorten, "Cut along the complex's arcs as they are, which are longer");
+  command.path("--json", options->json,
+               "Write here what was cut and which vertices the copies copy; - is standard output");
+  command.path("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)").value("FILE.vtp");
+  add_common_options(command, program.common);
+  command.examples = {{"cut torus.off -o disc.off", "a disc with the same triangles"},
+                      {"cut torus.off -o disc.ply --graph cut.vtp", "the same, and the cut as lines for ParaView"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) { return cut(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

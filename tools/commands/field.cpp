@@ -43,24 +43,23 @@ int write(const Options& options, const CommonOptions& common, Console& console)
 
 }  // namespace
 
-void add_field(CLI::App& app, Invocation& invocation) {
+void add_field(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("field", "Write one scalar field, as it is or after a method");
+  Command& command = program.add("field", "Write one scalar field, as it is or after a method");
   add_field_options(command, options->mesh, options->request);
   command
-      .add_option(
+      .path(
           "-o,--output", options->output,
           ".txt (a value a line), .ply or .vtp (the surface with the values), in the input's vertex numbers")
-      ->check(names_file())
-      ->type_name("OUT")
-      ->required();
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return write(*options, invocation.common, console);
-    };
-  });
+      .value("OUT")
+      .required();
+  add_common_options(command, program.common);
+  command.examples = {
+      {"field scan.off -o curvature.txt", "the mean curvature of every vertex, a value a line"},
+      {"field scan.off --field height:axis=z --method salient -o smooth.vtp",
+       "the smoothed height on the surface, for ParaView"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) { return write(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

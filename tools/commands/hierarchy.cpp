@@ -81,56 +81,51 @@ int make_hierarchy(const Options& options, const CommonOptions& common, Console&
 
 }  // namespace
 
-void add_hierarchy(CLI::App& app, Invocation& invocation) {
+void add_hierarchy(Program& program) {
   auto options = std::make_shared<Options>();
   HierarchyRequest& request = options->request;
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "hierarchy",
-      "Critical points and Morse-Smale complexes of several levels, from fine to coarse, with the links\n"
+      "Critical points and Morse-Smale complexes of several levels, from fine to coarse, with the links "
       "between them");
   add_field_options(command, options->mesh, request.field);
-  command.get_option("--method")->default_str("salient by iteration, conventional by persistence");
-  const std::map<std::string, HierarchyKind> kinds = {{"iteration", HierarchyKind::iteration},
-                                                      {"persistence", HierarchyKind::persistence}};
+  command.option("--method").shows_default("salient by iteration, conventional by persistence");
   command
-      .add_option_function<std::string>(
-          "--by", [&request, kinds](const std::string& kind) { request.kind = kinds.at(kind); },
-          "iteration: what the (last) method's iterations make of the field;\n"
-          "persistence: what cancelling pairs in its complex leaves")
-      ->check(CLI::IsMember({"iteration", "persistence"}))
-      ->default_str("iteration")
-      ->type_name("KIND");
+      .choice("--by", request.kind,
+              std::vector<std::pair<std::string, HierarchyKind>>{{"iteration", HierarchyKind::iteration},
+                                                                 {"persistence", HierarchyKind::persistence}},
+              "iteration: what the (last) method's iterations make of the field; "
+              "persistence: what cancelling pairs in its complex leaves")
+      .value("KIND");
   command
-      .add_option("--levels", request.levels,
-                  "By iteration their numbers, 0 being the method's input (default: 1,5,10); by persistence\n"
-                  "thresholds, in the field's unit or in % of its extent (default: 0.1%,1%,5%); in any order")
-      ->type_name("L,L,...");
+      .text("--levels", request.levels,
+            "By iteration their numbers, 0 being the method's input (default: 1,5,10); by persistence "
+            "thresholds, in the field's unit or in % of its extent (default: 0.1%,1%,5%); in any order")
+      .value("L,L,...");
   command
-      .add_option("--counts", request.counts,
-                  "By persistence, in place of thresholds: critical cells to be left (minima, saddles with\n"
-                  "their multiplicities, maxima), or the nearest smaller number that can be had")
-      ->type_name("N,N,...");
+      .text("--counts", request.counts,
+            "By persistence, in place of thresholds: critical cells to be left (minima, saddles with "
+            "their multiplicities, maxima), or the nearest smaller number that can be had")
+      .value("N,N,...");
   command
-      .add_option("-o,--output", options->output,
-                  "Write the levels and their links here, as JSON; - is standard output")
-      ->check(names_file())
-      ->type_name("HIERARCHY.json");
-  command.add_flag("--no-items", options->no_items,
-                   "Leave what is listed one by one out of the document: cancellations, and each level's\n"
-                   "critical points, arcs and cells; their counts stay");
+      .path("-o,--output", options->output, "Write the levels and their links here, as JSON; - is standard output")
+      .value("HIERARCHY.json");
+  command.flag("--no-items", options->no_items,
+               "Leave what is listed one by one out of the document: cancellations, and each level's "
+               "critical points, arcs and cells; their counts stay");
   command
-      .add_option("--export", options->export_folder,
-                  "Write each level's surface and complex (.vtp, for ParaView) here: surface.0.vtp is the\n"
-                  "finest level")
-      ->check(names_file())
-      ->type_name("DIR");
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return make_hierarchy(*options, invocation.common, console);
-    };
-  });
+      .path("--export", options->export_folder,
+            "Write each level's surface and complex (.vtp, for ParaView) here: surface.0.vtp is the "
+            "finest level")
+      .value("DIR");
+  add_common_options(command, program.common);
+  command.examples = {{"hierarchy scan.off -o levels.json", "after 1, 5 and 10 iterations of salient"},
+                      {"hierarchy scan.off --by persistence --counts 500,100,20 --export out",
+                       "three simplified complexes, for ParaView"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) {
+    return make_hierarchy(*options, program.common, console);
+  };
 }
 
 }  // namespace morsel::tools

@@ -176,25 +176,21 @@ int inform(const Options& options, const CommonOptions& common, Console& console
 
 }  // namespace
 
-void add_info(CLI::App& app, Invocation& invocation) {
+void add_info(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "info",
       "What a mesh is: counts, topology, components, defects; and where a file that morsel wrote comes from");
   command
-      .add_option(
-          "FILE", options->file,
-          "A triangle mesh (.off, .obj, .ply or .stl), or any file that morsel wrote but JSON, which\n"
-          "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
-      ->check(names_file())
-      ->required();
-  command.add_flag("--json", options->json, "As JSON instead of text");
-  add_common_options(command, invocation.common);
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return inform(*options, invocation.common, console);
-    };
-  });
+      .path("FILE", options->file,
+            "A triangle mesh (.off, .obj, .ply or .stl), or any file that morsel wrote but JSON, which "
+            "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
+      .required();
+  command.flag("--json", options->json, "As JSON instead of text");
+  add_common_options(command, program.common);
+  command.examples = {{"info scan.off", "counts, genus, boundary loops, and what would have to be repaired"},
+                      {"info figure.png", "the command, the mesh and the version that made a picture"}};
+  command.action = [options, &program](Console& console) { return inform(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

@@ -111,72 +111,54 @@ int make(Options& options, const CommonOptions& common, Console& console) {
 
 }  // namespace
 
-void add_molecule(CLI::App& app, Invocation& invocation) {
+void add_molecule(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand("molecule", "Make the surface of a molecule, a closed manifold");
-  command.add_option("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif")
-      ->check(names_file())
-      ->required();
-  command.add_option("-o,--output", options->output, "The surface, in Å: .off or .ply")
-      ->check(names_file())
-      ->type_name("SURFACE")
-      ->required();
+  Command& command = program.add("molecule", "Make the surface of a molecule, a closed manifold");
+  command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif").required();
+  command.path("-o,--output", options->output, "The surface, in Å: .off or .ply").value("SURFACE").required();
   command
-      .add_option("--kind", options->kind,
-                  "gaussian (a level of a sum of Gaussians, smooth), ses (solvent-excluded),\n"
-                  "sas (solvent-accessible) or vdw (the atoms' balls)")
-      ->check(CLI::IsMember(std::vector<std::string>(kKinds.begin(), kKinds.end())))
-      ->type_name("KIND")
-      ->capture_default_str();
+      .text("--kind", options->kind,
+            "gaussian (a level of a sum of Gaussians, smooth), ses (solvent-excluded), "
+            "sas (solvent-accessible) or vdw (the atoms' balls)")
+      .among({kKinds.begin(), kKinds.end()})
+      .value("KIND");
   command
-      .add_option("--resolution", options->surface.resolution,
-                  "Spacing of the grid, about an edge's length, in Å")
-      ->type_name("H")
-      ->capture_default_str();
-  command.add_option("--probe", options->surface.probe, "Radius of the solvent for ses and sas, in Å")
-      ->type_name("R")
-      ->capture_default_str();
+      .number("--resolution", options->surface.resolution, "Spacing of the grid, about an edge's length, in Å")
+      .value("H");
+  command.number("--probe", options->surface.probe, "Radius of the solvent for ses and sas, in Å").value("R");
   command
-      .add_option("--blobbiness", options->surface.blobbiness,
-                  "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
-      ->type_name("B")
-      ->capture_default_str();
-  command
-      .add_option("--cavities", options->cavities,
-                  "keep or drop the walls of closed cavities inside the molecule")
-      ->check(CLI::IsMember({"keep", "drop"}))
-      ->type_name("C")
-      ->capture_default_str();
+      .number("--blobbiness", options->surface.blobbiness,
+              "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
+      .value("B");
+  command.text("--cavities", options->cavities, "keep or drop the walls of closed cavities inside the molecule")
+      .among({"keep", "drop"})
+      .value("C");
 
   // The keys of atomic-density, with their texts.
   core::ParameterReader keys = core::ParameterReader::for_help("molecule");
   core::read_molecule_options(keys);
   for (const core::ParameterInfo& key : keys.declared()) {
     if (key.key == "waters") {
-      command.add_flag("--waters", options->waters, "Take the waters, too");
+      command.flag("--waters", options->waters, "Take the waters, too");
     } else if (key.key == "hydrogens") {
-      command.add_flag("--no-hydrogens", options->no_hydrogens, "Leave out the hydrogens that the file has");
+      command.flag("--no-hydrogens", options->no_hydrogens, "Leave out the hydrogens that the file has");
     } else {
-      command
-          .add_option_function<std::string>(
-              "--" + key.key,
-              [options, name = key.key](const std::string& value) {
-                options->atoms.given.emplace_back(name, value);
-              },
-              key.description)
-          ->type_name(key.default_value.empty() ? "LIST" : key.default_value);
+      Option row{"--" + key.key, key.description, key.default_value.empty() ? "LIST" : "WHICH", key.default_value};
+      row.take = [options, name = key.key](const Option&, const std::vector<std::string>& words) {
+        options->atoms.given.emplace_back(name, words.back());
+      };
+      command.add(std::move(row));
     }
   }
-  add_common_options(command, invocation.common, false);
-  command.footer(
-      "\nAn atom's radius is its element's van der Waals radius (Bondi 1964 and others, as gemmi has them).\n"
-      "By default the first model's chains are taken, modified residues included, without ligands, ions and\n"
-      "waters, and of alternate locations the one with the highest occupancy.");
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return make(*options, invocation.common, console);
-    };
-  });
+  add_common_options(command, program.common, false);
+  command.examples = {{"molecule 1bp2.pdb -o protein.off", "a smooth surface"},
+                      {"molecule 1bp2.cif --kind ses --resolution 0.4 --chains A -o ses.ply",
+                       "the solvent-excluded surface of one chain, fine"}};
+  command.notes =
+      "An atom's radius is its element's van der Waals radius (Bondi 1964 and others, as gemmi has them). "
+      "By default the first model's chains are taken, modified residues included, without ligands, ions and "
+      "waters, and of alternate locations the one with the highest occupancy.";
+  command.action = [options, &program](Console& console) { return make(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

@@ -69,51 +69,37 @@ int make(const Options& options, const CommonOptions& common, Console& console) 
 
 }  // namespace
 
-void add_quads(CLI::App& app, Invocation& invocation) {
+void add_quads(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
-      "quads", "Turn the Morse-Smale complex of a field into an all-quad mesh of the surface");
+  Command& command =
+      program.add("quads", "Turn the Morse-Smale complex of a field into an all-quad mesh of the surface");
   add_field_options(command, options->mesh, options->field);
   command
-      .add_option("--persistence", options->quads.persistence,
-                  "Cancel pairs of at most this persistence before the layout: a number in the field's unit\n"
-                  "or a share of its extent (1%)")
-      ->type_name("T");
+      .text("--persistence", options->quads.persistence,
+            "Cancel pairs of at most this persistence before the layout: a number in the field's unit "
+            "or a share of its extent (1%)")
+      .value("T");
+  command.number("--resolution", options->quads.resolution, "Quads along each side of a patch, 2 or more");
   command
-      .add_option("--resolution", options->quads.resolution, "Quads along each side of a patch, 2 or more")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("--relaxation", options->quads.relaxation,
-                  "How often all corners of patches are moved to the middle of the patches around them;\n"
-                  "0 leaves them at the critical points")
-      ->type_name("R")
-      ->capture_default_str();
-  command.add_option("-o,--output", options->output, "The quads: .obj")
-      ->check(names_file())
-      ->type_name("OUT.obj")
-      ->required();
-  command
-      .add_option("--json", options->json,
-                  "Write counts, repairs and quality of the quads and patches here; - is standard output")
-      ->check(names_file())
-      ->type_name("FILE");
-  add_common_options(command, invocation.common);
-  command.footer(
-      "\nPatches are the quads of the field's Morse-Smale complex, their arcs drawn anew as curves that meet "
-      "in\n"
+      .number("--relaxation", options->quads.relaxation,
+              "How often all corners of patches are moved to the middle of the patches around them; "
+              "0 leaves them at the critical points")
+      .value("R");
+  command.path("-o,--output", options->output, "The quads: .obj").value("OUT.obj").required();
+  command.path("--json", options->json,
+               "Write counts, repairs and quality of the quads and patches here; - is standard output");
+  add_common_options(command, program.common);
+  command.examples = {{"quads scan.off -o quads.obj", "patches of 10 x 10 quads, laid out by the 40th eigenfunction"},
+                      {"quads scan.off --field eigenfunction:index=20 --resolution 16 -o quads.obj",
+                       "fewer and finer patches"}};
+  command.notes =
+      "Patches are the quads of the field's Morse-Smale complex, their arcs drawn anew as curves that meet in "
       "nodes alone. Smooth fields with evenly spread critical points give good layouts: eigenfunctions, the "
-      "more\n"
-      "patches the higher the index. At a boundary loop patches have five sides; there N must be 4 or more "
-      "and even. An extremum with a single arc is cancelled "
-      "with\n"
-      "its saddle, and reported; a field that leaves a component without a saddle is refused.\n" +
-      specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return make(*options, invocation.common, console);
-    };
-  });
+      "more patches the higher the index. At a boundary loop patches have five sides; there N must be 4 or more "
+      "and even. An extremum with a single arc is cancelled with its saddle, and reported; a field that leaves a "
+      "component without a saddle is refused.\n\n" +
+      std::string(kSpecificationNotes);
+  command.action = [options, &program](Console& console) { return make(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

@@ -1,6 +1,5 @@
 // morsel render: a picture of a surface, its field and its critical points.
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,8 +26,7 @@ struct Options {
   FieldRequest field;
   std::string output;
   render::PictureRequest picture;
-  bool arcs = false;
-  bool arcs_given = false;
+  std::optional<bool> arcs;
   std::string size = "1200x900";
   render::CameraText camera;
   std::string background = "white";
@@ -43,7 +41,7 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
   request.size = render::parse_size(options.size);
   request.transparent = options.background == "transparent";
   const bool segments = request.show != render::Show::field && request.show != render::Show::plain;
-  request.arcs = options.arcs_given ? options.arcs : segments;
+  request.arcs = options.arcs.value_or(segments);
   render::parse_range(options.range, request.scale);
   if (!request.scale.colormap.empty()) const render::Colormap known(request.scale.colormap);
   options.camera.check();
@@ -103,88 +101,73 @@ std::string colormaps() {
 
 }  // namespace
 
-void add_render(CLI::App& app, Invocation& invocation) {
+void add_render(Program& program) {
   using render::ScaleRequest;
   using render::Show;
   auto options = std::make_shared<Options>();
   render::PictureRequest& picture = options->picture;
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "render",
       "Take a picture (PNG) of a surface coloured by a field or its segments, with critical points and arcs");
   add_field_options(command, options->mesh, options->field);
   command
-      .add_option("--show", picture.show,
-                  "What colours the surface: field, plain, or segments: descending (one a maximum),\n"
-                  "ascending (one a minimum), morse-smale")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Show>{{"field", Show::field},
-                                                                      {"plain", Show::plain},
-                                                                      {"descending", Show::descending},
-                                                                      {"ascending", Show::ascending},
-                                                                      {"morse-smale", Show::morse_smale}}))
-      ->type_name("WHAT")
-      ->default_str("field");
-  command.add_flag("--points,!--no-points", picture.points,
-                   "Critical points as spheres: minima blue, saddles green, maxima red (default: yes)");
-  const CLI::Option* arcs =
-      command.add_flag("--arcs,!--no-arcs", options->arcs,
-                       "The arcs of the Morse-Smale complex as tubes: descending blue, ascending red\n"
-                       "(default: where segments are shown, and then only those that bound them)");
-  command.add_option("--size", options->size, "Width and height in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
+      .choice("--show", picture.show,
+              std::vector<std::pair<std::string, Show>>{{"field", Show::field},
+                                                        {"plain", Show::plain},
+                                                        {"descending", Show::descending},
+                                                        {"ascending", Show::ascending},
+                                                        {"morse-smale", Show::morse_smale}},
+              "What colours the surface: field, plain, or segments: descending (one a maximum), "
+              "ascending (one a minimum), morse-smale")
+      .value("WHAT");
+  command
+      .switches("--points", "--no-points", picture.points,
+                "Critical points as spheres: minima blue, saddles green, maxima red")
+      .shows_default("yes");
+  command
+      .switches("--arcs", "--no-arcs", options->arcs,
+                "The arcs of the Morse-Smale complex as tubes: descending blue, ascending red")
+      .shows_default("where segments are shown, and then only those that bound them");
+  command.text("--size", options->size, "Width and height in pixels").value("WxH");
   add_camera_options(command, options->camera);
   command
-      .add_option("--frame", options->frame,
-                  "Frame what lies within a radius (default 15eps) of a vertex: what --close-up shows")
-      ->type_name("VERTEX[:RADIUS]");
+      .text("--frame", options->frame,
+            "Frame what lies within a radius (default 15eps) of a vertex: what --close-up shows")
+      .value("VERTEX[:RADIUS]");
   command
-      .add_option("--close-up", options->close_up,
-                  "Fill the picture with what lies within a radius (default 15eps) of a vertex")
-      ->type_name("VERTEX[:RADIUS]");
-  command.add_option("--samples", picture.samples, "Samples a pixel, 1 to 1024")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--background", options->background, "white or transparent")
-      ->check(CLI::IsMember({"white", "transparent"}))
-      ->type_name("GROUND")
-      ->capture_default_str();
+      .text("--close-up", options->close_up,
+            "Fill the picture with what lies within a radius (default 15eps) of a vertex")
+      .value("VERTEX[:RADIUS]");
+  command.number("--samples", picture.samples, "Samples a pixel, 1 to 1024").between(1, 1024);
+  command.text("--background", options->background, "white or transparent")
+      .among({"white", "transparent"})
+      .value("GROUND");
   command
-      .add_option("--colormap", picture.scale.colormap,
-                  "One of" + colormaps() + " (default: blue-orange\nwith a centre, else sand)")
-      ->type_name("NAME");
+      .text("--colormap", picture.scale.colormap,
+            "One of" + colormaps() + " (default: blue-orange with a centre, else sand)")
+      .value("NAME");
   command
-      .add_option("--range", options->range,
-                  "Values at the ends of the colours: LOW/HIGH, or the percentage of the vertices to cut\n"
-                  "off at either end")
-      ->type_name("RANGE")
-      ->capture_default_str();
+      .text("--range", options->range,
+            "Values at the ends of the colours: LOW/HIGH, or the percentage of the vertices to cut "
+            "off at either end")
+      .value("RANGE");
   command
-      .add_option(
-          "--center", picture.scale.center,
-          "The value in the middle of the colours: zero, median, none (default: of a field of both signs\n"
-          "zero, or the median where one sign is rare)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, ScaleRequest::Center>{{"zero", ScaleRequest::Center::zero},
-                                                      {"median", ScaleRequest::Center::median},
-                                                      {"none", ScaleRequest::Center::none}}))
-      ->type_name("CENTER");
-  command.add_flag("--legend,!--no-legend", picture.legend, "The colour bar (default: yes)");
-  command
-      .add_option("--caption", options->caption, "Text below the picture; auto is the method and its counts")
-      ->type_name("TEXT");
-  command.add_option("-o,--output", options->output, "The picture")
-      ->check(names_file())
-      ->type_name("OUT.png")
-      ->required();
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, arcs, &invocation] {
-    options->arcs_given = arcs->count() > 0;
-    invocation.action = [options, &invocation](Console& console) {
-      return draw(*options, invocation.common, console);
-    };
-  });
+      .choice("--center", picture.scale.center,
+              std::vector<std::pair<std::string, ScaleRequest::Center>>{{"zero", ScaleRequest::Center::zero},
+                                                                        {"median", ScaleRequest::Center::median},
+                                                                        {"none", ScaleRequest::Center::none}},
+              "The value in the middle of the colours: zero, median, none (default: of a field of both signs "
+              "zero, or the median where one sign is rare)")
+      .value("CENTER");
+  command.switches("--legend", "--no-legend", picture.legend, "The colour bar").shows_default("yes");
+  command.text("--caption", options->caption, "Text below the picture; auto is the method and its counts").value("TEXT");
+  command.path("-o,--output", options->output, "The picture").value("OUT.png").required();
+  add_common_options(command, program.common);
+  command.examples = {
+      {"render scan.off --method salient -o points.png", "the curvature, and the points that salient leaves"},
+      {"render scan.off --method salient --show descending --view 30/20 -o parts.png", "its segments, from the side"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) { return draw(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

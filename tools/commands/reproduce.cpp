@@ -27,53 +27,38 @@ int make_again(reproduce::Request request, const CommonOptions& common, Console&
 
 }  // namespace
 
-void add_reproduce(CLI::App& app, Invocation& invocation) {
+void add_reproduce(Program& program) {
   auto request = std::make_shared<reproduce::Request>();
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "reproduce",
-      "Make the figures and the table of the paper \"Salient Critical Points for Meshes\" again: pictures\n"
+      "Make the figures and the table of the paper \"Salient Critical Points for Meshes\" again: pictures "
       "(PNG), numbers (JSON, CSV) and one page (HTML) that holds them beside the paper's own");
-  command.add_option("DIR", request->folder, "The folder to write to; made if it is not there")
-      ->check(names_file())
-      ->required();
+  command.path("DIR", request->folder, "The folder to write to; made if it is not there").required();
   command
-      .add_option(
-          "--data", request->data,
-          "Meshes of the paper's models: lion, squirrel and protein (.off, .obj, .ply or .stl), or names\n"
-          "with one of these words (of the protein also 1bp2 or 2bp2) in them; sample meshes stand in\n"
-          "for those that are not there")
-      ->check(names_file())
-      ->type_name("DIR");
+      .path("--data", request->data,
+            "Meshes of the paper's models: lion, squirrel and protein (.off, .obj, .ply or .stl), or names "
+            "with one of these words (of the protein also 1bp2 or 2bp2) in them; sample meshes stand in "
+            "for those that are not there")
+      .value("DIR");
+  Option& samples =
+      command
+          .path("--meshes", request->samples,
+                "The sample meshes: lion-head.off, bunny00.off and retinal.off of CGAL's example data; also by "
+                "the variable MORSEL_SAMPLES")
+          .value("DIR");
+  samples.environment = "MORSEL_SAMPLES";
+  command.text("--size", request->size, "Width and height of a panel in pixels").value("WxH");
+  command.number("--samples", request->pixel_samples, "Samples a pixel, 1 to 1024").between(1, 1024);
   command
-      .add_option("--meshes", request->samples,
-                  "The sample meshes: lion-head.off, bunny00.off and retinal.off of CGAL's example data")
-      ->check(names_file())
-      ->envname("MORSEL_SAMPLES")
-      ->type_name("DIR")
-      ->capture_default_str();
-  command.add_option("--size", request->size, "Width and height of a panel in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
-  command.add_option("--samples", request->pixel_samples, "Samples a pixel, 1 to 1024")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option(
-          "--view", request->views,
-          "Where pictures are taken from, as morsel render has it (default: best); with MODEL=, of one\n"
-          "model: lion=160/10; may be given several times")
-      ->type_name("[MODEL=]VIEW")
-      ->allow_extra_args(false);
-  command.add_option("--up", request->ups, "The axis that points up: x, y or z (default: y)")
-      ->type_name("[MODEL=]AXIS")
-      ->allow_extra_args(false);
-  add_common_options(command, invocation.common);
-  command.callback([request, &invocation] {
-    invocation.action = [request, &invocation](Console& console) {
-      return make_again(*request, invocation.common, console);
-    };
-  });
+      .texts("--view", request->views,
+             "Where pictures are taken from, as morsel render has it (default: best); with MODEL=, of one "
+             "model: lion=160/10; may be given several times")
+      .value("[MODEL=]VIEW");
+  command.texts("--up", request->ups, "The axis that points up: x, y or z (default: y)").value("[MODEL=]AXIS");
+  add_common_options(command, program.common);
+  command.examples = {{"reproduce paper", "with sample meshes in place of the paper's"},
+                      {"reproduce paper --data models", "with the paper's own meshes, where they are there"}};
+  command.action = [request, &program](Console& console) { return make_again(*request, program.common, console); };
 }
 
 }  // namespace morsel::tools

@@ -102,52 +102,42 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
 
 }  // namespace
 
-void add_segment(CLI::App& app, Invocation& invocation) {
+void add_segment(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
-      "segment", "Cut the surface into the segments of one field, small ones merged by persistence");
+  Command& command =
+      program.add("segment", "Cut the surface into the segments of one field, small ones merged by persistence");
   add_field_options(command, options->mesh, options->request);
   command
-      .add_option(
-          "--by", options->by,
-          "descending (a segment for each maximum: the bumps of a curvature), ascending (for each\n"
-          "minimum: with atomic-density, which is lowest where the surface bulges, too) or morse-smale\n"
-          "(for each cell between a minimum and a maximum)")
-      ->type_name("KIND")
-      ->capture_default_str();
+      .text("--by", options->by,
+            "descending (a segment for each maximum: the bumps of a curvature), ascending (for each "
+            "minimum: with atomic-density, which is lowest where the surface bulges, too) or morse-smale "
+            "(for each cell between a minimum and a maximum)")
+      .value("KIND");
   command
-      .add_option("--segments", options->segments,
-                  "Merge segments, those of least persistence first, until at most N are left")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
+      .number("--segments", options->segments,
+              "Merge segments, those of least persistence first, until at most N are left")
+      .between(1, std::numeric_limits<double>::infinity());
   command
-      .add_option(
-          "--persistence", options->persistence,
-          "Or: merge all of at most this persistence, in the field's unit or, as in 0.1%, in percent of\n"
-          "its extent (default: merge nothing)")
-      ->type_name("T");
+      .text("--persistence", options->persistence,
+            "Or: merge all of at most this persistence, in the field's unit or, as in 0.1%, in percent of "
+            "its extent (default: merge nothing)")
+      .value("T");
   command
-      .add_option("-o,--output", options->output,
-                  "Labels of vertices and triangles, in the input's vertex numbers: .ply (int properties\n"
-                  "\"segment\"), .vtp (arrays \"segment\", and the field) or .txt (a label a line:\n"
-                  "OUT.vertices.txt, OUT.faces.txt)")
-      ->check(names_file())
-      ->type_name("OUT")
-      ->required();
-  command
-      .add_option(
-          "--json", options->json,
-          "Write a table of the segments here: area, critical points, neighbours, boundary length; - is\n"
-          "standard output")
-      ->check(names_file())
-      ->type_name("FILE");
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return segment(*options, invocation.common, console);
-    };
-  });
+      .path("-o,--output", options->output,
+            "Labels of vertices and triangles, in the input's vertex numbers: .ply (int properties "
+            "\"segment\"), .vtp (arrays \"segment\", and the field) or .txt (a label a line: "
+            "OUT.vertices.txt, OUT.faces.txt)")
+      .value("OUT")
+      .required();
+  command.path("--json", options->json,
+               "Write a table of the segments here: area, critical points, neighbours, boundary length; - is "
+               "standard output");
+  add_common_options(command, program.common);
+  command.examples = {{"segment scan.off --method salient --segments 40 -o parts.ply", "the 40 most persistent bumps"},
+                      {"segment protein.off --by ascending --persistence 1% -o parts.vtp --json parts.json",
+                       "all that stand out by more than 1 %, with a table"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) { return segment(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

@@ -59,108 +59,77 @@ int measure_stability(const Options& options, const CommonOptions& common, Conso
 
 /// An option whose values are named by to_string(); the first is the default.
 template <class Choice>
-void add_choice(CLI::App& command, const std::string& name, Choice& chosen,
-                std::initializer_list<Choice> choices, const std::string& description) {
-  std::vector<std::string> names;
-  for (const Choice choice : choices) names.emplace_back(to_string(choice));
-  const std::vector<Choice> values = choices;
-  command
-      .add_option_function<std::string>(
-          name,
-          [&chosen, names, values](const std::string& text) {
-            chosen = values[static_cast<std::size_t>(std::ranges::find(names, text) - names.begin())];
-          },
-          description)
-      ->check(CLI::IsMember(names))
-      ->default_str(names.front())
-      ->type_name("WHICH");
+void add_choice(Command& command, const std::string& name, Choice& chosen,
+                std::initializer_list<Choice> choices, const std::string& help) {
+  std::vector<std::pair<std::string, Choice>> named;
+  for (const Choice choice : choices) named.emplace_back(to_string(choice), choice);
+  command.choice(name, chosen, std::move(named), help);
 }
 
-void add_perturbation_options(CLI::App& command, StabilityRequest& request) {
+void add_perturbation_options(Command& command, StabilityRequest& request) {
   command
-      .add_option("--noise", request.noise,
-                  "Gaussian noise of these standard deviations, in mean edge lengths (default, if no\n"
-                  "perturbation is given: 0.05,0.15,0.3,0.5)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("S,S,...");
+      .numbers("--noise", request.noise,
+               "Gaussian noise of these standard deviations, in mean edge lengths (default, if no "
+               "perturbation is given: 0.05,0.15,0.3,0.5)")
+      .value("S,S,...");
   add_choice(command, "--kind", request.noise_kind, {NoiseKind::normal, NoiseKind::isotropic},
              "Noise along the vertex normals (normal) or in x, y and z independently (isotropic)");
   command
-      .add_option("--decimate", request.decimate,
-                  "Edges collapsed, short ones first, until these shares of the vertices are left")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("R,R,...");
-  command
-      .add_option("--subdivide", request.subdivide,
-                  "Every edge cut into so many equal pieces, the surface staying the same")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("N,N,...");
-  command.add_option("--trials", request.trials, "Trials of each random perturbation")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--seed", request.seed, "Of the random numbers: a trial depends on it and its number")
-      ->type_name("N")
-      ->capture_default_str();
+      .numbers("--decimate", request.decimate,
+               "Edges collapsed, short ones first, until these shares of the vertices are left")
+      .value("R,R,...");
+  command.numbers("--subdivide", request.subdivide,
+                  "Every edge cut into so many equal pieces, the surface staying the same");
+  command.number("--trials", request.trials, "Trials of each random perturbation").between(1, 1'000'000);
+  command.number("--seed", request.seed, "Of the random numbers: a trial depends on it and its number");
 }
 
 }  // namespace
 
-void add_stability(CLI::App& app, Invocation& invocation) {
+void add_stability(Program& program) {
   auto options = std::make_shared<Options>();
   StabilityRequest& request = options->request;
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "stability",
       "How well critical points repeat on perturbed surfaces: with noise, with fewer vertices, with more");
-  command.add_option("MESH", options->mesh, kMeshHelp)->check(names_file())->required();
-  command.add_option("--field", request.fields, "Morse function (below); may be given several times")
-      ->type_name("F")
-      ->allow_extra_args(false)
-      ->default_str("mean-curvature");
+  command.path("MESH", options->mesh, kMeshHelp).required();
+  command.texts("--field", request.fields, "Morse function; may be given several times").value("F");
   add_methods_option(command, request.methods);
   add_perturbation_options(command, request);
   add_target_option(command, request.target);
-  command.get_option("--target")
-      ->description(
-          "Besides each method's own count, end with so many critical points, or with the nearest smaller\n"
-          "number that can be had: as much of the (last) method as leaves enough of them, persistence\n"
-          "cancellation for the rest");
+  command.option("--target").help =
+      "Besides each method's own count, end with so many critical points, or with the nearest smaller "
+      "number that can be had: as much of the (last) method as leaves enough of them, persistence "
+      "cancellation for the rest";
   command
-      .add_option("--radius", request.radius,
-                  "Points match within this length, or this percentage of the bounding box's diagonal")
-      ->type_name("R")
-      ->capture_default_str();
+      .text("--radius", request.radius,
+            "Points match within this length, or this percentage of the bounding box's diagonal")
+      .value("R");
   add_choice(command, "--points", request.points, {PointChoice::all, PointChoice::extrema},
-             "Which points are held against each other: all or extrema");
+             "Which points are compared: all or extrema");
   command
-      .add_option(
-          "--reference", request.reference,
-          "Agreement is the share of a method's clean points that this method has too, ended with as\n"
-          "many points by persistence cancellation")
-      ->type_name("M")
-      ->capture_default_str();
+      .text("--reference", request.reference,
+            "Agreement is the share of a method's clean points that this method has too, ended with as "
+            "many points by persistence cancellation")
+      .value("M");
   command
-      .add_option("--reference-field", request.reference_field,
-                  "Morse function of the reference (default: the first --field)")
-      ->type_name("F");
+      .text("--reference-field", request.reference_field,
+            "Morse function of the reference (default: the first --field)")
+      .value("F");
   command
-      .add_option(
-          "-o,--output", options->output,
-          "Write every trial (.json) or a row for each method and perturbation (.csv) here; - is JSON\n"
-          "on standard output. Should it be interrupted, OUT.journal holds the trials that are done, and\n"
-          "the same command goes on from there")
-      ->check(names_file())
-      ->type_name("OUT");
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return measure_stability(*options, invocation.common, console);
-    };
-  });
+      .path("-o,--output", options->output,
+            "Write every trial (.json) or a row for each method and perturbation (.csv) here; - is JSON "
+            "on standard output. Should it be interrupted, OUT.journal holds the trials that are done, and "
+            "the same command goes on from there")
+      .value("OUT");
+  add_common_options(command, program.common);
+  command.examples = {{"stability scan.off", "three methods at four strengths of noise, ten trials each"},
+                      {"stability scan.off --method salient --decimate 0.5,0.25 --target 40 -o stability.csv",
+                       "40 points with half and with a quarter of the vertices"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) {
+    return measure_stability(*options, program.common, console);
+  };
 }
 
 }  // namespace morsel::tools

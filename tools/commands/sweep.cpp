@@ -89,46 +89,38 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
 
 }  // namespace
 
-void add_sweep(CLI::App& app, Invocation& invocation) {
+void add_sweep(Program& program) {
   auto options = std::make_shared<Options>();
-  CLI::App& command = *app.add_subcommand(
+  Command& command = program.add(
       "sweep", "How the numbers of critical points depend on parameters: every combination of their values");
-  command.add_option("MESH", options->mesh, kMeshHelp)->check(names_file())->required();
-  command.add_option("--field", options->request.field, "Morse function (below)")
-      ->type_name("F")
-      ->capture_default_str();
-  command.add_option("--method", options->request.method, "A method or chain of methods (below)")
-      ->type_name("M")
-      ->capture_default_str();
+  command.path("MESH", options->mesh, kMeshHelp).required();
+  command.text("--field", options->request.field, "Morse function").value("F");
+  command.text("--method", options->request.method, "A method or chain of methods").value("M");
   command
-      .add_option(
-          "--vary", options->request.vary,
-          "A parameter and its values, separated by commas; may be given several times. A..B stands for\n"
-          "A, A + 1 and so on to B; A..B..S goes by S, A..B..xF by the factor F; numbers may have a unit\n"
-          "(2eps..16eps..x2). KEY is one of the method or of the field; where several have it, it is\n"
-          "field.KEY, NAME.KEY or, with the number of the step, 2.KEY")
-      ->required()
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUES");
+      .texts("--vary", options->request.vary,
+             "A parameter and its values, separated by commas; may be given several times. A..B stands for "
+             "A, A + 1 and so on to B; A..B..S goes by S, A..B..xF by the factor F; numbers may have a unit "
+             "(2eps..16eps..x2). KEY is one of the method or of the field; where several have it, it is "
+             "field.KEY, NAME.KEY or, with the number of the step, 2.KEY")
+      .value("KEY=VALUES")
+      .required();
   command
-      .add_option("-o,--output", options->output,
-                  "Write a row for each combination (.json or .csv) here; - is JSON on standard output.\n"
-                  "Should it be interrupted, OUT.journal holds what is done, and the same command goes on\n"
-                  "from there")
-      ->check(names_file())
-      ->type_name("OUT");
+      .path("-o,--output", options->output,
+            "Write a row for each combination (.json or .csv) here; - is JSON on standard output. "
+            "Should it be interrupted, OUT.journal holds what is done, and the same command goes on "
+            "from there")
+      .value("OUT");
   command
-      .add_option("--figures", options->figure_folder,
-                  "Write a plot of critical points against each varied parameter (.svg and .png) here")
-      ->check(names_file())
-      ->type_name("DIR");
-  add_common_options(command, invocation.common);
-  command.footer(specification_help());
-  command.callback([options, &invocation] {
-    invocation.action = [options, &invocation](Console& console) {
-      return sweep(*options, invocation.common, console);
-    };
-  });
+      .path("--figures", options->figure_folder,
+            "Write a plot of critical points against each varied parameter (.svg and .png) here")
+      .value("DIR");
+  add_common_options(command, program.common);
+  command.examples = {
+      {"sweep scan.off --method salient --vary iterations=1..10", "the counts after each iteration"},
+      {"sweep scan.off --method salient --vary sigma=2eps..16eps..x2 --vary range=0.5std,1std -o grid.csv",
+       "a table of eight combinations"}};
+  command.notes = kSpecificationNotes;
+  command.action = [options, &program](Console& console) { return sweep(*options, program.common, console); };
 }
 
 }  // namespace morsel::tools

@@ -97,16 +97,13 @@ std::vector<std::string> keys_of(const Entry& entry) {
   return keys;
 }
 
-template <class Entries>
-std::string describe(const Entries& entries) {
-  std::string text;
-  for (const auto& entry : entries) {
-    text += "  " + std::string(entry.name) + "  " + std::string(entry.summary) + "\n";
-    for (const core::ParameterInfo& info : declared_by(entry)) {
-      std::string key = "      " + info.key + "=" + (info.default_value.empty() ? "…" : info.default_value);
-      key.resize(std::max<std::size_t>(key.size() + 2, 30), ' ');
-      text += key + info.description + "\n";
-    }
+template <class Entry>
+std::string describe(const Entry& entry) {
+  std::string text = std::string(entry.name) + ": " + std::string(entry.summary) + "\n";
+  for (const core::ParameterInfo& info : declared_by(entry)) {
+    std::string key = "  " + info.key + "=" + (info.default_value.empty() ? "..." : info.default_value);
+    key.resize(std::max<std::size_t>(key.size() + 2, 26), ' ');
+    text += key + info.description + "\n";
   }
   return text;
 }
@@ -147,7 +144,10 @@ std::vector<std::string> keys_of_method(const std::string& name) {
   return keys_of(find_entry(kMethods, name, "method"));
 }
 
-std::string describe_functions() { return describe(kFunctions); }
-std::string describe_methods() { return describe(kMethods); }
+std::string describe_function(const std::string& name) {
+  return describe(find_entry(kFunctions, name, "Morse function"));
+}
+
+std::string describe_method(const std::string& name) { return describe(find_entry(kMethods, name, "method")); }
 
 }  // namespace morsel::tools

@@ -70,8 +70,8 @@ MethodChain make_method(std::string_view specification);
 std::vector<std::string> keys_of_function(const std::string& name);
 std::vector<std::string> keys_of_method(const std::string& name);
 
-/// All entries with their keys, defaults and descriptions, as help shows them.
-std::string describe_functions();
-std::string describe_methods();
+/// An entry with its keys, defaults and descriptions, as help shows it. Throw InvalidArgument as above.
+std::string describe_function(const std::string& name);
+std::string describe_method(const std::string& name);
 
 }  // namespace morsel::tools

@@ -1,0 +1,25 @@
+#pragma once
+/// What the program says of itself, from the tables of its commands.
+
+#include <deque>
+#include <string>
+
+#include "morsel/tools/commands/command.h"
+
+namespace morsel::tools {
+
+/// All commands, a line each, and the exit codes.
+std::string program_help(const std::deque<Command>& commands);
+/// One command: usage, options, examples, notes.
+std::string command_help(const Command& command);
+
+/// "MESH -o OUT [OPTIONS]": what a command cannot do without.
+std::string usage(const Command& command);
+/// "-o, --output FILE", as help shows it; of a flag with a negation "--points, --no-points".
+std::string option_heading(const Option& option);
+/// Help, choices and default in one text.
+std::string option_text(const Option& option);
+/// `text` in lines of at most `width` bytes where words allow, each after `indent` spaces but for the first.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
+
+}  // namespace morsel::tools

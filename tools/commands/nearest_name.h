@@ -1,0 +1,17 @@
+#pragma once
+/// The name that somebody meant who mistyped it.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace morsel::tools {
+
+/// The candidate with the fewest letters added, left out, replaced or swapped with their neighbour (optimal string
+/// alignment distance), the first of several; "" if that is more than a third of them.
+std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
+
+/// `; did you mean NAME?`, or "" if there is none.
+std::string nearest_hint(std::string_view word, std::span<const std::string> candidates);
+
+}  // namespace morsel::tools

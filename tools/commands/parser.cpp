@@ -1,0 +1,137 @@
+#include "morsel/tools/commands/parser.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/tools/commands/nearest_name.h"
+
+namespace morsel::tools {
+namespace {
+
+/// An option and what the parser has of it.
+struct Parsed {
+  const Option* option = nullptr;
+  CLI::Option* given = nullptr;
+  CLI::Option* denied = nullptr;  // by the negation of a flag
+
+  std::size_t count() const { return given->count() + (denied != nullptr ? denied->count() : 0); }
+};
+
+[[noreturn]] void refuse(const Command& command, const std::string& sentence) {
+  throw core::InvalidArgument(sentence + " (morsel " + command.name + " --help lists the options)");
+}
+
+std::string names_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
+  return text;
+}
+
+std::vector<Parsed> declare(const Command& command, CLI::App& app) {
+  std::vector<Parsed> rows;
+  for (const Option& option : command.options()) {
+    Parsed row{&option};
+    if (option.is_flag()) {
+      row.given = app.add_flag(option.names)->disable_flag_override();
+      if (!option.negation.empty()) row.denied = app.add_flag(option.negation)->disable_flag_override();
+    } else {
+      row.given = app.add_option(option.names)->take_all();
+      if (option.is_repeated)
+        row.given->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args(option.is_argument());
+      if (!option.environment.empty()) row.given->envname(option.environment);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<std::string> option_names(const Command& command) {
+  std::vector<std::string> names = {"--help"};
+  for (const Option& option : command.options()) {
+    if (option.is_argument()) continue;
+    for (std::string& name : option.all_names()) names.push_back(std::move(name));
+    if (!option.negation.empty()) names.push_back(option.negation);
+  }
+  return names;
+}
+
+[[noreturn]] void refuse_unexpected(const Command& command, const std::string& word) {
+  if (!word.starts_with('-') || word.size() == 1) refuse(command, "\"" + word + "\" is one argument too many");
+  const std::string name = word.substr(0, word.find('='));
+  refuse(command, "there is no option " + name + nearest_hint(name, option_names(command)));
+}
+
+/// What CLI11 has against the option that its message begins with.
+[[noreturn]] void refuse_mismatch(const Command& command, const std::string& message) {
+  const std::string begin = message.substr(0, message.find_first_of(": "));
+  for (const Option& option : command.options()) {
+    std::vector<std::string> names = option.all_names();
+    if (!option.negation.empty()) names.push_back(option.negation);
+    for (const std::string& name : names)  // CLI11 leaves out the dashes of a flag
+      if (name == begin || name == "--" + begin || name == "-" + begin)
+        refuse(command, name + (option.is_flag() ? " takes no value" : " needs a value: " + option.value_name));
+  }
+  refuse(command, message);
+}
+
+void check(const Command& command, const std::vector<Parsed>& rows) {
+  const auto is_given = [&](const std::string& name) {
+    return std::ranges::any_of(rows, [&](const Parsed& row) {
+      const std::vector<std::string> names = row.option->all_names();
+      return row.count() > 0 && std::ranges::find(names, name) != names.end();
+    });
+  };
+  for (const Parsed& row : rows) {
+    const Option& option = *row.option;
+    const std::string name = option.all_names().front();
+    if (row.count() == 0) {
+      if (option.is_required)
+        refuse(command, command.name + " needs " + name + (option.is_argument() ? "" : " " + option.value_name));
+      continue;
+    }
+    if (!option.is_flag() && !option.is_repeated && row.count() > 1)
+      refuse(command, name + " was given " + std::to_string(row.count()) + " times");
+    for (const std::string& other : option.needed)
+      if (!is_given(other)) refuse(command, name + " needs " + other);
+    for (const std::string& other : option.excluded)
+      if (is_given(other)) refuse(command, name + " and " + other + " exclude one another");
+    if (option.choices.empty()) continue;
+    for (const std::string& word : row.given->results())
+      if (std::ranges::find(option.choices, word) == option.choices.end())
+        refuse(command, name + " must be " + names_text(option.choices) + ", not \"" + word + "\"" +
+                            nearest_hint(word, option.choices));
+  }
+}
+
+}  // namespace
+
+void parse(Command& command, std::vector<std::string> words) {
+  CLI::App app;
+  app.set_help_flag();
+  const std::vector<Parsed> rows = declare(command, app);
+  std::ranges::reverse(words);
+  try {
+    app.parse(std::move(words));
+  } catch (const CLI::ExtrasError&) {
+    const std::vector<std::string> unexpected = app.remaining();
+    const auto option = std::ranges::find_if(unexpected, [](const std::string& word) { return word.starts_with('-'); });
+    refuse_unexpected(command, option != unexpected.end() ? *option : unexpected.at(0));
+  } catch (const CLI::ArgumentMismatch& error) {
+    refuse_mismatch(command, error.what());
+  } catch (const CLI::ParseError& error) {
+    refuse(command, error.what());
+  }
+  check(command, rows);
+  for (const Parsed& row : rows) {
+    if (row.count() == 0) continue;
+    const std::vector<std::string> flags = {row.denied != nullptr && row.denied->count() > 0 ? "no" : "yes"};
+    row.option->take(*row.option, row.option->is_flag() ? flags : row.given->results());
+  }
+}
+
+}  // namespace morsel::tools
