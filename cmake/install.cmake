@@ -1,4 +1,6 @@
-# Installation and the CMake package: find_package(morsel) gives morsel::core, morsel::morse, …
+# Installation, in two components, and the CMake package: find_package(morsel) gives morsel::core, morsel::morse, …
+#   runtime      the program, its man pages, completions and schemas
+#   development  libraries, headers, CMake package, pkg-config files
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/morsel)
 get_property(modules GLOBAL PROPERTY MORSEL_MODULES)
@@ -7,9 +9,10 @@ get_property(modules GLOBAL PROPERTY MORSEL_MODULES)
 # targets are named PACKAGE::TARGET, or morsel::MODULE.
 set(needs "")
 foreach(module IN LISTS modules)
-  install(TARGETS morsel_${module} EXPORT morselTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS morsel_${module} EXPORT morselTargets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel
-          FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE)  # those of the program, not of a library
+          COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE PATTERN "manual" EXCLUDE)  # those of the program, not of a library
   get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
   set(packages ${linked})
   list(FILTER packages EXCLUDE REGEX "^morsel::")
@@ -20,11 +23,34 @@ foreach(module IN LISTS modules)
   string(APPEND needs "set(_morsel_${module}_packages ${packages})\nset(_morsel_${module}_modules ${linked})\n")
 endforeach()
 
-install(EXPORT morselTargets NAMESPACE morsel:: DESTINATION ${package_folder})
+install(EXPORT morselTargets NAMESPACE morsel:: DESTINATION ${package_folder} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/morselConfig.cmake.in ${PROJECT_BINARY_DIR}/morselConfig.cmake
                               INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/morselConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindCairo.cmake ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
-        DESTINATION ${package_folder})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+        DESTINATION ${package_folder} COMPONENT development)
+
+# pkg-config, of the modules of the library: morsel-core, morsel-morse, … Their headers need those of Eigen, oneTBB and
+# Boost, of which the last has no file of its own.
+foreach(module core persistence morse mscomplex)
+  get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
+  set(requires "")
+  foreach(target IN LISTS linked)
+    if(target MATCHES "^morsel::(.*)")
+      list(APPEND requires morsel-${CMAKE_MATCH_1})
+    elseif(target MATCHES "^Eigen3::")
+      list(APPEND requires "eigen3 >= 3.4")
+    elseif(target MATCHES "^TBB::")
+      list(APPEND requires tbb)
+    endif()
+  endforeach()
+  list(JOIN requires ", " requires)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/module.pc.in ${PROJECT_BINARY_DIR}/morsel-${module}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/morsel-${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
+
+foreach(component runtime development)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/$<IF:$<STREQUAL:${component},runtime>,morsel,libmorsel-dev> COMPONENT ${component})
+endforeach()

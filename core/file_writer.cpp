@@ -48,6 +48,8 @@ struct FileWriter::Output {
   Output(const fs::path& target, Sync sync);
   ~Output() {
     if (device >= 0) ::close(device);
+    temporary.discard();
+    remove_made();
   }
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -67,6 +69,12 @@ struct FileWriter::Output {
   void flush() { write_out(buffer.data(), std::exchange(used, 0)); }
   void write_out(const char* data, std::size_t size);
   void commit();
+  void open_temporary(const fs::path& target);
+  /// Folders that nothing was written to in the end.
+  void remove_made() noexcept {
+    for (const fs::path& folder : made)
+      if (::rmdir(folder.c_str()) != 0) return;
+  }
   int file() const { return device >= 0 ? device : temporary.descriptor(); }
 
   struct StreamBuffer : std::streambuf {
@@ -87,6 +95,7 @@ struct FileWriter::Output {
   fs::path shown;  // as the caller named it
   TemporaryFile temporary;
   int device = -1;  // or else this is written to
+  std::vector<fs::path> made;  // folders, from the inside out
   bool synced = false;
   std::vector<char> buffer;
   std::size_t used = 0;
@@ -105,13 +114,24 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
   } else {
     // Renaming would replace a file that its owner has protected.
     if (exists && ::access(target.c_str(), W_OK) != 0) fail(shown, errno);
-    if (const int error = temporary.open(followed(target)); error != 0) fail(shown, error);
+    open_temporary(followed(target));
     if (exists) static_cast<void>(::fchmod(temporary.descriptor(), status.st_mode & 07777));
     synced = exists && sync == Sync::when_replacing;
   }
   stream.imbue(std::locale::classic());
   stream.precision(17);
   stream.exceptions(std::ios::badbit | std::ios::failbit);
+}
+
+void FileWriter::Output::open_temporary(const fs::path& target) {
+  std::error_code no_folder;
+  for (fs::path at = target.parent_path(); !at.empty() && !fs::exists(at, no_folder); at = at.parent_path())
+    made.push_back(at);
+  if (!made.empty()) fs::create_directories(made.front(), no_folder);
+  if (const int error = temporary.open(target); error != 0) {
+    remove_made();
+    fail(shown, error);
+  }
 }
 
 void FileWriter::Output::write_out(const char* data, std::size_t size) {
@@ -135,6 +155,7 @@ void FileWriter::Output::commit() {
   else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
     error = errno;
   if (error != 0) fail(shown, error);
+  made.clear();
 }
 
 FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}

@@ -19,6 +19,7 @@ enum class Sync {
 
 /// Writes to a file without a name in the target's folder (temporary_file.h); commit() makes it the target.
 /// Without commit() (an error, a Cancelled on its way up, the end of the process) the target stays as it was.
+/// Folders that the target is in are made; without commit() they are removed again if nothing is in them.
 /// A target that exists keeps its permissions, and a symbolic link to it stays a link. A device or pipe
 /// (/dev/stdout) cannot be renamed to: it is written as the data come.
 ///

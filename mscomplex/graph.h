@@ -1,5 +1,5 @@
 #pragma once
-/// The complex as a Boost.Graph graph.
+/// The complex as a Boost.Graph graph. The one header that needs Boost: who includes it finds that package, too.
 
 #include <boost/graph/adjacency_list.hpp>
 

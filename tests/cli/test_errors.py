@@ -1,7 +1,10 @@
 """Wrong usage, bad input, writing that fails, interruption: one clear sentence, the right exit code, no file left."""
 
+import json
 import os
 import pathlib
+import re
+import shlex
 import signal
 import subprocess
 import time
@@ -76,21 +79,92 @@ class Usage(ProgramTest):
         self.refuse("--field", "height+height", naming=["chain"])
 
     def test_wrong_options(self):
-        self.morsel(code=2)
-        self.morsel("nonsense", code=2)
-        self.morsel("compare", code=2)
-        self.refuse("--nonsense", naming=["--nonsense"])
-        self.refuse("--threads", "0", naming=["threads"])
-        self.refuse("--threads", "many", naming=["threads"])
+        for command, said in (
+                (("nonsense",), "no command \"nonsense\""),
+                (("comapre", "m.off"), "did you mean compare?"),
+                (("--threads", "3", "compare"), "--threads came before"),
+                (("help", "comapre"), "did you mean compare?"),
+                (("compare",), "compare needs MESH"),
+                (("cut", "m.off"), "cut needs -o OUT"),
+                (("compare", "m.off", "n.off"), "n.off"),
+                (("compare", "m.off", "--nonsense"), "no option --nonsense"),
+                (("compare", "m.off", "--feild=height"), "no option --feild; did you mean --field?"),
+                (("cut", "m.off", "--ouput", "x.off"), "did you mean --output?"),
+                (("compare", "m.off", "--method"), "--method needs a value: M"),
+                (("compare", "m.off", "-o"), "-o needs a value: REPORT.json"),
+                (("compare", "m.off", "--quiet=3"), "--quiet takes no value"),
+                (("render", "m.off", "-o", "x.png", "--no-points=false"), "--no-points takes no value"),
+                (("compare", "m.off", "--field", "height", "--field", "height"), "--field was given 2 times"),
+                (("compare", "m.off", "--up", "w"), "--up must be x, y or z, not \"w\""),
+                (("molecule", "m.pdb", "-o", "m.off", "--kind", "guassian"), "did you mean gaussian?"),
+                (("batch", "x", "--out", "y", "--size", "3x3"), "--size needs --figures"),
+                (("batch", "x", "--out", "y", "--plan", "--summary-only"), "--plan and --summary-only exclude"),
+                (("batch", "x", "--out", "y", "--time-limit", "0"), "a finite number above 0, not \"0\""),
+                (("batch", "x", "--out", "y", "--memory-limit", "9"), "a whole number from 64 to"),
+                (("compare", "m.off", "--target", "0"), "a whole number of at least 1, not \"0\""),
+                (("compare", "m.off", "--target", "3.5"), "--target must be a whole number"),
+                (("stability", "m.off", "--noise", "0.1,,2"), "--noise must be a finite number, not \"\""),
+                (("stability", "m.off", "--seed", "99999999999999999999"), "--seed must be a whole number"),
+                (("methods", "saliet"), "no method \"saliet\"; did you mean salient?"),
+                (("fields", "salient"), "no Morse function \"salient\"")):
+            with self.subTest(command):
+                self.assertIn(said, self.morsel(*command, code=2).stderr)
+        for value in ("0", "many", "-1", "", "5000", "1e3"):
+            self.assertIn(f'--threads must be a whole number from 1 to 4096, not "{value}"',
+                          self.morsel("compare", "m.off", "--threads", value, code=2).stderr)
+
+    def test_options_are_read_however_they_are_written(self):
+        mesh = self.file("-m.off", OCTAHEDRON)
+        self.file("m.off", OCTAHEDRON)
+        plain = ("compare", "m.off", "--field", "height", "--method", "conventional", "--method", "salient", "-o", "-")
+        report = json.loads(self.morsel(*plain).stdout)
+        report.pop("timings")
+        for words in (
+                ("m.off", "--field=height", "--method=conventional", "--method", "salient", "--output=-"),
+                ("compare", "--field", "height", "--method", "conventional", "m.off", "--method", "salient", "-o-"),
+                ("compare", "-o", "-", "--field", "height", "--method", "conventional", "--method", "salient", "--", "m.off")):
+            again = json.loads(self.morsel(*words).stdout)
+            again.pop("timings")
+            self.assertEqual(again, report, words)
+        self.assertIn("vertices", self.morsel("info", "--", mesh.name).stdout)
 
     def test_help_teaches(self):
-        self.assertIn("compare", self.morsel("--help").stdout)
-        text = self.morsel("compare", "--help").stdout
-        for word in ("mean-curvature", "salient", "sigma=8eps", "threshold=0.1%", "--export"):
-            self.assertIn(word, text)
-        for command in ("field", "info", "check"):
-            self.assertIn("Usage", self.morsel(command, "--help").stdout)
+        """Without a command, with an option and as a command; of each command the same text, which fits a terminal."""
+        text = self.morsel().stdout
+        self.assertEqual(self.morsel("--help").stdout, text)
+        self.assertEqual(self.morsel("help").stdout, text)
+        commands = re.findall(r"^  (\w+) ", text.split("Commands:")[1].split("Examples:")[0], re.MULTILINE)
+        self.assertIn("compare", commands)
+        for command in set(commands) - {"help"}:
+            text = self.morsel(command, "--help").stdout
+            self.assertEqual(self.morsel("help", command).stdout, text)
+            self.assertTrue(text.startswith(f"Usage: morsel {command} "), text)
+            self.assertGreaterEqual(text.split("Examples:")[1].count(f"\n  morsel {command} "), 2)
+            for internal in ("->", "POSITIVE", "INT in", "TEXT", "{false}", "OR {"):
+                self.assertNotIn(internal, text)
+            for line in text.splitlines():
+                self.assertTrue(len(line) <= 96 or line.startswith("  morsel "), line)
         self.assertRegex(self.morsel("--version").stdout, r"^morsel \d+\.\d+\.\d+\n$")
+
+    def test_names_are_listed(self):
+        for command, names in (("fields", ("mean-curvature", "height")), ("methods", ("salient", "tps"))):
+            listed = self.morsel(command).stdout.splitlines()
+            for name in names:
+                self.assertTrue(any(line.startswith(f"{name} ") for line in listed), name)
+            for line in listed:
+                name = line.split()[0]
+                self.assertTrue(self.morsel(command, name).stdout.startswith(f"{name}: "))
+        for key in ("iterations=10", "sigma=8eps"):
+            self.assertIn(key, self.morsel("methods", "salient").stdout)
+        self.assertIn("axis=z", self.morsel("fields", "height").stdout)
+
+    def test_every_example_of_help_is_read(self):
+        """None has a name, a key or an option that does not exist: each ends with a file that is missing."""
+        for command in ("compare", "field", "render", "hierarchy", "segment", "cut", "quads", "stability", "sweep"):
+            text = self.morsel(command, "--help").stdout
+            for example in re.findall(r"^  morsel (.*)$", text, re.MULTILINE):
+                with self.subTest(example):
+                    self.assertIn(example.split()[1], self.morsel(*shlex.split(example), code=3).stderr)
 
 
 class BadInput(ProgramTest):
@@ -150,10 +224,30 @@ class Writing(ProgramTest):
         self.mesh = self.file("octahedron.off", OCTAHEDRON)
 
     def test_a_target_that_cannot_be_written(self):
-        self.morsel("compare", self.mesh, "-o", "absent/report.json", code=4)
-        self.morsel("field", self.mesh, "-o", "absent/z.txt", code=4)
         self.file("taken", "")
+        self.morsel("compare", self.mesh, "-o", "taken/report.json", code=4)
+        self.morsel("field", self.mesh, "-o", "taken/below/z.txt", code=4)
         self.morsel("compare", self.mesh, "--export", "taken", code=4)
+
+    def test_folders_of_a_target_are_made(self):
+        """As those of --figures are; of a run that fails none is left."""
+        self.morsel("field", self.mesh, "-o", "new/deep/z.txt")
+        self.morsel("compare", self.mesh, "--method", "conventional", "-o", "new/r.json", "--html", "pages/p.html",
+                    "--figures", "figures/octahedron", "--size", "60x42")
+        for made in ("new/deep/z.txt", "new/r.json", "pages/p.html", "figures/octahedron/conventional.png"):
+            self.assertTrue((self.folder / made).is_file(), made)
+        damaged = self.file("damaged.off", DAMAGED)
+        self.morsel("field", damaged, "-o", "other/deep/z.txt", code=3)
+        self.morsel("compare", damaged, "-o", "other/r.json", "--html", "other/p.html", "--export", "other/e", "--figures",
+                    "other/f", code=3)
+        self.morsel("hierarchy", damaged, "--export", "other/deep/e", code=3)
+        self.morsel("sweep", damaged, "--vary", "iterations=1..2", "--figures", "other", "-o", "more/s.csv", code=3)
+        for folder in ("other", "more"):
+            self.assertFalse((self.folder / folder).exists(), folder)
+
+    def test_a_picture_is_a_png(self):
+        self.assertIn(".png", self.morsel("render", self.mesh, "-o", "x.jpg", code=2).stderr)
+        self.assertFalse((self.folder / "x.jpg").exists())
 
     def test_a_full_device(self):
         if not pathlib.Path("/dev/full").exists():

@@ -322,8 +322,8 @@ class Refused(Hierarchy):
 
     def test_other_errors(self):
         self.refuse("--method", "nonsense", naming=["nonsense", "salient"])
-        self.refuse("-o", "absent/h.json", naming=["absent"], code=4)
         self.file("taken", "")
+        self.refuse("-o", "taken/h.json", naming=["taken"], code=4)
         self.refuse("--export", "taken", naming=["taken"], code=4)
         self.morsel("hierarchy", "absent.off", code=3)
         self.refuse("--method", "salient:until-count=200", "-o", "h.json", naming=["until-count"])

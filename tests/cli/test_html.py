@@ -176,8 +176,9 @@ class Html(ProgramTest):
         self.assertEqual(without_timings(one), without_timings(four))
 
     def test_an_unwritable_page_is_told_before_the_work(self):
-        result = self.morsel("compare", "missing.off", "--html", "nowhere/page.html", code=4)
-        self.assertIn("nowhere", result.stderr)
+        self.file("taken", "")
+        result = self.morsel("compare", "missing.off", "--html", "taken/page.html", code=4)
+        self.assertIn("taken", result.stderr)
 
     def test_no_page_is_left_behind_by_a_failure(self):
         self.morsel("compare", "missing.off", "--html", "page.html", code=3)

@@ -84,7 +84,7 @@ class Render(ProgramTest):
             self.assertNotIn("missing.off", result.stderr)
         self.assertEqual(list(self.folder.glob("*.png")), [])
         self.morsel("render", "missing.off", "-o", "w.png", code=3)
-        self.morsel("render", self.file("o.off", OCTAHEDRON), "-o", "nowhere/w.png", code=4)
+        self.morsel("render", self.file("o.off", OCTAHEDRON), "-o", "o.off/w.png", code=4)
         self.morsel("render", self.folder / "o.off", "--caption", b"\xff\xfe".decode("utf-8", "surrogateescape"), "-o",
                     "w.png", code=2)
         self.assertEqual(list(self.folder.iterdir()), [self.folder / "o.off"])

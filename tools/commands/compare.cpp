@@ -1,8 +1,8 @@
 // morsel compare: the main job.
 
 #include <algorithm>
+#include <deque>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -82,6 +82,35 @@ std::string page_command(const Options& options, const CommonOptions& common) {
   return command_line(words);
 }
 
+/// The folders of a comparison, opened from the outside in (one with something in it is refused) and closed from the
+/// inside out.
+class Folders {
+ public:
+  Folders(const Options& options, const RunFiles& files, const std::stop_token& stop) {
+    std::vector<std::string> paths = {options.figure_folder, options.export_folder};
+    if (is_in(options.figure_folder, options.export_folder)) std::swap(paths[0], paths[1]);
+    for (const std::string& path : paths)
+      if (!path.empty() && find(path) == nullptr)
+        folders_.emplace_back(path, ResultFolder::Options{files.outputs(), stop});
+  }
+  ~Folders() {
+    while (!folders_.empty()) folders_.pop_back();
+  }
+  Folders(const Folders&) = delete;
+  Folders& operator=(const Folders&) = delete;
+
+  ResultFolder& at(const std::string& path) { return *find(path); }
+
+ private:
+  ResultFolder* find(const std::string& path) {
+    for (ResultFolder& folder : folders_)
+      if (folder.path() == path) return &folder;
+    return nullptr;
+  }
+
+  std::deque<ResultFolder> folders_;
+};
+
 /// All that a comparison is written to.
 class Outputs {
  public:
@@ -90,7 +119,7 @@ class Outputs {
       : options_(options),
         common_(common),
         figure_size_(render::parse_size(options.figure.size)),
-        folders_(open_folders(options, stop)),
+        folders_(options, checked_files(options), stop),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
   }
@@ -138,10 +167,8 @@ class Outputs {
   }
 
  private:
-  using Folders = std::map<std::string, ResultFolder>;
-
-  /// Those that lie in one another from the outside in, since a folder with something in it is refused.
-  static Folders open_folders(const Options& options, const std::stop_token& stop) {
+  /// All files of the run; throws if two of them are the same.
+  static RunFiles checked_files(const Options& options) {
     RunFiles files;
     files.reads("MESH", options.mesh).reads_of_field(options.request.field);
     files.writes_document("-o", options.report).writes("--html", options.page);
@@ -150,12 +177,7 @@ class Outputs {
         files.writes("--thumbnails", render::thumbnail_path(options.thumbnails, which));
     files.fills("--figures", options.figure_folder).fills("--export", options.export_folder);
     files.check();
-    std::vector<std::string> paths = {options.figure_folder, options.export_folder};
-    if (is_in(options.figure_folder, options.export_folder)) std::swap(paths[0], paths[1]);
-    Folders folders;
-    for (const std::string& path : paths)
-      if (!path.empty()) folders.try_emplace(path, path, ResultFolder::Options{files.outputs(), stop});
-    return folders;
+    return files;
   }
 
   const Options& options_;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
+#include "morsel/core/file_extension.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
@@ -55,6 +56,8 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
       .reads_of_field(options.field.field)
       .writes("-o", options.output)
       .check();
+  if (core::file_extension(options.output) != ".png")
+    throw core::InvalidArgument("a picture is written to .png, not to \"" + options.output + "\"");
   core::FileWriter file(options.output);
 
   const core::Progress progress = console.progress();

@@ -1,0 +1,30 @@
+# Debian packages by CPack, one of each component of the installation: tools/package makes them.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "the morsel project <morsel@localhost>")
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${CPACK_PACKAGE_CONTACT})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME morsel)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+    "critical points of scalar fields on triangle meshes
+The program morsel extracts critical points by several methods compared with each other, and builds persistence diagrams,
+Morse-Smale complexes, hierarchies, segments, cuts and quads on them.")
+
+# What its headers and libraries are used with.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmorsel-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev, libboost-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
+    "nlohmann-json3-dev, libssl-dev, libopenvdb-dev, libembree-dev, libpng-dev, libcairo2-dev, zlib1g-dev")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+    "critical points of scalar fields on triangle meshes (development)
+The C++20 library of the program morsel: static libraries, headers and the CMake package. The component tools needs the
+suggested packages, the others do not.")
+include(CPack)
