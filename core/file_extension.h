@@ -6,7 +6,8 @@
 
 namespace morsel::core {
 
-/// The extension with its dot and in small letters (ASCII, whatever the locale): ".off"; empty if there is none.
+/// The extension with its dot and in small letters (ASCII, whatever the locale): ".off"; empty if there is
+/// none.
 std::string file_extension(const std::filesystem::path& path);
 
 }  // namespace morsel::core

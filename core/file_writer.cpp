@@ -94,7 +94,7 @@ struct FileWriter::Output {
 
   fs::path shown;  // as the caller named it
   TemporaryFile temporary;
-  int device = -1;  // or else this is written to
+  int device = -1;             // or else this is written to
   std::vector<fs::path> made;  // folders, from the inside out
   bool synced = false;
   std::vector<char> buffer;

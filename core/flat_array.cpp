@@ -14,7 +14,8 @@ void* allocate_large(std::size_t bytes) {
   void* const memory = std::aligned_alloc(kPage, rounded);
   if (memory == nullptr) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-  // The part of the last page that is not needed stays in small pages, which are not made unless they are touched.
+  // The part of the last page that is not needed stays in small pages, which are not made unless they are
+  // touched.
   madvise(memory, bytes / kPage * kPage,
           MADV_HUGEPAGE);  // advice: a system that cannot follow it loses speed only
 #endif

@@ -18,8 +18,9 @@ void deallocate_large(void* memory) noexcept;
 inline constexpr std::size_t kLarge = std::size_t{1} << 22;
 }  // namespace detail
 
-/// An allocator whose elements are left uninitialised by resize() and by vectors of a given size, so that they are first
-/// touched by the thread that writes them. Arrays that are read out of order gain from large pages most.
+/// An allocator whose elements are left uninitialised by resize() and by vectors of a given size, so that
+/// they are first touched by the thread that writes them. Arrays that are read out of order gain from large
+/// pages most.
 template <class T>
 struct FlatAllocator {
   static_assert(std::is_trivially_destructible_v<T>);
@@ -53,7 +54,8 @@ struct FlatAllocator {
   friend bool operator==(const FlatAllocator&, const FlatAllocator&) { return true; }
 };
 
-/// A vector of plain values. FlatArray<T>(n) and resize(n) do not initialise: write every element before it is read.
+/// A vector of plain values. FlatArray<T>(n) and resize(n) do not initialise: write every element before it
+/// is read.
 template <class T>
 using FlatArray = std::vector<T, FlatAllocator<T>>;
 

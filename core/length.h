@@ -8,8 +8,8 @@
 
 namespace morsel::core {
 
-/// The mean length of the mesh's edges, 0 if there are none. Scales exactly by powers of two. O(edges), parallel, the
-/// same bits for every number of threads.
+/// The mean length of the mesh's edges, 0 if there are none. Scales exactly by powers of two. O(edges),
+/// parallel, the same bits for every number of threads.
 double mean_edge_length(const TriangleMesh& mesh);
 
 enum class LengthUnit : std::uint8_t {

@@ -11,10 +11,11 @@
 
 namespace morsel::core {
 
-/// What a vertex is to a field. A change is a pair of neighbouring elements in its link on the capped surface of which
-/// one is lower and the other higher than the vertex: a triangle (or a boundary edge with its cap) is one for
-/// the middle of its three corners, so changes are counted without walking a link (Banchoff, "Critical points
-/// and curvature for embedded polyhedral surfaces", 1970). A saddle of multiplicity m has 2 m + 2.
+/// What a vertex is to a field. A change is a pair of neighbouring elements in its link on the capped surface
+/// of which one is lower and the other higher than the vertex: a triangle (or a boundary edge with its cap)
+/// is one for the middle of its three corners, so changes are counted without walking a link (Banchoff,
+/// "Critical points and curvature for embedded polyhedral surfaces", 1970). A saddle of multiplicity m has 2
+/// m + 2.
 class LinkChanges {
  public:
   bool is_minimum() const { return bits_ == 0; }
@@ -32,15 +33,16 @@ class LinkChanges {
     bits_ = static_cast<std::uint8_t>(sum | ((bits_ | other.bits_) & 1));
   }
 
-  /// Twice the changes, and 1 if the vertex is the highest corner of a triangle: below 2 · kMostChanges, all that is known.
+  /// Twice the changes, and 1 if the vertex is the highest corner of a triangle: below 2 · kMostChanges, all
+  /// that is known.
   std::uint8_t bits() const { return bits_; }
 
  private:
   std::uint8_t bits_ = 0;
 };
 
-/// For every vertex. O(n), parallel, the same for every number of threads; at most 8 bytes a vertex. `rank` orders the
-/// vertices (a permutation).
+/// For every vertex. O(n), parallel, the same for every number of threads; at most 8 bytes a vertex. `rank`
+/// orders the vertices (a permutation).
 std::vector<LinkChanges> link_changes(const TriangleMesh& mesh, std::span<const Index> rank);
 
 namespace detail {

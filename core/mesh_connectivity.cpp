@@ -79,16 +79,16 @@ class TriangleMesh::Builder {
            });
   }
 
-  /// A half-edge with its vertices and direction: an edge's half-edges are those with one `start` whose `end` differs in the
-  /// last bit at most.
+  /// A half-edge with its vertices and direction: an edge's half-edges are those with one `start` whose `end`
+  /// differs in the last bit at most.
   struct Entry {
     Index start;  ///< the smaller vertex
     Index end;    ///< 2 · larger vertex, and one if it is the origin: a vertex number has 31 bits at most
     Index halfedge;
   };
 
-  /// Brings the half-edges into the lexicographic order of their edges and makes neighbours twins: distributes them to
-  /// blocks of consecutive smaller vertices, small enough for a cache, and sorts these.
+  /// Brings the half-edges into the lexicographic order of their edges and makes neighbours twins:
+  /// distributes them to blocks of consecutive smaller vertices, small enough for a cache, and sorts these.
   bool link_halfedges() {
     const Index n = vertex_count();
     const int shift = std::max(0, static_cast<int>(std::bit_width(n)) - 8);
@@ -133,8 +133,9 @@ class TriangleMesh::Builder {
     return true;
   }
 
-  /// Makes the twins among the entries of the smaller vertices first, first + 1, …, numbers their edges from 0 on, and leaves
-  /// a half-edge of each at the front. Returns the number of edges, or kNone if one has two half-edges of a direction.
+  /// Makes the twins among the entries of the smaller vertices first, first + 1, …, numbers their edges from
+  /// 0 on, and leaves a half-edge of each at the front. Returns the number of edges, or kNone if one has two
+  /// half-edges of a direction.
   Index link_block(std::span<Entry> entries, Index first, Index vertices) {
     const std::vector<Entry> unsorted(entries.begin(), entries.end());
     std::vector<Index> offset(std::size_t{vertices} + 1, 0);
@@ -184,8 +185,8 @@ class TriangleMesh::Builder {
       std::sort(group.begin(), group.end(), interruptible(less));
       return;
     }
-    // Most groups have about six entries: each goes where the number of smaller ones says, without a branch to mispredict.
-    // Equal ones, which are an error, leave a place free.
+    // Most groups have about six entries: each goes where the number of smaller ones says, without a branch
+    // to mispredict. Equal ones, which are an error, leave a place free.
     std::array<Entry, kFew> unsorted;
     std::array<Index, kFew> ends;
     ends.fill(kNone);
@@ -201,8 +202,8 @@ class TriangleMesh::Builder {
     }
   }
 
-  /// Chooses each vertex's first half-edge, and checks that the fans from there reach all corners and that no two triangles
-  /// lie on each other.
+  /// Chooses each vertex's first half-edge, and checks that the fans from there reach all corners and that no
+  /// two triangles lie on each other.
   bool link_vertices() {
     const Index n = vertex_count();
     data_.vertex_halfedge.resize(n);
@@ -225,7 +226,8 @@ class TriangleMesh::Builder {
             std::atomic_ref(data_.vertex_halfedge[origin(static_cast<Index>(h))])
                 .store(static_cast<Index>(h), std::memory_order_relaxed);
       });
-    // Turning is injective, so that a fan comes back to its start or ends at a boundary, and counts no corner twice.
+    // Turning is injective, so that a fan comes back to its start or ends at a boundary, and counts no corner
+    // twice.
     constexpr std::size_t kBroken = ~std::size_t{0} / 2;
     const std::size_t corners = parallel_reduce(
         0, n, kGrain, std::size_t{0},

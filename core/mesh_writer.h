@@ -15,9 +15,10 @@
 
 namespace morsel::core {
 
-/// Lines that a file has at its head and that readers pass over, such as where it comes from: "# …" in OFF and OBJ files,
-/// "comment …" in PLY files. All writers here throw InvalidArgument if one has a control character, such as a line's end, or ends in
-/// a backslash, which would join it to the next line of an OBJ file. Some programs take no lines of more than 1,000 bytes.
+/// Lines that a file has at its head and that readers pass over, such as where it comes from: "# …" in OFF
+/// and OBJ files, "comment …" in PLY files. All writers here throw InvalidArgument if one has a control
+/// character, such as a line's end, or ends in a backslash, which would join it to the next line of an OBJ
+/// file. Some programs take no lines of more than 1,000 bytes.
 using Comments = std::span<const std::string>;
 
 /// Text, with as many digits as reading back the same doubles takes. The file is written whole or not at all
@@ -25,8 +26,8 @@ using Comments = std::span<const std::string>;
 void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, Comments comments = {},
                const Progress& progress = {});
 
-/// A named array for a file's vertices or faces, one value for each; refers to the caller's data. Numbers keep their
-/// type in the file (double or int).
+/// A named array for a file's vertices or faces, one value for each; refers to the caller's data. Numbers
+/// keep their type in the file (double or int).
 struct PropertyView {
   std::string name;
   std::variant<std::span<const double>, std::span<const std::int32_t>> values;
@@ -45,15 +46,15 @@ void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh,
                std::span<const VertexProperty> properties = {}, Comments comments = {},
                const Progress& progress = {});
 
-/// The same for vertices and triangles that are no TriangleMesh, such as an input's with unused vertices, and with
-/// properties of faces too (whose names may not be vertex_indices nor vertex_index).
+/// The same for vertices and triangles that are no TriangleMesh, such as an input's with unused vertices, and
+/// with properties of faces too (whose names may not be vertex_indices nor vertex_index).
 void write_ply(const std::filesystem::path& path, std::span<const Point> positions,
                std::span<const Triangle> triangles, std::span<const PropertyView> vertex_properties = {},
                std::span<const PropertyView> face_properties = {}, Comments comments = {},
                const Progress& progress = {});
 
-/// Quads as Wavefront OBJ, text with as many digits as reading back the same doubles takes. The file is written
-/// whole or not at all (file_writer.h). Throws WriteFailed.
+/// Quads as Wavefront OBJ, text with as many digits as reading back the same doubles takes. The file is
+/// written whole or not at all (file_writer.h). Throws WriteFailed.
 void write_obj(const std::filesystem::path& path, std::span<const Point> positions,
                std::span<const std::array<Index, 4>> quads, Comments comments = {},
                const Progress& progress = {});

@@ -68,14 +68,14 @@ struct MethodContext {
   Progress progress = {};
   /// Whether an iterative method is to count the critical points of all its iterations.
   bool count_iterations = false;
-  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method there. One that
-  /// iterates on another field than it was given tells that first, as 0. A method that has to begin again begins
-  /// again with its first number. Empty: nobody listens.
+  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method
+  /// there. One that iterates on another field than it was given tells that first, as 0. A method that has to
+  /// begin again begins again with its first number. Empty: nobody listens.
   std::function<bool(int iteration, const ScalarField& field)> on_iteration = {};
   /// Which iterations on_iteration is told; the others cost less. Empty: all.
   std::function<bool(int iteration)> tells_iteration = {};
-  /// The vertices of a field's extrema by falling persistence, the essential ones first, `count` of them or all there
-  /// are; empty if nobody computes it.
+  /// The vertices of a field's extrema by falling persistence, the essential ones first, `count` of them or
+  /// all there are; empty if nobody computes it.
   std::function<std::vector<Index>(const ScalarField& field, std::size_t count)> persistent_extrema = {};
   /// The field with all pairs of at most this persistence cancelled; empty if nobody computes it.
   std::function<ScalarField(const ScalarField& field, double threshold)> cancel = {};
@@ -87,8 +87,8 @@ class Method {
  public:
   virtual ~Method() = default;
   virtual MethodResult apply(const ScalarField& input, const MethodContext& context) const = 0;
-  /// Whether the field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this method with
-  /// `iterations=i` returns: then one run gives the results of all smaller numbers.
+  /// Whether the field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this
+  /// method with `iterations=i` returns: then one run gives the results of all smaller numbers.
   virtual bool tells_results() const { return false; }
 };
 

@@ -34,8 +34,9 @@ ThreadLimit::~ThreadLimit() = default;
 
 void detail::run_in_arena(const std::function<void()>& work) {
   const int threads = thread_count();
-  // The arena of the calling thread has as many slots as the machine has processors; one of our own honours a raised limit.
-  // Making one for every loop would cost time, and its worker threads would now and then stay asleep.
+  // The arena of the calling thread has as many slots as the machine has processors; one of our own honours a
+  // raised limit. Making one for every loop would cost time, and its worker threads would now and then stay
+  // asleep.
   if (threads <= tbb::this_task_arena::max_concurrency()) {
     work();
   } else {

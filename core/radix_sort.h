@@ -13,9 +13,9 @@
 
 namespace morsel::core {
 
-/// Sorts by key(item), an unsigned whole number below 2^bits; items of equal keys keep their order. By digits, from the last
-/// one: O(bits · n) time and a copy of the items; for few items by comparisons. Parallel, the same for every number of
-/// threads.
+/// Sorts by key(item), an unsigned whole number below 2^bits; items of equal keys keep their order. By
+/// digits, from the last one: O(bits · n) time and a copy of the items; for few items by comparisons.
+/// Parallel, the same for every number of threads.
 template <class T, class Allocator, class Key>
 void radix_sort(std::vector<T, Allocator>& items, unsigned bits, const Key& key) {
   constexpr unsigned kDigit = 11;

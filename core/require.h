@@ -8,8 +8,9 @@
 
 namespace morsel::core {
 
-/// What a check demands: require(holds, what, where) throws std::logic_error "CHECK: WHAT WHERE" unless it holds.
-/// For contradictions within the library, which no input may bring about. Costs nothing where all is well.
+/// What a check demands: require(holds, what, where) throws std::logic_error "CHECK: WHAT WHERE" unless it
+/// holds. For contradictions within the library, which no input may bring about. Costs nothing where all is
+/// well.
 class Require {
  public:
   /// `check` names the function that demands; it must outlive this.

@@ -39,8 +39,9 @@ class UnionFind {
   std::vector<Index> parent_;
 };
 
-/// Disjoint sets that any number of threads may unite at a time, without locks (Jayanti, Tarjan 2016, linking by index).
-/// The root of a set is its smallest element, so that the same sets and roots come out in any order of unions.
+/// Disjoint sets that any number of threads may unite at a time, without locks (Jayanti, Tarjan 2016, linking
+/// by index). The root of a set is its smallest element, so that the same sets and roots come out in any
+/// order of unions.
 class ConcurrentUnionFind {
  public:
   explicit ConcurrentUnionFind(Index n) : parent_(n) {

@@ -72,7 +72,8 @@ class VertexSort {
         });
   }
 
-  /// Orders each run of vertices whose leading bits are equal, but for those of more than a chunk: returns these.
+  /// Orders each run of vertices whose leading bits are equal, but for those of more than a chunk: returns
+  /// these.
   std::vector<Run> sort_short_runs(const FlatArray<Entry>& entries, std::span<Index> vertices) const {
     const auto continues = [&](std::size_t i) {
       return i > 0 && i < entries.size() && entries[i].leading == entries[i - 1].leading;

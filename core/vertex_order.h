@@ -8,10 +8,10 @@
 
 namespace morsel::core {
 
-/// The vertices by ascending (value, vertex): simulation of simplicity (Edelsbrunner, Mücke 1990). −0 equals 0; NaN, if
-/// any, comes first or last. A radix sort of the leading 32 bits in which the values differ, again for many values that
-/// agree in them, and by comparisons for few: O(n). Parallel, the same for every number of threads. Memory: 16
-/// bytes a vertex besides the result.
+/// The vertices by ascending (value, vertex): simulation of simplicity (Edelsbrunner, Mücke 1990). −0 equals
+/// 0; NaN, if any, comes first or last. A radix sort of the leading 32 bits in which the values differ, again
+/// for many values that agree in them, and by comparisons for few: O(n). Parallel, the same for every number
+/// of threads. Memory: 16 bytes a vertex besides the result.
 FlatArray<Index> vertex_order(std::span<const double> values);
 
 /// The same with vertices of equal value in the order in which they stand in `before`, a permutation of them.

@@ -53,9 +53,9 @@ CriticalPoint classify_link(const core::TriangleMesh& mesh, core::Index v, const
 /// neighbour, so it is never a maximum. O(degree).
 CriticalPoint classify_vertex(const core::ScalarField& field, core::Index v);
 
-/// All critical points. minima − saddle_multiplicity + maxima = χ(mesh), component by component. O(n), parallel,
-/// the same result for every number of threads. Reads each triangle once, in the order of memory; besides the
-/// result it takes a byte for each vertex and thread (eight at most).
+/// All critical points. minima − saddle_multiplicity + maxima = χ(mesh), component by component. O(n),
+/// parallel, the same result for every number of threads. Reads each triangle once, in the order of memory;
+/// besides the result it takes a byte for each vertex and thread (eight at most).
 CriticalPoints classify(const core::ScalarField& field, const core::Progress& progress = {});
 
 }  // namespace morsel::morse

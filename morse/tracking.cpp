@@ -26,8 +26,8 @@ Index climb(const core::ScalarField& field, Index v, bool rising) {
   }
 }
 
-/// The vertex nearest to v along edges that satisfies `wanted`, the smallest of equally near ones; kNone if there is
-/// none within `reach` (Dijkstra).
+/// The vertex nearest to v along edges that satisfies `wanted`, the smallest of equally near ones; kNone if
+/// there is none within `reach` (Dijkstra).
 template <class Wanted>
 Index nearest(const core::TriangleMesh& mesh, Index v, double reach, const Wanted& wanted) {
   using Entry = std::pair<double, Index>;

@@ -27,12 +27,13 @@ core::Index follow(std::span<core::Index> label, core::Index start, const Next& 
   return found;
 }
 
-/// Marks the label at a way's end for follow_all(). Labels and elements are below 2³¹: a mesh has fewer cells.
+/// Marks the label at a way's end for follow_all(). Labels and elements are below 2³¹: a mesh has fewer
+/// cells.
 inline constexpr core::Index kWayEnd = 0x8000'0000u;
 
 /// Replaces each element of `way` by the label at its way's end. An element holds the next one on its way, or
-/// its label and kWayEnd. O(n), parallel, the same for every number of threads; a single load a step, for ways
-/// may be long and each load waits for the one before.
+/// its label and kWayEnd. O(n), parallel, the same for every number of threads; a single load a step, for
+/// ways may be long and each load waits for the one before.
 inline void follow_all(std::span<core::Index> way) {
   const auto at = [&](core::Index i) { return std::atomic_ref<core::Index>(way[i]); };
   core::parallel_for_each(way.size(), [&](std::size_t start) {

@@ -1,5 +1,6 @@
 #pragma once
-/// The complex as a Boost.Graph graph. The one header that needs Boost: who includes it finds that package, too.
+/// The complex as a Boost.Graph graph. The one header that needs Boost: who includes it finds that package,
+/// too.
 
 #include <boost/graph/adjacency_list.hpp>
 

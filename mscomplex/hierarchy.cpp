@@ -52,8 +52,9 @@ PersistenceHierarchy::PersistenceHierarchy(const core::ScalarField& field, Morse
   progress.update("hierarchy", 1);
 }
 
-/// The elder rule (Edelsbrunner, Letscher, Zomorodian 2002) on the complex alone: its minima and descending arcs are as
-/// connected below any saddle as the sublevel set is, and so are tops and ascending arcs from above.
+/// The elder rule (Edelsbrunner, Letscher, Zomorodian 2002) on the complex alone: its minima and descending
+/// arcs are as connected below any saddle as the sublevel set is, and so are tops and ascending arcs from
+/// above.
 void PersistenceHierarchy::pair_up(const core::ScalarField& field) {
   const auto rank = field.ranks();
   const auto saddles = complex_.gradient().saddles();

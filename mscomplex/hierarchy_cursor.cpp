@@ -56,8 +56,8 @@ void HierarchyCursor::put_back(Index arc) {
   previous_[next_[arc]] = arc;
 }
 
-/// The two arcs contract to one point: whoever turns round the survivor and comes to the arc that leads to the saddle
-/// meets the arcs around the extremum instead, from behind its arc to before it.
+/// The two arcs contract to one point: whoever turns round the survivor and comes to the arc that leads to
+/// the saddle meets the arcs around the extremum instead, from behind its arc to before it.
 void HierarchyCursor::cancel(const Cancellation& c) {
   const Index in = opposite(c.arc);  // at the survivor
   take_out(crossing(c.arc));

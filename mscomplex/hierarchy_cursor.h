@@ -28,7 +28,8 @@ class HierarchyCursor {
   /// The node where an arc ends now. O(log s).
   core::Index arc_end(core::Index arc) const { return hierarchy_->arc_end(arc, level_); }
 
-  // The cyclic order is counter-clockwise, seen from outside, as that of the complex. Around a saddle it never changes.
+  // The cyclic order is counter-clockwise, seen from outside, as that of the complex. Around a saddle it
+  // never changes.
   core::Index next_around_end(core::Index arc) const { return next_[arc]; }
   core::Index previous_around_end(core::Index arc) const { return previous_[arc]; }
   /// One of the arcs that end in an extremum or cap; kNone if none does.

@@ -16,7 +16,8 @@ struct Overlap {
   friend bool operator==(const Overlap&, const Overlap&) = default;
 };
 
-/// The segments of the other segmentation that each segment shares triangles with: a sparse matrix, row by row.
+/// The segments of the other segmentation that each segment shares triangles with: a sparse matrix, row by
+/// row.
 struct OverlapTable {
   std::vector<std::size_t> offset;  ///< per segment, and one
   std::vector<Overlap> entries;     ///< by segment, then by ascending segment of the other
@@ -35,21 +36,21 @@ std::vector<double> triangle_areas(const core::TriangleMesh& mesh);
 std::vector<double> segment_areas(std::span<const core::Index> labels, core::Index count,
                                   std::span<const double> areas);
 
-/// The overlaps of the segments that `labels` names with those that `others` names; both have a label a triangle, below
-/// `count` and `other_count`, and `areas` the triangles' areas. Throws InvalidArgument on other sizes and labels. Areas are
-/// summed in the order of the triangles, so that a segment that lies in one other as a whole shares its segment_areas() to
-/// the bit. O(n log(count · other_count)) by radix sorting; parallel, the same bits for every number of threads. Memory: 32
-/// bytes a triangle while it runs.
+/// The overlaps of the segments that `labels` names with those that `others` names; both have a label a
+/// triangle, below `count` and `other_count`, and `areas` the triangles' areas. Throws InvalidArgument on
+/// other sizes and labels. Areas are summed in the order of the triangles, so that a segment that lies in one
+/// other as a whole shares its segment_areas() to the bit. O(n log(count · other_count)) by radix sorting;
+/// parallel, the same bits for every number of threads. Memory: 32 bytes a triangle while it runs.
 OverlapTable overlaps(std::span<const core::Index> labels, core::Index count,
                       std::span<const core::Index> others, core::Index other_count,
                       std::span<const double> areas);
 
-/// The same table seen from the other segmentation, which has `other_count` segments: the overlaps of its segments with
-/// these. O(entries + other_count).
+/// The same table seen from the other segmentation, which has `other_count` segments: the overlaps of its
+/// segments with these. O(entries + other_count).
 OverlapTable transposed(const OverlapTable& table, core::Index other_count);
 
-/// For each segment the one of the other segmentation that it shares the largest area with, of equally large ones that of
-/// smallest number; kNone for one that no triangle carries. O(entries).
+/// For each segment the one of the other segmentation that it shares the largest area with, of equally large
+/// ones that of smallest number; kNone for one that no triangle carries. O(entries).
 std::vector<Overlap> largest_overlaps(const OverlapTable& table);
 
 }  // namespace morsel::mscomplex

@@ -10,7 +10,8 @@ using core::TriangleMesh;
 
 namespace {
 
-/// Walks along the rims of the discs, counter-clockwise, and labels the triangles whose lowest corner it visits.
+/// Walks along the rims of the discs, counter-clockwise, and labels the triangles whose lowest corner it
+/// visits.
 class DiscWalk {
  public:
   DiscWalk(const core::ScalarField& field, const MorseSmaleComplex& complex, std::vector<Index>& quad)
@@ -39,9 +40,9 @@ class DiscWalk {
     if (here < rank_[mesh_.target(corner)] && here < rank_[mesh_.apex(corner)]) quad_[t] = label;
   }
 
-  /// A corner on the rim and the edge there that is next, counter-clockwise: that of the half-edge, which leaves the
-  /// corner in its triangle; or, in a cap, which runs along its loop the other way, of the boundary half-edge that ends
-  /// there.
+  /// A corner on the rim and the edge there that is next, counter-clockwise: that of the half-edge, which
+  /// leaves the corner in its triangle; or, in a cap, which runs along its loop the other way, of the
+  /// boundary half-edge that ends there.
   struct Place {
     Index halfedge;
     bool in_cap;

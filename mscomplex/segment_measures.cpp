@@ -113,7 +113,8 @@ void add_neighbours(const TriangleMesh& mesh, Segments& result) {
 }  // namespace
 
 void measure_segments(const TriangleMesh& mesh, Segments& result) {
-  // Sums over triangles run in their order, for the same bits whatever the number of threads: one thread each.
+  // Sums over triangles run in their order, for the same bits whatever the number of threads: one thread
+  // each.
   const std::array<std::function<void()>, 2> sums = {[&] { add_triangles(mesh, result); },
                                                      [&] { add_vertices_and_mesh_boundary(mesh, result); }};
   core::parallel_for(0, sums.size(), 1, [&](std::size_t i, std::size_t) { sums[i](); });

@@ -119,8 +119,8 @@ std::vector<Index> Segmenter::extremum_classes(Index level) const {
   return class_of;
 }
 
-/// Calls visit(a, b) for the quads that a cancellation joins: those on both sides of the arcs of the other kind at its
-/// saddle.
+/// Calls visit(a, b) for the quads that a cancellation joins: those on both sides of the arcs of the other
+/// kind at its saddle.
 template <class Visit>
 void Segmenter::for_each_join(const Cancellation& c, const Visit& visit) const {
   const MorseSmaleComplex& complex = hierarchy_.complex();
@@ -300,8 +300,9 @@ std::array<Index, 4> Segmenter::labels_around(Index saddle) const {
   return {a - first, b - first, a - first, b - first};
 }
 
-/// A segment that a saddle is joined to has a triangle beside the saddle's vertex: one that has its critical edge, or one
-/// that has the edge by which its vertex descends. Of the pieces of a cap's region, those that have one.
+/// A segment that a saddle is joined to has a triangle beside the saddle's vertex: one that has its critical
+/// edge, or one that has the edge by which its vertex descends. Of the pieces of a cap's region, those that
+/// have one.
 void Segmenter::find_saddles(const Merged& merged, Segments& result) const {
   const MorseSmaleComplex& complex = hierarchy_.complex();
   const TriangleMesh& mesh = complex.mesh();

@@ -39,8 +39,8 @@ struct SegmentNeighbour {
   double length = 0;  ///< the same bits seen from either side
 };
 
-/// A partition of the triangles into connected segments, numbered by minimum, then top (each as the node's number has
-/// it), then smallest triangle. A vertex has the segment of one of the triangles beside it.
+/// A partition of the triangles into connected segments, numbered by minimum, then top (each as the node's
+/// number has it), then smallest triangle. A vertex has the segment of one of the triangles beside it.
 struct Segments {
   SegmentKind kind = SegmentKind::descending;
   core::Index level = 0;  ///< of the hierarchy
@@ -54,8 +54,8 @@ struct Segments {
   std::span<const SegmentNeighbour> neighbours(core::Index s) const {
     return std::span(neighbour).subspan(neighbour_offset[s], neighbour_offset[s + 1] - neighbour_offset[s]);
   }
-  /// The saddle vertices where one or several saddles that are alive at the level are joined by arcs to the segment's
-  /// minimum or top, or are corners of its quad; ascending, each once.
+  /// The saddle vertices where one or several saddles that are alive at the level are joined by arcs to the
+  /// segment's minimum or top, or are corners of its quad; ascending, each once.
   std::span<const core::Index> saddles(core::Index s) const {
     return std::span(saddle).subspan(saddle_offset[s], saddle_offset[s + 1] - saddle_offset[s]);
   }
@@ -66,9 +66,9 @@ struct Segments {
   std::vector<core::Index> saddle;
 };
 
-/// Cuts a surface into segments (Natarajan, Wang, Bremer, Pascucci, Hamann 2006, "Segmenting molecular surfaces"), small
-/// ones merged by persistence: where a minimum or maximum is cancelled, its segment goes to the extremum that takes over
-/// its arcs.
+/// Cuts a surface into segments (Natarajan, Wang, Bremer, Pascucci, Hamann 2006, "Segmenting molecular
+/// surfaces"), small ones merged by persistence: where a minimum or maximum is cancelled, its segment goes to
+/// the extremum that takes over its arcs.
 ///
 /// A triangle flows to a maximum or cap and a vertex to a minimum, as segmentation.h says; a triangle has the
 /// minimum of its lowest vertex. Merged labels are those of the extrema that survive. What every kind is
@@ -80,36 +80,37 @@ struct Segments {
 /// | ascending | minimum alive | vertices along edges; closed triangles |
 /// | morse_smale | quad alive that has a triangle, and piece of one at a cap | closed triangles |
 ///
-/// "Closed triangles" are those that share an edge or a vertex: ascending regions are made of vertices, and where one is a
-/// single vertex wide its triangles may touch in that vertex only. A region of a cap is all that flows out of the
-/// surface through one boundary loop; often it falls into pieces, of which each is a segment. Of minimum and top
-/// together several quads may have both; each is a segment of its own (quad_regions.h), and cancelling a minimum joins
-/// the quads on both sides of its saddle's ascending arcs, cancelling a maximum those of the descending ones. A
-/// component without saddles is one segment.
+/// "Closed triangles" are those that share an edge or a vertex: ascending regions are made of vertices, and
+/// where one is a single vertex wide its triangles may touch in that vertex only. A region of a cap is all
+/// that flows out of the surface through one boundary loop; often it falls into pieces, of which each is a
+/// segment. Of minimum and top together several quads may have both; each is a segment of its own
+/// (quad_regions.h), and cancelling a minimum joins the quads on both sides of its saddle's ascending arcs,
+/// cancelling a maximum those of the descending ones. A component without saddles is one segment.
 ///
-/// Vertices: ascending, that of the vertex's own minimum; descending, that of the highest triangle beside it where
-/// that is in one piece; morse_smale, one of the triangles beside it that have its minimum, and its maximum if possible.
+/// Vertices: ascending, that of the vertex's own minimum; descending, that of the highest triangle beside it
+/// where that is in one piece; morse_smale, one of the triangles beside it that have its minimum, and its
+/// maximum if possible.
 ///
 /// Immutable; safe to read from any number of threads. Memory: 6 bytes a triangle, and 12 a segment before
 /// merging.
 class Segmenter {
  public:
-  /// `hierarchy` must be the field's own (throws InvalidArgument if it is on another mesh); it is referred to. O(n),
-  /// parallel.
+  /// `hierarchy` must be the field's own (throws InvalidArgument if it is on another mesh); it is referred
+  /// to. O(n), parallel.
   Segmenter(const core::ScalarField& field, const PersistenceHierarchy& hierarchy, SegmentKind kind,
             const core::Progress& progress = {});
 
   const PersistenceHierarchy& hierarchy() const { return hierarchy_; }
   SegmentKind kind() const { return kind_; }
 
-  /// The number of segments at a level; it never grows with it. O(1) if ascending, or if descending on a closed mesh;
-  /// otherwise O(n), parallel.
+  /// The number of segments at a level; it never grows with it. O(1) if ascending, or if descending on a
+  /// closed mesh; otherwise O(n), parallel.
   core::Index count(core::Index level) const;
-  /// The first level with at most `wanted` segments, or the last one if there are never so few. O(log s) counts,
-  /// or less.
+  /// The first level with at most `wanted` segments, or the last one if there are never so few. O(log s)
+  /// counts, or less.
   core::Index level_with(core::Index wanted) const;
-  /// The segments at a level. O(n) but for sorting each segment's border, parallel; the same bits for every number of
-  /// threads. Throws InvalidArgument if there is no such level.
+  /// The segments at a level. O(n) but for sorting each segment's border, parallel; the same bits for every
+  /// number of threads. Throws InvalidArgument if there is no such level.
   Segments segments(core::Index level, const core::Progress& progress = {}) const;
 
  private:

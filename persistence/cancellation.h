@@ -20,8 +20,8 @@ struct CancellationOptions {
   /// Pairs of at most this persistence are cancelled. The paper's choice.
   Threshold threshold = Threshold::percent(0.1);
   /// If set, the threshold is ignored, and as many pairs are cancelled, in the order of Diagram::pairs, as
-  /// bring the critical points of the field (minima + saddle vertices + maxima) down to this number, or else to the
-  /// nearest below it.
+  /// bring the critical points of the field (minima + saddle vertices + maxima) down to this number, or else
+  /// to the nearest below it.
   std::optional<std::size_t> count;
 };
 

@@ -80,8 +80,9 @@ inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// of its pairs, kInfinite for what is essential or paired with a cap; 0 at regular vertices. O(n).
 std::vector<double> vertex_persistence(const Diagram& diagram, Index vertex_count);
 
-/// The extrema by falling persistence: first the essential ones, by component, its minimum before its maximum, then
-/// those of the pairs from the last to the first; `count` of them, or all that there are. Caps are left out. O(n).
+/// The extrema by falling persistence: first the essential ones, by component, its minimum before its
+/// maximum, then those of the pairs from the last to the first; `count` of them, or all that there are. Caps
+/// are left out. O(n).
 std::vector<Index> persistent_extrema(const Diagram& diagram, std::size_t count);
 
 }  // namespace morsel::persistence

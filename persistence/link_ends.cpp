@@ -16,7 +16,8 @@ using core::kNone;
 constexpr std::size_t kTriangles = std::size_t{1} << 13;  // a chunk
 constexpr std::size_t kSaddles = 128;                     // whose links are walked, a chunk
 
-/// Calls visit(lowest, middle, highest) for the triangles around v, of the surface and of its cap, of which it is the middle.
+/// Calls visit(lowest, middle, highest) for the triangles around v, of the surface and of its cap, of which
+/// it is the middle.
 template <class Visit>
 void for_each_change(const core::ScalarField& field, Index v, const Visit& visit) {
   const core::TriangleMesh& mesh = field.mesh();

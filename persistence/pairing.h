@@ -16,9 +16,9 @@ namespace morsel::persistence {
 /// Only critical vertices count: they come from one pass over the triangles, and each end of a run in a
 /// saddle's link is followed to an extremum, which is connected to it below (or above) the saddle. Union-find
 /// over the extrema then takes the saddles in order (as extremum graphs do: Guillou, Vidal, Tierny 2023,
-/// "Discrete Morse sandwich", for the pairs of extrema). O(n) and O(s α(s)) in the number of saddles, parallel
-/// but for the union-find, whose two sweeps run side by side; the same result for every number of threads.
-/// Temporary memory: some 20 bytes a vertex and 80 a saddle.
+/// "Discrete Morse sandwich", for the pairs of extrema). O(n) and O(s α(s)) in the number of saddles,
+/// parallel but for the union-find, whose two sweeps run side by side; the same result for every number of
+/// threads. Temporary memory: some 20 bytes a vertex and 80 a saddle.
 Diagram pair_extrema(const core::ScalarField& field, const core::Progress& progress = {});
 
 }  // namespace morsel::persistence

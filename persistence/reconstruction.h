@@ -24,9 +24,9 @@ struct Releveled {
 /// Floods f from the minima that `roles` names: each vertex rises to the lowest value over which it reaches
 /// one. Then carves the result from the maxima that it names and from the boundary: each vertex falls to the
 /// highest value over which it reaches one of these. (Reconstruction by erosion and by dilation: Vincent
-/// 1993, "Morphological grayscale reconstruction in image analysis".) `sweeps` are those of f. Needs a minimum
-/// in every component, and a maximum in every closed one. Time: O(m α(m)) in the number of extrema, and what
-/// is linear in the neighbourhood of the vertices that move; parallel over the regions that move.
+/// 1993, "Morphological grayscale reconstruction in image analysis".) `sweeps` are those of f. Needs a
+/// minimum in every component, and a maximum in every closed one. Time: O(m α(m)) in the number of extrema,
+/// and what is linear in the neighbourhood of the vertices that move; parallel over the regions that move.
 Releveled reconstruct(const core::ScalarField& f, const Sweeps& sweeps, std::span<const Role> roles,
                       const core::Progress& progress);
 

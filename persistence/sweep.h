@@ -45,8 +45,8 @@ struct Sweeps {
   Sweep down;                   ///< the basins of maxima and caps
 };
 
-/// O(n) and O(s α(s)) in the number of saddles, all of it parallel but the union-find. The result refers to the
-/// field.
+/// O(n) and O(s α(s)) in the number of saddles, all of it parallel but the union-find. The result refers to
+/// the field.
 Sweeps sweep(const core::ScalarField& field, const core::Progress& progress = {});
 
 /// The diagram of the field from its sweeps, but with the finite pairs in the order of the sweeps; O(n).

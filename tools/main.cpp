@@ -81,12 +81,14 @@ int run(std::vector<std::string> words, std::stop_token stop) {
     return show(program_help(program.commands));
   if (words[0] == "--version") return show("morsel " + std::string(kVersion) + "\n");
   if (words[0] == "help") return show(command_help(chosen(program.commands, words[1])));
-  if (find(program.commands, words[0]) == nullptr && is_file(words[0])) words.insert(words.begin(), "compare");
+  if (find(program.commands, words[0]) == nullptr && is_file(words[0]))
+    words.insert(words.begin(), "compare");
   if (words[0].starts_with('-'))
     throw core::InvalidArgument("the options of a command come after it, and " + words[0] +
                                 " came before (morsel --help lists the commands)");
   Command& command = chosen(program.commands, words[0]);
-  if (std::any_of(words.begin() + 1, std::ranges::find(words, "--"), is_help)) return show(command_help(command));
+  if (std::any_of(words.begin() + 1, std::ranges::find(words, "--"), is_help))
+    return show(command_help(command));
 
   std::vector<std::string> typed = words;
   typed.insert(typed.begin(), "morsel");

@@ -58,8 +58,8 @@ std::optional<Quadric> fit(std::span<const Point> points) {
                  solution[2] / largest};
 }
 
-/// Of the graph of the quadric at the origin, positive where it bends away from z: the eigenvalues of L⁻¹ II L⁻ᵀ
-/// with I = L Lᵀ, the first and second fundamental forms.
+/// Of the graph of the quadric at the origin, positive where it bends away from z: the eigenvalues of L⁻¹ II
+/// L⁻ᵀ with I = L Lᵀ, the first and second fundamental forms.
 std::pair<double, double> curvatures(const Quadric& q) {
   const double stretch = std::sqrt(1 + q.d * q.d + q.e * q.e);
   const double l11 = std::sqrt(1 + q.d * q.d);

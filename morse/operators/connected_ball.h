@@ -10,10 +10,10 @@
 
 namespace morsel::morse {
 
-/// The balls ‖x − v‖ ≤ radius around the vertices of a surface, of each only what can be reached from v along edges
-/// whose ends all lie in the ball: the other side of a thin part, a near finger, is left out. Distances are
-/// Euclidean, in double precision, inclusive and compared as lengths. Immutable; keeps what it needs of the mesh,
-/// about 70 bytes a vertex. May be read from any number of threads, each of which needs a Walk.
+/// The balls ‖x − v‖ ≤ radius around the vertices of a surface, of each only what can be reached from v along
+/// edges whose ends all lie in the ball: the other side of a thin part, a near finger, is left out. Distances
+/// are Euclidean, in double precision, inclusive and compared as lengths. Immutable; keeps what it needs of
+/// the mesh, about 70 bytes a vertex. May be read from any number of threads, each of which needs a Walk.
 class ConnectedBalls {
  public:
   /// O(n), parallel.
@@ -30,8 +30,8 @@ class ConnectedBalls {
     /// Replaces `found` by as much of v's ball as that search finds until there are more than `most`
     /// vertices.
     void begin(core::Index v, double radius, std::size_t most, std::vector<core::Index>& found);
-    /// Adds to what within() has just found the neighbours of all of these, ring by ring, until there are at least
-    /// `least` vertices or the component has no more.
+    /// Adds to what within() has just found the neighbours of all of these, ring by ring, until there are at
+    /// least `least` vertices or the component has no more.
     void widen(std::size_t least, std::vector<core::Index>& found);
 
    private:

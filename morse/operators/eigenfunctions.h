@@ -20,22 +20,26 @@ struct Eigenfunction {
 /// How many of them are not constant on a component: vertices − components.
 core::Index nonconstant_eigenfunction_count(const core::TriangleMesh& mesh);
 
-/// Of the generalised eigenproblem with the cotangent Laplacian L of linear finite elements and the diagonal M of each
-/// vertex's third of its triangles' areas, the `count` functions with the smallest λ, ascending; constants (λ = 0,
-/// one for each component) are left out. They are orthonormal in M and orthogonal to the constants. At boundaries the
-/// conditions are natural (Neumann: no flux). Triangles without area get one as edge_lengths.h says.
+/// Of the generalised eigenproblem with the cotangent Laplacian L of linear finite elements and the diagonal
+/// M of each vertex's third of its triangles' areas, the `count` functions with the smallest λ, ascending;
+/// constants (λ = 0, one for each component) are left out. They are orthonormal in M and orthogonal to the
+/// constants. At boundaries the conditions are natural (Neumann: no flux). Triangles without area get one as
+/// edge_lengths.h says.
 ///
 /// What is not given by the equation is settled so that mesh and vertex numbers alone determine the result:
-/// - Every function lives on one component. Equal eigenvalues (within 1e-8 of their size) of different components are
+/// - Every function lives on one component. Equal eigenvalues (within 1e-8 of their size) of different
+/// components are
 ///   ordered by component.
-/// - Of equal eigenvalues of one component, as symmetries bring, the functions are only a basis, and any other would
-///   do: here the first is the one that is largest at the vertex where the most is to be had, and what is left, 0 at
-///   that vertex, is treated alike. Most is the largest Σ φ² over the basis; within 1e-6 of it the smallest vertex
-///   counts. A single function is thus positive where it is largest in magnitude.
+/// - Of equal eigenvalues of one component, as symmetries bring, the functions are only a basis, and any
+/// other would
+///   do: here the first is the one that is largest at the vertex where the most is to be had, and what is
+///   left, 0 at that vertex, is treated alike. Most is the largest Σ φ² over the basis; within 1e-6 of it the
+///   smallest vertex counts. A single function is thus positive where it is largest in magnitude.
 ///
-/// n^1.5 for a factorisation, then about n log n for each function and n `count`² for keeping them orthogonal; memory of
-/// some 20 n `count` bytes. Serial, the same bits each time. Throws BadInput if `count` is more than
-/// nonconstant_eigenfunction_count(), if the surface has no extent and if the iteration does not converge.
+/// n^1.5 for a factorisation, then about n log n for each function and n `count`² for keeping them
+/// orthogonal; memory of some 20 n `count` bytes. Serial, the same bits each time. Throws BadInput if `count`
+/// is more than nonconstant_eigenfunction_count(), if the surface has no extent and if the iteration does not
+/// converge.
 std::vector<Eigenfunction> eigenfunctions(const core::TriangleMesh& mesh, std::size_t count,
                                           const core::Progress& progress = {});
 

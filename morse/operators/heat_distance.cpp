@@ -56,7 +56,8 @@ SparseMatrix heat_matrix(const TriangleMesh& mesh, const SparseMatrix& laplacian
   return matrix;
 }
 
-/// Fixes φ at one vertex of each component. As right sides sum to 0 there, φ becomes 0 at it, and nothing else changes.
+/// Fixes φ at one vertex of each component. As right sides sum to 0 there, φ becomes 0 at it, and nothing
+/// else changes.
 SparseMatrix poisson_matrix(const TriangleMesh& mesh, const SparseMatrix& laplacian) {
   SparseMatrix matrix = laplacian;
   std::vector<bool> fixed(mesh.component_count());
@@ -136,8 +137,8 @@ std::vector<double> HeatDistance::Operators::heat(std::span<const Index> sources
   return u;
 }
 
-/// Σ over v's triangles of area · X·∇(hat function of v). With the triangle's part S of the Laplacian, ∇u·∇hat_i · area
-/// is (S u)_i and ‖∇u‖² · area is uᵀ S u.
+/// Σ over v's triangles of area · X·∇(hat function of v). With the triangle's part S of the Laplacian,
+/// ∇u·∇hat_i · area is (S u)_i and ‖∇u‖² · area is uᵀ S u.
 std::vector<double> HeatDistance::Operators::divergence(const std::vector<double>& heat) const {
   std::vector<double> result(heat.size(), 0.0);
   for (const auto& [corner, weight, area] : elements) {

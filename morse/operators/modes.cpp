@@ -23,8 +23,8 @@ using Eigen::VectorXd;
 constexpr Index kSmall = 256;
 constexpr Index kMostDense = 2048;
 
-/// The shift, where the lowest eigenvalue of a round surface is 8π: without the constants, which are projected out, it
-/// only has to keep the factorisation away from the singular.
+/// The shift, where the lowest eigenvalue of a round surface is 8π: without the constants, which are
+/// projected out, it only has to keep the factorisation away from the singular.
 constexpr double kShift = 1e-3;
 
 constexpr double kAccuracy = 1e-12;  ///< residuals, relative to the inverse's eigenvalues

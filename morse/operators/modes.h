@@ -18,13 +18,14 @@ struct Modes {
   Eigen::MatrixXd vectors;
 };
 
-/// Modes of the Laplacian L, positive semi-definite with the constants as its kernel, and the diagonal M of the positive
-/// `mass`, which sums to about 1: the `count` lowest without the constant one, and all whose eigenvalues equal the last
-/// of these; `count` < rows. Of equal eigenvalues all are found, the basis is arbitrary but the same each time.
+/// Modes of the Laplacian L, positive semi-definite with the constants as its kernel, and the diagonal M of
+/// the positive `mass`, which sums to about 1: the `count` lowest without the constant one, and all whose
+/// eigenvalues equal the last of these; `count` < rows. Of equal eigenvalues all are found, the basis is
+/// arbitrary but the same each time.
 ///
-/// A dense solver for small matrices, else Lanczos on the inverse with a small shift (Spectra), again on what is
-/// orthogonal to all modes found until nothing lower is left there: one Krylov space alone holds one mode of each
-/// eigenvalue. Serial. Throws BadInput if it does not converge.
+/// A dense solver for small matrices, else Lanczos on the inverse with a small shift (Spectra), again on what
+/// is orthogonal to all modes found until nothing lower is left there: one Krylov space alone holds one mode
+/// of each eigenvalue. Serial. Throws BadInput if it does not converge.
 Modes lowest_modes(const SparseMatrix& laplacian, std::span<const double> mass, Eigen::Index count,
                    const core::Progress& progress);
 

@@ -5,8 +5,8 @@
 
 namespace morsel::morse {
 
-/// A surface whose coordinates were divided by 2^exponent: the largest side of its box is between 1 and 2 (the
-/// exponent is 0 if all vertices coincide). No digit changes, so what is computed on it scales exactly.
+/// A surface whose coordinates were divided by 2^exponent: the largest side of its box is between 1 and 2
+/// (the exponent is 0 if all vertices coincide). No digit changes, so what is computed on it scales exactly.
 struct UnitSized {
   core::TriangleMesh mesh;
   int exponent;

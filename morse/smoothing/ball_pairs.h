@@ -12,8 +12,8 @@
 namespace morsel::morse {
 
 /// All pairs (v, x) of a chunk of consecutive blocks, its tiles, with ‖x − v‖ ≤ radius, each pair of points
-/// once: v in a tile, x behind it in the tree's order. Most blocks within reach lie there wholly and are kept as
-/// runs, 8 bytes each; the others have a bit per pair.
+/// once: v in a tile, x behind it in the tree's order. Most blocks within reach lie there wholly and are kept
+/// as runs, 8 bytes each; the others have a bit per pair.
 template <class Mask>
 struct BallPairs {
   std::vector<std::uint32_t>
@@ -31,7 +31,8 @@ struct BallPairs {
 };
 
 /// Finds such pairs. The computed distance is compared with the radius as lengths, inclusively, in double
-/// precision and with the same roundings for every instruction set. Reading is safe from any number of threads.
+/// precision and with the same roundings for every instruction set. Reading is safe from any number of
+/// threads.
 template <class Mask>
 class BallSearch {
  public:

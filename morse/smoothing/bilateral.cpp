@@ -30,7 +30,8 @@ constexpr double kWide = 16;
 /// Nothing that counts is farther, in units of σ or σ_s, and squares stay finite.
 template <class Real>
 constexpr double kFar = std::is_same_v<Real, float> ? 1e15 : 1e150;
-/// Values in float32 kernels are integers, up to ± kMost, so that differences have at most kBits bits and a sign.
+/// Values in float32 kernels are integers, up to ± kMost, so that differences have at most kBits bits and a
+/// sign.
 constexpr int kBits = 31;
 constexpr double kMost = (1 << (kBits - 1)) - 1;
 
@@ -139,8 +140,8 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
                             [&](std::size_t i) { sorted[i] = values[order[std::min(i, order.size() - 1)]]; });
   }
 
-  /// Steps of values for the float32 kernels, relative to the middle of the values. Where σ_s is fixed, its unit is
-  /// a power of two in steps, which a float holds exactly.
+  /// Steps of values for the float32 kernels, relative to the middle of the values. Where σ_s is fixed, its
+  /// unit is a power of two in steps, which a float holds exactly.
   void choose_step(std::optional<double> sigma_s) {
     if (!std::is_same_v<Real, float> || values_.empty()) return;
     const auto [least, most] = std::minmax_element(values_.begin(), values_.end());

@@ -1,6 +1,6 @@
 #pragma once
-/// The inner loops of sums over cells, one set of functions for each instruction set. What pair_kernels.h says of
-/// shared code holds here too.
+/// The inner loops of sums over cells, one set of functions for each instruction set. What pair_kernels.h
+/// says of shared code holds here too.
 
 #include <cstddef>
 #include <cstdint>
@@ -56,19 +56,20 @@ struct PointBlocks {
 };
 
 struct CellKernels {
-  /// weights[i] = e^{−y²} on the grid, for 16 values in steps of the grid from its middle place (number 8 · panels).
+  /// weights[i] = e^{−y²} on the grid, for 16 values in steps of the grid from its middle place (number 8 ·
+  /// panels).
   void (*weigh)(const CellKernelOptions& options, const float* values, float* weights);
   /// moments[m] += Σ over the points of monomial m of −at, times their weights.
   void (*gather)(const CellKernelOptions& options, const CellPoints& points, const float* weights,
                  float* moments);
-  /// local[m] += Σ over `count` cells, Σ over m2 of moments[m2] times the derivative m + m2 of the Gaussian at the
-  /// cell's offset (x, y, z each). The m are those of the order, and so are m + m2.
+  /// local[m] += Σ over `count` cells, Σ over m2 of moments[m2] times the derivative m + m2 of the Gaussian
+  /// at the cell's offset (x, y, z each). The m are those of the order, and so are m + m2.
   void (*translate)(const CellKernelOptions& options, const float* const* moments, const CellOffset* offsets,
                     std::size_t count, float* local);
   /// sums[i] += Σ over m of monomial m of at, times local[m].
   void (*spread)(const CellKernelOptions& options, const CellPoints& points, const float* local, float* sums);
-  /// For each of 16 points: Σ u, Σ u y, Σ u y² over the grid, y from the point up to the place in units of σ_s, and
-  /// u its weights times its sums: results[0 … 2][16].
+  /// For each of 16 points: Σ u, Σ u y, Σ u y² over the grid, y from the point up to the place in units of
+  /// σ_s, and u its weights times its sums: results[0 … 2][16].
   void (*finish)(const CellKernelOptions& options, const float* values, const float* weights,
                  const float* sums, float (*results)[16]);
   /// Adds Σ w, Σ w d, Σ w d² over the points of the blocks that lie within the radius, in double precision.

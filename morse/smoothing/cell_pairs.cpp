@@ -71,8 +71,8 @@ CellPairs::CellPairs(const BlockTree& tree, const Options& options, const core::
     : tree_(tree) {
   const double scale = std::ldexp(1.0, -tree.exponent());
   const double per_sigma = 1 / (options.sigma * scale);
-  // Largest error of the polynomial where the radii of two cells add up to `reach` σ, relative to the least weight
-  // within the radius, or to that at 2 σ if it is beyond.
+  // Largest error of the polynomial where the radii of two cells add up to `reach` σ, relative to the least
+  // weight within the radius, or to that at 2 σ if it is beyond.
   const double support = std::min(options.radius / options.sigma, 2.0);
   const double least_weight = std::exp(-support * support / 2);
   const auto error_of = [&](int order, double reach) {

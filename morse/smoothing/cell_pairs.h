@@ -13,7 +13,8 @@
 
 namespace morsel::morse {
 
-/// The cells of one depth of a block tree, and for each of them the cells of that depth with which it is a pair.
+/// The cells of one depth of a block tree, and for each of them the cells of that depth with which it is a
+/// pair.
 struct CellLayer {
   int order = 0;                      ///< of the expansion of the weight of distances
   std::size_t points = 0;             ///< a cell holds, about
@@ -28,10 +29,11 @@ struct CellLayer {
   }
 };
 
-/// Splits all pairs of points within a radius into pairs of cells and a rest. Two cells of the same depth are a
-/// pair if every two of their points lie within the radius, if the Gaussian of the distance is within `tolerance`
-/// of its Taylor polynomial of the depth's order about the centres, relatively, and if none of the cells that
-/// contain them are a pair. Depths count where that takes less work than visiting the pairs of points.
+/// Splits all pairs of points within a radius into pairs of cells and a rest. Two cells of the same depth are
+/// a pair if every two of their points lie within the radius, if the Gaussian of the distance is within
+/// `tolerance` of its Taylor polynomial of the depth's order about the centres, relatively, and if none of
+/// the cells that contain them are a pair. Depths count where that takes less work than visiting the pairs of
+/// points.
 class CellPairs {
  public:
   struct Options {
@@ -46,8 +48,8 @@ class CellPairs {
 
   /// Only those with pairs.
   std::span<const CellLayer> layers() const { return layers_; }
-  /// The ranges of blocks in which the rest of what a block reaches must lie, ascending; all ranges of blocks where
-  /// there are no layers.
+  /// The ranges of blocks in which the rest of what a block reaches must lie, ascending; all ranges of blocks
+  /// where there are no layers.
   void rest(std::size_t block, std::vector<std::pair<std::uint32_t, std::uint32_t>>& ranges) const;
   /// Pairs of points (v, x) in pairs of cells.
   std::uint64_t point_pairs() const;

@@ -70,8 +70,8 @@ bool hold_more(const TriangleMesh& mesh, double radius, std::size_t most, const 
   return sum > limit;
 }
 
-/// The median over the vertices of the standard deviation of n · (x − v) in their balls; of two middle ones the
-/// lower.
+/// The median over the vertices of the standard deviation of n · (x − v) in their balls; of two middle ones
+/// the lower.
 double typical_deviation(const TriangleMesh& mesh, const Balls& balls, const core::Progress& progress) {
   const std::vector<Point> normals = vertex_normals(mesh);
   std::vector<double> deviation(mesh.vertex_count());

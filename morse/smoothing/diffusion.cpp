@@ -14,7 +14,8 @@ namespace {
 
 using core::InvalidArgument;
 
-/// Calls visit(i, Σ_j w_ij (f_j − f_i), Σ_j |w_ij|) for each row. By differences, so that a constant gives exactly 0.
+/// Calls visit(i, Σ_j w_ij (f_j − f_i), Σ_j |w_ij|) for each row. By differences, so that a constant gives
+/// exactly 0.
 template <class Visit>
 void for_each_difference(const SparseMatrix& laplacian, std::span<const double> f, const Visit& visit) {
   const int* const start = laplacian.outerIndexPtr();

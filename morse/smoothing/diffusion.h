@@ -1,5 +1,6 @@
 #pragma once
-/// Laplacian smoothing: diffusion of a scalar field over the surface, the smoothing that the paper holds itself against.
+/// Laplacian smoothing: diffusion of a scalar field over the surface, the smoothing that the paper holds
+/// itself against.
 
 #include <cstdint>
 #include <memory>
@@ -19,15 +20,16 @@ namespace morsel::morse {
 ///
 ///   f_i ← f_i + λ Σ_j w_ij (f_j − f_i) / Σ_j |w_ij|
 ///
-/// (Taubin 1995, "A signal processing approach to fair surface design", as Ni, Garland, Hart 2004 use it on functions).
-/// Magnitudes below the line, since cotangents may be negative: a step stays bounded. With weights that are not negative
-/// and λ ≤ 1 no value leaves the range of its neighbours and itself. A vertex whose weights are all 0 keeps its value.
+/// (Taubin 1995, "A signal processing approach to fair surface design", as Ni, Garland, Hart 2004 use it on
+/// functions). Magnitudes below the line, since cotangents may be negative: a step stays bounded. With
+/// weights that are not negative and λ ≤ 1 no value leaves the range of its neighbours and itself. A vertex
+/// whose weights are all 0 keeps its value.
 class ExplicitDiffusion {
  public:
   /// 0 < lambda ≤ 1; throws InvalidArgument otherwise. O(edges), parallel.
   ExplicitDiffusion(const core::TriangleMesh& mesh, EdgeWeights weights, double lambda);
-  /// The field after one step. O(edges), parallel, the same bits for every number of threads; a constant stays exactly
-  /// as it is.
+  /// The field after one step. O(edges), parallel, the same bits for every number of threads; a constant
+  /// stays exactly as it is.
   std::vector<double> step(std::span<const double> values) const;
 
  private:
@@ -35,16 +37,17 @@ class ExplicitDiffusion {
   double lambda_;
 };
 
-/// One implicit (backward Euler) step of the heat equation over the time t, stable for every t (Desbrun, Meyer,
-/// Schröder, Barr 1999, "Implicit fairing of irregular meshes using diffusion and curvature flow"):
+/// One implicit (backward Euler) step of the heat equation over the time t, stable for every t (Desbrun,
+/// Meyer, Schröder, Barr 1999, "Implicit fairing of irregular meshes using diffusion and curvature flow"):
 ///
 ///   (M + t L) f' = M f, with the barycentric vertex areas M and the weighted Laplacian L.
 ///
 /// Its matrix is factorised once. ∫f (the sum of f_i M_i) is kept.
 class ImplicitDiffusion {
  public:
-  /// `time` is in squared units of length, above 0 and finite; throws InvalidArgument otherwise, and BadInput if a mesh
-  /// with degenerate triangles has no solution. With uniform weights the unit of time is that of M: squared length too.
+  /// `time` is in squared units of length, above 0 and finite; throws InvalidArgument otherwise, and BadInput
+  /// if a mesh with degenerate triangles has no solution. With uniform weights the unit of time is that of M:
+  /// squared length too.
   ImplicitDiffusion(const core::TriangleMesh& mesh, EdgeWeights weights, double time,
                     const core::Progress& progress = {});
   /// The field after the time t. O(n log n); a constant stays exactly as it is.
@@ -57,8 +60,8 @@ class ImplicitDiffusion {
 };
 
 /// The method "laplacian". Keys: those of StopCriteria (10 iterations), scheme=explicit|implicit,
-/// weights=uniform|cotangent|clamped, lambda (explicit) and time (implicit: of one iteration, given as the length ℓ by
-/// which heat spreads in it, ℓ² = 2 t being the variance of the heat kernel).
+/// weights=uniform|cotangent|clamped, lambda (explicit) and time (implicit: of one iteration, given as the
+/// length ℓ by which heat spreads in it, ℓ² = 2 t being the variance of the heat kernel).
 std::unique_ptr<core::Method> make_laplacian(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

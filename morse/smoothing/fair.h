@@ -14,8 +14,10 @@ namespace morsel::morse {
 
 /// What the chosen extrema are held at.
 enum class FairValues : std::uint8_t {
-  ends,  ///< all minima at the input's least value, all maxima at its greatest: then they are the extrema, exactly
-  input  ///< each at its own value: a minimum in a high place becomes a maximum there, others no extremum at all
+  ends,  ///< all minima at the input's least value, all maxima at its greatest: then they are the extrema,
+         ///< exactly
+  input  ///< each at its own value: a minimum in a high place becomes a maximum there, others no extremum at
+         ///< all
 };
 
 struct FairOptions {
@@ -36,33 +38,36 @@ struct FairResult {
 /// The persistence cancellation of MethodContext::cancel.
 using Cancel = std::function<core::ScalarField(const core::ScalarField& field, double threshold)>;
 
-/// A field g that is harmonic, Σ_j w_ij (g_i − g_j) = 0, at all vertices but the chosen `extrema` of `input`, where it
-/// has the values that the options say (Ni, Garland, Hart 2004, "Fair Morse functions for extracting the topological
-/// structure of a surface mesh").
+/// A field g that is harmonic, Σ_j w_ij (g_i − g_j) = 0, at all vertices but the chosen `extrema` of `input`,
+/// where it has the values that the options say (Ni, Garland, Hart 2004, "Fair Morse functions for extracting
+/// the topological structure of a surface mesh").
 ///
-/// A harmonic value is a mean of its neighbours' as long as no weight is negative, so it is no extremum. Hence the
-/// clamped weights: cotangents are negative beyond obtuse angles. (After intrinsic Delaunay flips they are not, but
-/// then along other edges than those that decide what is an extremum of this mesh.)
+/// A harmonic value is a mean of its neighbours' as long as no weight is negative, so it is no extremum.
+/// Hence the clamped weights: cotangents are negative beyond obtuse angles. (After intrinsic Delaunay flips
+/// they are not, but then along other edges than those that decide what is an extremum of this mesh.)
 ///
-/// A boundary is free (natural conditions) where its component has a chosen maximum. A bounded component needs none,
-/// since its caps are maxima at +∞; if it has none, each of its caps is held at the input's greatest value and joined
-/// to the vertices of its loop by weight 1, or g would be constant.
+/// A boundary is free (natural conditions) where its component has a chosen maximum. A bounded component
+/// needs none, since its caps are maxima at +∞; if it has none, each of its caps is held at the input's
+/// greatest value and joined to the vertices of its loop by weight 1, or g would be constant.
 ///
-/// Far from the extrema, in a finger of the surface say, g is flat to within rounding, and there solutions have extrema
-/// by the dozen. They are cancelled: with the chosen extrema moved far outside of the range of all other values,
-/// nothing but them persists, whatever their own persistence. So the extrema of the result are exactly the chosen ones,
-/// and the order of the vertices that comes with it is part of it. With FairValues::input, where chosen extrema must
-/// stay where they are, the smallest threshold from 0, 10⁻¹⁵, 10⁻¹⁴ … of the extent is taken that leaves no extremum elsewhere.
+/// Far from the extrema, in a finger of the surface say, g is flat to within rounding, and there solutions
+/// have extrema by the dozen. They are cancelled: with the chosen extrema moved far outside of the range of
+/// all other values, nothing but them persists, whatever their own persistence. So the extrema of the result
+/// are exactly the chosen ones, and the order of the vertices that comes with it is part of it. With
+/// FairValues::input, where chosen extrema must stay where they are, the smallest threshold from 0, 10⁻¹⁵,
+/// 10⁻¹⁴ … of the extent is taken that leaves no extremum elsewhere.
 ///
-/// One factorisation, n^1.5, serial; the same bits for every number of threads. Throws InvalidArgument if a vertex of
-/// `extrema` is no extremum of the input or weights may be negative, and BadInput if a component has no chosen minimum,
-/// or is closed and has no chosen maximum, with the least number of extrema that this mesh needs.
+/// One factorisation, n^1.5, serial; the same bits for every number of threads. Throws InvalidArgument if a
+/// vertex of `extrema` is no extremum of the input or weights may be negative, and BadInput if a component
+/// has no chosen minimum, or is closed and has no chosen maximum, with the least number of extrema that this
+/// mesh needs.
 FairResult fair(const core::ScalarField& input, std::span<const core::Index> extrema,
                 const FairOptions& options, const Cancel& cancel, const core::Progress& progress = {});
 
-/// The method "fair". Keys: extrema (default 8: the most persistent of the input, through the context; all if it has
-/// fewer, and a note says so), values=ends|input, weights=clamped|uniform. Details: minima, maxima, extrema_left,
-/// extrema_turned, rounding_extrema, held_loops. Throws InvalidArgument if the context computes no persistence.
+/// The method "fair". Keys: extrema (default 8: the most persistent of the input, through the context; all if
+/// it has fewer, and a note says so), values=ends|input, weights=clamped|uniform. Details: minima, maxima,
+/// extrema_left, extrema_turned, rounding_extrema, held_loops. Throws InvalidArgument if the context computes
+/// no persistence.
 std::unique_ptr<core::Method> make_fair(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

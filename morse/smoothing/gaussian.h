@@ -19,9 +19,9 @@ struct GaussianOptions {
   Ball ball = Ball::euclidean;
 };
 
-/// G(f, σ)(v) = Σ_x f(x) W_c / Σ_x W_c over the vertices x with ‖x − v‖ ≤ support · σ, W_c = exp(−‖x − v‖² / 2σ²):
-/// the paper's equation (1), for all v at once and as often as said. Computed as f + S of salient smoothing whose
-/// weight of values is 1, by the same sums: what is said of salient() holds here.
+/// G(f, σ)(v) = Σ_x f(x) W_c / Σ_x W_c over the vertices x with ‖x − v‖ ≤ support · σ, W_c = exp(−‖x − v‖² /
+/// 2σ²): the paper's equation (1), for all v at once and as often as said. Computed as f + S of salient
+/// smoothing whose weight of values is 1, by the same sums: what is said of salient() holds here.
 core::ScalarField gaussian(const core::ScalarField& input, const GaussianOptions& options = {},
                            const core::Progress& progress = {});
 

@@ -23,15 +23,15 @@ struct StopCriteria {
       {};  ///< until no value changes by more than this share of the input's extent
 };
 
-/// Declares and reads the keys iterations, until-count, until-stable and until-change. With one of the latter and
-/// without `iterations` there may be 1,000 of them, else `iterations`.
+/// Declares and reads the keys iterations, until-count, until-stable and until-change. With one of the latter
+/// and without `iterations` there may be 1,000 of them, else `iterations`.
 StopCriteria read_stop_criteria(core::ParameterReader& reader, int iterations);
 
 /// As a report shows them; conditions that were not set are left out.
 core::Parameters to_parameters(const StopCriteria& criteria);
 
-/// Where an iterative method begins: at the field that it was given, or at one that it made of it, which listeners are
-/// then told as iteration 0.
+/// Where an iterative method begins: at the field that it was given, or at one that it made of it, which
+/// listeners are then told as iteration 0.
 enum class Start : std::uint8_t { given, made };
 
 /// Counts and compares the fields that a method passes through, and says when to stop:
@@ -51,8 +51,8 @@ class IterationControl {
   bool more() const { return stopped_by_.empty(); }
   /// The next iteration's values, per vertex. Equal values keep the order of the input.
   void record(std::vector<double> values);
-  /// Whether the next iteration's values are looked at: always, unless no criterion and nobody else asks for those
-  /// between the input and the last.
+  /// Whether the next iteration's values are looked at: always, unless no criterion and nobody else asks for
+  /// those between the input and the last.
   bool needs_field() const;
   /// In place of record() where the next iteration's values are not needed; field() stays what it is.
   void skip() { ++iteration_; }
@@ -62,12 +62,12 @@ class IterationControl {
   /// After the last iteration that was recorded, the input before the first.
   const core::ScalarField& field() const { return field_; }
   int iterations_run() const { return iteration_; }
-  /// "iterations", "until-count", "until-stable", "until-change", or "caller" if only the context ended it; empty while
-  /// more().
+  /// "iterations", "until-count", "until-stable", "until-change", or "caller" if only the context ended it;
+  /// empty while more().
   std::string_view stopped_by() const { return stopped_by_; }
 
-  /// field() with the curve of counts; `details` gains iterations_run and stopped_by. `parameters` are those of the
-  /// criteria followed by the ones given.
+  /// field() with the curve of counts; `details` gains iterations_run and stopped_by. `parameters` are those
+  /// of the criteria followed by the ones given.
   core::MethodResult result(core::Parameters parameters, core::Parameters details = {}) const;
 
  private:

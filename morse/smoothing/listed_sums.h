@@ -12,9 +12,9 @@
 
 namespace morsel::morse {
 
-/// S with weights and connected balls, in float64: each vertex has its list of neighbours, and each pair, in each
-/// direction, takes one exponential. The lists are kept as long as there is memory for them (4 bytes a pair) and
-/// found again where there is none. The same bits for any number of threads and any memory.
+/// S with weights and connected balls, in float64: each vertex has its list of neighbours, and each pair, in
+/// each direction, takes one exponential. The lists are kept as long as there is memory for them (4 bytes a
+/// pair) and found again where there is none. The same bits for any number of threads and any memory.
 class ListedSums final : public BilateralEngine {
  public:
   /// Refers to `progress`.

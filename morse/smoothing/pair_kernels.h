@@ -13,8 +13,8 @@
 
 namespace morsel::morse {
 
-/// Pairs (v, x) that lie within the radius, each pair of points once, for a run of consecutive blocks ("tiles") v and the
-/// blocks x that they reach. Blocks are numbered within the chunk; the tiles come first.
+/// Pairs (v, x) that lie within the radius, each pair of points once, for a run of consecutive blocks
+/// ("tiles") v and the blocks x that they reach. Blocks are numbered within the chunk; the tiles come first.
 template <class Mask>
 struct TilePairs {
   std::size_t tiles;
@@ -42,9 +42,9 @@ struct PairScratch {
   Real* sums;            ///< as many as the function's sums; only for Real = float
 };
 
-/// Functions for one layout. `points` holds per block lanes x, lanes y, lanes z, in units of σ · √(2 ln 2), and
-/// lanes values: doubles, or for Real = float 32-bit integers in place of floats, whose differences must not
-/// overflow (a float would round a large value by more than a small difference may bear). `unit` times a
+/// Functions for one layout. `points` holds per block lanes x, lanes y, lanes z, in units of σ · √(2 ln 2),
+/// and lanes values: doubles, or for Real = float 32-bit integers in place of floats, whose differences must
+/// not overflow (a float would round a large value by more than a small difference may bear). `unit` times a
 /// difference is in units of σ_s · √(2 ln 2). `sums` has per block what is added up. 64-byte aligned.
 template <class Real, class Mask>
 struct PairFunctions {

@@ -18,8 +18,8 @@ namespace {
 using core::Index;
 using core::InvalidArgument;
 
-/// The population's standard deviation, every value counting with its weight if there are any; exactly 0 for a
-/// constant. Values are of order 1.
+/// The population's standard deviation, every value counting with its weight if there are any; exactly 0 for
+/// a constant. Values are of order 1.
 double standard_deviation(std::span<const double> values, std::span<const double> weights) {
   const double base = *std::min_element(values.begin(), values.end());
   const auto sum = [&](const auto& term) {
@@ -41,8 +41,8 @@ double standard_deviation(std::span<const double> values, std::span<const double
   return std::sqrt(sum([&](double g) { return (g - mean) * (g - mean); }) / n);
 }
 
-/// Relative errors of the expansions, over the accuracy: they mostly cancel in a sum, and what is left may grow
-/// from iteration to iteration.
+/// Relative errors of the expansions, over the accuracy: they mostly cancel in a sum, and what is left may
+/// grow from iteration to iteration.
 constexpr double kToleranceOverAccuracy = 5;
 /// What single precision keeps well enough.
 constexpr double kLeastAccuracy = 1e-5;

@@ -334,8 +334,8 @@ bool SharedSums::complete(std::span<const double> values, double sigma_s, std::s
   std::fill(squares_.begin(), squares_.end(), 0.0);
   add(*grid, values, sigma_s, numerators, denominators);
 
-  // How much of a value's error is left after the step, over σ_s²: the variance of the weighted values. Of the pairs
-  // that are not shared it is taken to be the same.
+  // How much of a value's error is left after the step, over σ_s²: the variance of the weighted values. Of
+  // the pairs that are not shared it is taken to be the same.
   std::vector<double> growth(n);
   std::vector<std::uint8_t> done(n);
   core::parallel_for_each(n, [&](std::size_t v) {

@@ -15,19 +15,20 @@
 
 namespace morsel::morse {
 
-/// Sums over all points x of a cell's partners (see CellPairs) at all points v of the cell, in time that does not
-/// grow with their product. Both weights become products of a function of v and one of x:
+/// Sums over all points x of a cell's partners (see CellPairs) at all points v of the cell, in time that does
+/// not grow with their product. Both weights become products of a function of v and one of x:
 ///
-///   exp(−(a − b)²/2) = c Σ_k exp(−(a − s_k)²) exp(−(b − s_k)²) for places s_k = s_0 + k h in units of σ_s. With h =
-///   0.5 this holds to 6e-9, relatively, for pairs with (a + b)/2 far from the ends of the grid (Poisson's sum), and
-///   to 2e-5 of the largest weight for all those it is used for;
+///   exp(−(a − b)²/2) = c Σ_k exp(−(a − s_k)²) exp(−(b − s_k)²) for places s_k = s_0 + k h in units of σ_s.
+///   With h = 0.5 this holds to 6e-9, relatively, for pairs with (a + b)/2 far from the ends of the grid
+///   (Poisson's sum), and to 2e-5 of the largest weight for all those it is used for;
 ///
-///   exp(−‖A + p − q‖²/2), with A the offset of the cells' centres and p, q those of the points, by its Taylor
-///   polynomial in p − q (the fast Gauss transform of Greengard and Strain 1991 with Taylor series on both sides).
+///   exp(−‖A + p − q‖²/2), with A the offset of the cells' centres and p, q those of the points, by its
+///   Taylor polynomial in p − q (the fast Gauss transform of Greengard and Strain 1991 with Taylor series on
+///   both sides).
 ///
 /// So a cell keeps Σ_x (−q)^m/m! exp(−(b − s_k)²) per monomial m and place k, and its partners take from it.
-/// Points whose value is too near the grid's ends, or whose own weight could be upset by a small error, are summed
-/// up exactly, point by point, and so are a few hundred more, to measure the error.
+/// Points whose value is too near the grid's ends, or whose own weight could be upset by a small error, are
+/// summed up exactly, point by point, and so are a few hundred more, to measure the error.
 ///
 /// All is in the order of the tree. Reading tree and pairs only; the same bits for any number of threads.
 class SharedSums {
@@ -44,14 +45,15 @@ class SharedSums {
   const CellPairs& pairs() const { return pairs_; }
   /// Roughly how many times faster than visiting all pairs; none if it cannot be done for these values.
   std::optional<double> gain(std::span<const double> values, double sigma_s) const;
-  /// Adds to Σ w d and Σ w, which hold the pairs not shared, what is missing in them, and keeps account of the error.
-  /// `values` begins at a cache line and has room for all lanes of the last block. False, with nothing of use done, if it cannot be done.
+  /// Adds to Σ w d and Σ w, which hold the pairs not shared, what is missing in them, and keeps account of
+  /// the error. `values` begins at a cache line and has room for all lanes of the last block. False, with
+  /// nothing of use done, if it cannot be done.
   bool complete(std::span<const double> values, double sigma_s, std::span<double> numerators,
                 std::span<double> denominators);
-  /// What the largest error of the values may be by now, if after each complete() every value grew by Σ w d / Σ w,
-  /// in their unit: 8 times the largest standard error of a value. An estimate, no bound: to first order, with the
-  /// error measured in each step at 512 points, and grown as each value's own error grows in the steps that follow
-  /// and as a mean of its neighbours' may.
+  /// What the largest error of the values may be by now, if after each complete() every value grew by Σ w d /
+  /// Σ w, in their unit: 8 times the largest standard error of a value. An estimate, no bound: to first
+  /// order, with the error measured in each step at 512 points, and grown as each value's own error grows in
+  /// the steps that follow and as a mean of its neighbours' may.
   double error() const;
 
  private:

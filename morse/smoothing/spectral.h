@@ -14,18 +14,20 @@ struct SpectralResult {
   double kept;  ///< the share of the field's variance (weighted by area) that is left; 1 for a constant
 };
 
-/// Projects the field f on constants, one for each component, and the first `modes` other eigenfunctions φ_i of the
-/// Laplacian (operators/eigenfunctions.h):
+/// Projects the field f on constants, one for each component, and the first `modes` other eigenfunctions φ_i
+/// of the Laplacian (operators/eigenfunctions.h):
 ///
 ///   g = Σ_components mean(f) + Σ_i (φ_iᵀ M f) φ_i,
 ///
-/// the nearest such function in the area-weighted mean of squares. Where eigenvalues are equal, as on a sphere, and
-/// `modes` parts them, g depends on which of their functions come first. Equal values keep f's order. Time and errors
-/// of eigenfunctions(); BadInput if the mesh has fewer eigenfunctions. The same bits for every number of threads.
+/// the nearest such function in the area-weighted mean of squares. Where eigenvalues are equal, as on a
+/// sphere, and `modes` parts them, g depends on which of their functions come first. Equal values keep f's
+/// order. Time and errors of eigenfunctions(); BadInput if the mesh has fewer eigenfunctions. The same bits
+/// for every number of threads.
 SpectralResult spectral(const core::ScalarField& field, std::size_t modes,
                         const core::Progress& progress = {});
 
-/// The method "spectral". Keys: modes (default 20), the constants not counted. Details: last_eigenvalue, variance_kept.
+/// The method "spectral". Keys: modes (default 20), the constants not counted. Details: last_eigenvalue,
+/// variance_kept.
 std::unique_ptr<core::Method> make_spectral(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

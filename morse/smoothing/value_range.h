@@ -22,8 +22,8 @@ struct ValueRange {
   friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
-/// "1std", "0.5std", "local", "literal", "none" or a number; throws InvalidArgument, naming `what`, on anything
-/// else.
+/// "1std", "0.5std", "local", "literal", "none" or a number; throws InvalidArgument, naming `what`, on
+/// anything else.
 ValueRange parse_value_range(std::string_view text, std::string_view what);
 /// The text that reads back as the same.
 std::string to_string(const ValueRange& range);

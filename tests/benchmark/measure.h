@@ -26,8 +26,8 @@ std::size_t peak_bytes();
 /// Gives free memory back to the system first, so that what is measured next does not reuse it.
 void reset_peak();
 
-/// Runs `run`, each time after `prepare` if given, which is not timed, at least `at_least` times and until `enough` seconds are spent, at most ten times; its result is
-/// destroyed outside of what is timed.
+/// Runs `run`, each time after `prepare` if given, which is not timed, at least `at_least` times and until
+/// `enough` seconds are spent, at most ten times; its result is destroyed outside of what is timed.
 template <class Run>
 Cost measured(Run&& run, int at_least = 3, double enough = 1, const std::function<void()>& prepare = {}) {
   Cost cost;
@@ -59,8 +59,9 @@ struct ProcessCost {
 /// Runs a program with arguments, its input and output closed. Throws if it fails.
 ProcessCost measured_process(const std::vector<std::string>& command);
 
-/// What measured_process() starts in between, the first argument of the benchmark then being kWatch: on Linux the peak memory
-/// of a process counts that of the one that started it, so that it must be a small one. Returns an exit code.
+/// What measured_process() starts in between, the first argument of the benchmark then being kWatch: on Linux
+/// the peak memory of a process counts that of the one that started it, so that it must be a small one.
+/// Returns an exit code.
 int watch_process(char** command);
 inline constexpr const char* kWatch = "--watch-process";
 

@@ -14,7 +14,8 @@ std::size_t edges(std::span<const core::Triangle> triangles);
 /// The vertices by value, then by number.
 std::vector<core::Index> order(std::span<const double> values);
 
-/// Minima + saddle vertices + maxima of a closed mesh: components of lower and upper link, found triangle by triangle.
+/// Minima + saddle vertices + maxima of a closed mesh: components of lower and upper link, found triangle by
+/// triangle.
 std::size_t critical_points(const core::TriangleMesh& mesh, std::span<const core::Index> rank);
 
 /// The number of extremum-saddle pairs of a closed mesh: union-find over all vertices, upwards and downwards.

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kIterations = 10;
 
-/// The listing on runs of consecutive vertices spread over the mesh, so that caches serve it as in a full run.
+/// The listing on runs of consecutive vertices spread over the mesh, so that caches serve it as in a full
+/// run.
 struct Listing {
   double seconds = 0;  ///< for all iterations on all vertices
   std::size_t sampled = 0;

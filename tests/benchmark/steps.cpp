@@ -16,7 +16,8 @@
 namespace morsel::benchmark {
 namespace {
 
-/// The geometry of all arcs, each walked from end to end; the sum of their lengths, so that nothing is left out.
+/// The geometry of all arcs, each walked from end to end; the sum of their lengths, so that nothing is left
+/// out.
 std::size_t trace_all(const mscomplex::MorseSmaleComplex& complex) {
   std::vector<std::size_t> length(complex.arc_count());
   core::parallel_for(0, complex.arc_count(), 1024, [&](std::size_t first, std::size_t last) {
@@ -34,8 +35,8 @@ std::size_t trace_all(const mscomplex::MorseSmaleComplex& complex) {
 }  // namespace
 
 std::vector<Step> steps(const core::TriangleMesh& mesh, const core::ScalarField& field) {
-  // Bytes that cannot be avoided, per vertex of a closed mesh: 24 for positions, 8 for values, 4 for ranks or order, 24 for
-  // triangles (two a vertex), 4 or 8 for a label or number per vertex or triangle.
+  // Bytes that cannot be avoided, per vertex of a closed mesh: 24 for positions, 8 for values, 4 for ranks or
+  // order, 24 for triangles (two a vertex), 4 or 8 for a label or number per vertex or triangle.
   const auto n = static_cast<double>(mesh.vertex_count());
   struct Input {
     std::vector<core::Point> positions;

@@ -1,6 +1,7 @@
 #pragma once
-/// New methods and functions as one would write them with well-kept libraries (Eigen, Spectra, nanoflann), the way geometry
-/// processing libraries do, on one thread: baselines. Each returns one value of its result, so that nothing is left out.
+/// New methods and functions as one would write them with well-kept libraries (Eigen, Spectra, nanoflann),
+/// the way geometry processing libraries do, on one thread: baselines. Each returns one value of its result,
+/// so that nothing is left out.
 
 #include <cstddef>
 #include <span>

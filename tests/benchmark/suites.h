@@ -21,7 +21,8 @@ using Report = std::function<void(Row)>;
 /// Seconds of the plain listing for ten iterations on the bunny, from one of them.
 double listing_seconds_on_bunny();
 
-/// Every step but smoothing on a mesh of 1.11 million vertices, beside plain versions and, scaled by `machine_factor`, TTK.
+/// Every step but smoothing on a mesh of 1.11 million vertices, beside plain versions and, scaled by
+/// `machine_factor`, TTK.
 void run_steps(const Plan& plan, double machine_factor, const Report& report);
 /// Peak memory of the whole program on that mesh, beside TTK's.
 void run_memory(const Plan& plan, const Report& report);

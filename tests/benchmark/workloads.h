@@ -12,7 +12,8 @@ struct Workload {
   core::TriangleMesh mesh;
 };
 
-/// A sample mesh with every edge cut into `pieces` and, if it was cut, uniform noise of 5 % of the mean edge length.
+/// A sample mesh with every edge cut into `pieces` and, if it was cut, uniform noise of 5 % of the mean edge
+/// length.
 Workload workload(const std::string& sample, int pieces);
 
 /// "height" or "mean-curvature".

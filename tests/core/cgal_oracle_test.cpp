@@ -75,8 +75,8 @@ TEST_CASE("sample meshes are read as CGAL reads them") {
 TEST_CASE("files of the corpus that both take are read as CGAL reads them") {
   int compared = 0;
   for (const CorpusFile& file : mesh_corpus()) {
-    // CGAL follows a null pointer where coordinates are neither float nor double, as in these, and reads beyond
-    // an array where vertices have texture coordinates.
+    // CGAL follows a null pointer where coordinates are neither float nor double, as in these, and reads
+    // beyond an array where vertices have texture coordinates.
     if (file.name.starts_with("binary_") && file.name.ends_with(".ply")) continue;
     if (file.name.starts_with("st") && file.name.ends_with("off.off")) continue;
     try {

@@ -17,7 +17,8 @@ using core::MoleculeOptions;
 
 namespace {
 
-/// Two chains, a modified residue, a ligand, an ion, two waters, a hydrogen, and alternate locations at two residues.
+/// Two chains, a modified residue, a ligand, an ion, two waters, a hydrogen, and alternate locations at two
+/// residues.
 std::vector<AtomLine> small_protein() {
   std::vector<AtomLine> atoms = {
       {"N", "GLY", "A", 1, {1.5, -2.25, 3.125}, "N"},

@@ -112,7 +112,8 @@ TEST_CASE("waves of 2 pi times the scale keep nearly half of their curvature") {
   const auto extent = [&](const ScalarField& field) { return field.extent(); };
   const double found = extent(diffused_mean_curvature(mesh.with_positions(std::move(rippled)), scale)) -
                        extent(diffused_mean_curvature(mesh, scale));
-  // Half is left of (k − 1/r²) · height / 2, from crest to trough twice that; then a third of the scale takes a little.
+  // Half is left of (k − 1/r²) · height / 2, from crest to trough twice that; then a third of the scale takes
+  // a little.
   CHECK(found ==
         Approx((frequency - 1) * height * kept(frequency, scale) * kept(frequency, scale / 3)).epsilon(0.05));
   CHECK(kept(frequency, scale) == Approx(0.5));

@@ -85,7 +85,8 @@ TEST_CASE("an implicit step solves the heat equation and keeps the integral") {
 }
 
 TEST_CASE("the height of a sphere decays as the heat equation says") {
-  // z is an eigenfunction of eigenvalue 2 on the unit sphere: a backward Euler step over t divides it by 1 + 2 t.
+  // z is an eigenfunction of eigenvalue 2 on the unit sphere: a backward Euler step over t divides it by 1 +
+  // 2 t.
   const TriangleMesh mesh = sphere(4).mesh();
   std::vector<double> z;
   for (const Point& p : mesh.positions()) z.push_back(p.z());

@@ -40,9 +40,9 @@ TEST_CASE("angle defects sum to the same where triangles have collapsed") {
 }
 
 TEST_CASE("curvatures of an octahedron by hand") {
-  // Four equilateral triangles of side s = √2 at each vertex: defect 2π − 4π/3, area 8 (√3/4) s² / 6. Moving a
-  // vertex outward by 1 changes the area of its triangles by 4 · (s/2) · cos of the angle between triangle and
-  // axis, = |K| A / 2 … .
+  // Four equilateral triangles of side s = √2 at each vertex: defect 2π − 4π/3, area 8 (√3/4) s² / 6. Moving
+  // a vertex outward by 1 changes the area of its triangles by 4 · (s/2) · cos of the angle between triangle
+  // and axis, = |K| A / 2 … .
   const TriangleMesh mesh = octahedron().mesh();
   const double area = 8 * std::sqrt(3.0) / 4 * 2 / 6;
   const ScalarField gauss = morse::gaussian_curvature(mesh);

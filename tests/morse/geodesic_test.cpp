@@ -218,8 +218,8 @@ TEST_CASE("Delaunay flips leave no negative weight and the same surface") {
       for (int column = 0; column < l.outerSize(); ++column)
         for (morse::SparseMatrix::InnerIterator it(l, column); it; ++it)
           if (it.row() != column) CHECK(it.value() <= 1e-8);
-    // A function's energy is least on the Delaunay triangulation (Rippa 1990), that of the vertices of a plane's linear
-    // function the same.
+    // A function's energy is least on the Delaunay triangulation (Rippa 1990), that of the vertices of a
+    // plane's linear function the same.
     const std::vector<double> values = random_values(n, 9);
     const Eigen::Map<const Eigen::VectorXd> f(values.data(), static_cast<long>(n));
     const morse::SparseMatrix plain = morse::laplacian(before, mesh.vertex_count());

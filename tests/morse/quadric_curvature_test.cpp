@@ -14,7 +14,8 @@ using namespace morsel::test;
 using morse::QuadricCurvatures;
 
 TEST_CASE("a quadric is found exactly") {
-  // z = (3x² − y²)/2 + 0.4xy over two rings of a disc: the Hessian's eigenvalues, bending towards the normal as −.
+  // z = (3x² − y²)/2 + 0.4xy over two rings of a disc: the Hessian's eigenvalues, bending towards the normal
+  // as −.
   const Soup disc = wheel(6);
   Soup soup;
   soup.positions.emplace_back(0, 0, 0);

@@ -36,8 +36,8 @@ SalientOptions options(int iterations, double sigma, const char* range, Neighbor
   return result;
 }
 
-/// Halves the edges of the triangles that lie above the equator and puts the new vertices on the unit sphere; other
-/// triangles at such an edge are halved.
+/// Halves the edges of the triangles that lie above the equator and puts the new vertices on the unit sphere;
+/// other triangles at such an edge are halved.
 Soup finer_above(const Soup& soup) {
   Soup result;
   result.positions = soup.positions;

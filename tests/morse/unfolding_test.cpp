@@ -40,7 +40,8 @@ TEST_CASE("unfolding adds one saddle and moves one vertex by the least change") 
       for (const morse::CriticalPoint& point : before.points) {
         if (point.multiplicity < 2 || ++tried > 4) continue;
         const auto unfolded = morse::unfold_saddle(field, point.vertex);
-        // The slow definition: every place in the order that a neighbour's value offers, tried on the whole field.
+        // The slow definition: every place in the order that a neighbour's value offers, tried on the whole
+        // field.
         double least = HUGE_VAL;
         std::vector<Index> ring;
         mesh.neighbors(point.vertex, ring);

@@ -151,8 +151,9 @@ void check_against_cancelled(const ScalarField& field, const PersistenceHierarch
   REQUIRE(extrema_of(fresh) == extrema_of(kept));
 }
 
-/// Share of the vertices that lie in the basin of the same minimum, and of the triangles on the hill of the same maximum
-/// or cap, at a level and in the field with the same pairs cancelled. Near saddles that flooding moves they may differ.
+/// Share of the vertices that lie in the basin of the same minimum, and of the triangles on the hill of the
+/// same maximum or cap, at a level and in the field with the same pairs cancelled. Near saddles that flooding
+/// moves they may differ.
 std::array<double, 2> agreement(const ScalarField& field, const PersistenceHierarchy& hierarchy,
                                 Index level) {
   const double threshold = hierarchy.cancellations()[level - 1].persistence;

@@ -63,8 +63,9 @@ std::vector<Index> pieces(const TriangleMesh& mesh, const std::vector<Index>& la
   return smallest;
 }
 
-/// The stretches of the discs' rims by joining corners that lie on the same one, whatever the gradient; for each
-/// triangle, that of its lowest corner. Corners of caps come after the triangles', by the half-edge that leaves them.
+/// The stretches of the discs' rims by joining corners that lie on the same one, whatever the gradient; for
+/// each triangle, that of its lowest corner. Corners of caps come after the triangles', by the half-edge that
+/// leaves them.
 std::vector<Index> stretches(const ScalarField& field, const DiscreteGradient& gradient) {
   const TriangleMesh& mesh = field.mesh();
   core::UnionFind corners(2 * mesh.halfedge_count());

@@ -12,8 +12,8 @@ TriangleMesh scaled(const TriangleMesh& mesh, double factor);
 TriangleMesh jittered(const TriangleMesh& mesh, double amount, unsigned seed);
 TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Matrix3d& linear, const Point& offset);
 Soup inside_out(Soup soup);
-/// A strip of equilateral triangles rolled into a cylinder about z: each inner vertex has six neighbours, 60° apart, so
-/// that Taubin's sums over directions are exact.
+/// A strip of equilateral triangles rolled into a cylinder about z: each inner vertex has six neighbours, 60°
+/// apart, so that Taubin's sums over directions are exact.
 Soup cylinder(double radius, int around, int rows);
 
 }  // namespace morsel::test

@@ -230,8 +230,8 @@ namespace {
 
 Json result_of_a_mesh() {
   return Json::parse(R"({
-    "mesh": {"path": "a.off", "sha256": "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef", "vertices": 6,
-      "edges": 12, "faces": 8, "components": 1, "boundary_loops": 0, "euler_characteristic": 2, "genus": 0,
+    "mesh": {"path": "a.off", "sha256": "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef",
+      "vertices": 6, "edges": 12, "faces": 8, "components": 1, "boundary_loops": 0, "euler_characteristic": 2, "genus": 0,
       "bbox_diagonal": 3.5, "repairs": [{"action": "drop", "count": 1}]},
     "field": {"name": "height", "parameters": {"axis": "z"}, "min": -1.0, "max": 1.0},
     "methods": [{"name": "conventional", "parameters": {}, "field": {"min": -1.0, "max": 1.0},
@@ -240,7 +240,8 @@ Json result_of_a_mesh() {
         "segments": {"descending": 1, "ascending": 1, "morse_smale": 1}},
       "compared_to_first": {"kept": 2, "moved": 0, "added": 0, "removed": 0},
       "persistence": {"pairs": 0, "infinite_pairs": 0, "essential_saddles": 0, "max": null,
-        "above": [{"percent": 0.1, "pairs": 0}, {"percent": 1.0, "pairs": 0}, {"percent": 5.0, "pairs": 0}]}}]})");
+        "above": [{"percent": 0.1, "pairs": 0}, {"percent": 1.0, "pairs": 0},
+                  {"percent": 5.0, "pairs": 0}]}}]})");
 }
 
 /// Calls `visit` with each value within a document, and what sets it.

@@ -150,9 +150,9 @@ std::set<Index> concatenated(const mscomplex::PersistenceHierarchy& hierarchy, m
   return used;
 }
 
-/// Above a threshold the arcs are those that a level's are concatenated of, and along them run those of the complex in the
-/// gradient with cancelled V-paths turned round; but for the last steps to what is cancelled, where ascending lines go by the
-/// saddle's vertex instead of the middle of its edge.
+/// Above a threshold the arcs are those that a level's are concatenated of, and along them run those of the
+/// complex in the gradient with cancelled V-paths turned round; but for the last steps to what is cancelled,
+/// where ascending lines go by the saddle's vertex instead of the middle of its edge.
 void check_level(const core::ScalarField& field, const mscomplex::PersistenceHierarchy& hierarchy,
                  double threshold) {
   const TriangleMesh& mesh = field.mesh();

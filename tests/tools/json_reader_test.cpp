@@ -37,7 +37,8 @@ std::string refusal(std::string_view text, const tools::JsonLimits& limits = {})
 
 TEST_CASE("a document is read as it is") {
   const std::string text =
-      R"( {"a": [1, -2, 18446744073709551615, 0.1, 1e300, true, false, null, "\u00e9\n", {}], "b": {"c": []}, "a": 2} )";
+      R"( {"a": [1, -2, 18446744073709551615, 0.1, 1e300, true, false, null, "\u00e9\n", {}],
+       "b": {"c": []}, "a": 2} )";
   const Json expected = Json::parse(text);
   CHECK(read_json(text, "x") == expected);
   std::istringstream in(text);
@@ -114,7 +115,8 @@ TEST_CASE("whatever a document has, it is refused or read in linear time", "[slo
 
 TEST_CASE("a view refuses what has another type, with its place") {
   const Json document = read_json(
-      R"({"methods": [{"name": "a"}, {}, {"name": 5}], "n": 3, "neg": -1, "x": 1.5, "big": 18446744073709551615,
+      R"({"methods": [{"name": "a"}, {}, {"name": 5}], "n": 3, "neg": -1, "x": 1.5,
+          "big": 18446744073709551615,
           "path": "a\u0000b", "none": null, "yes": true, "text": "t"})",
       "x");
   const JsonView view(document, "r.json is a damaged report");

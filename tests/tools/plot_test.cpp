@@ -51,7 +51,8 @@ std::vector<std::string> captures(const std::string& text, const std::string& pa
   return found;
 }
 
-/// The coordinates of the first shapes of a series, by its name in XML. (Regular expressions overflow on long paths.)
+/// The coordinates of the first shapes of a series, by its name in XML. (Regular expressions overflow on long
+/// paths.)
 std::vector<double> path_of(const std::string& svg, const std::string& name) {
   const std::string head = "<title>" + name + "</title>\n<path d=\"M";
   const std::size_t begin = svg.find(head);

@@ -45,15 +45,16 @@ std::vector<MeshOutcome> look_at(const std::vector<CollectionMesh>& meshes, cons
                                  const RunOptions& options, const OutFolder& out,
                                  const core::Progress& progress = {});
 
-/// Runs `compare` (the program's own file, again) on the meshes that are not settled (state.h), and writes what comes of them into `out`
-/// (out_folder.h). A mesh's things are made in a folder of this run's own and put in place when they are whole, the state last: a run that is
-/// ended in any way loses the meshes in work and nothing else. One mesh's failure, crash or excess is that mesh's outcome.
+/// Runs `compare` (the program's own file, again) on the meshes that are not settled (state.h), and writes
+/// what comes of them into `out` (out_folder.h). A mesh's things are made in a folder of this run's own and
+/// put in place when they are whole, the state last: a run that is ended in any way loses the meshes in work
+/// and nothing else. One mesh's failure, crash or excess is that mesh's outcome.
 ///
-/// In the meshes' order. Runs may share a folder: a mesh that is in several at the same time is made by each, and has the things of one of them,
-/// the last (where file systems have no locks: if they ran with the same options). Throws InvalidArgument on a request with unknown
-/// names, WriteFailed where `out` cannot be written, before the work if it has something of somebody else in
-/// the place of a result, Cancelled when told to stop (the children have ended and their half-made files are
-/// gone).
+/// In the meshes' order. Runs may share a folder: a mesh that is in several at the same time is made by each,
+/// and has the things of one of them, the last (where file systems have no locks: if they ran with the same
+/// options). Throws InvalidArgument on a request with unknown names, WriteFailed where `out` cannot be
+/// written, before the work if it has something of somebody else in the place of a result, Cancelled when
+/// told to stop (the children have ended and their half-made files are gone).
 std::vector<MeshOutcome> run_batch(const std::vector<CollectionMesh>& meshes, const BatchRequest& request,
                                    const RunOptions& options, ResultFolder& out,
                                    const core::Progress& progress = {}, const TellOutcome& tell = {});

@@ -27,12 +27,13 @@ struct ChildEnd {
   double seconds = 0;
 };
 
-/// A running process in a group of its own, which is killed with the group when the object is destroyed, and by the
-/// system when the thread that started it ends in whatever way (Linux). Its standard input and output are /dev/null. Moved, not copied.
+/// A running process in a group of its own, which is killed with the group when the object is destroyed, and
+/// by the system when the thread that started it ends in whatever way (Linux). Its standard input and output
+/// are /dev/null. Moved, not copied.
 class Child {
  public:
-  /// `words`: the program's file (not looked for in PATH), the name it is told, its arguments. Throws std::system_error if no process can be
-  /// made; a program that cannot be run ends with 127.
+  /// `words`: the program's file (not looked for in PATH), the name it is told, its arguments. Throws
+  /// std::system_error if no process can be made; a program that cannot be run ends with 127.
   Child(const std::vector<std::string>& words, const ChildLimits& limits);
   ~Child();
   Child(Child&& other) noexcept;

@@ -65,7 +65,8 @@ std::vector<CollectionMesh> of_list(const fs::path& list, const Names& files) {
   return meshes;
 }
 
-/// The mesh of this name in a folder, if it is what of_folder() would find, which passes over folders that are links.
+/// The mesh of this name in a folder, if it is what of_folder() would find, which passes over folders that
+/// are links.
 std::optional<CollectionMesh> in_folder(const fs::path& folder, const std::string& name) {
   if (name.empty() || mesh_name(name) != name || !is_mesh(name)) return std::nullopt;
   fs::path path = folder;

@@ -14,14 +14,16 @@ struct CollectionMesh {
   friend bool operator==(const CollectionMesh&, const CollectionMesh&) = default;
 };
 
-/// Of a folder: all .off, .obj, .ply and .stl files in it and the folders in it, by name. Of any other file: a mesh on each line, in the
-/// order of the lines; relative paths begin at the list's folder; empty lines and those that begin with # are passed over.
+/// Of a folder: all .off, .obj, .ply and .stl files in it and the folders in it, by name. Of any other file:
+/// a mesh on each line, in the order of the lines; relative paths begin at the list's folder; empty lines and
+/// those that begin with # are passed over.
 ///
-/// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws BadInput where the
-/// folder or list cannot be read or has no mesh, where two meshes have one name, and where one's name is a folder of another's.
+/// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws
+/// BadInput where the folder or list cannot be read or has no mesh, where two meshes have one name, and where
+/// one's name is a folder of another's.
 ///
-/// With names, only the meshes that are called so, in the same order, and little time for all the others; throws InvalidArgument on a name that
-/// is not there.
+/// With names, only the meshes that are called so, in the same order, and little time for all the others;
+/// throws InvalidArgument on a name that is not there.
 std::vector<CollectionMesh> read_collection(const std::filesystem::path& folder_or_list,
                                             const std::vector<std::string>& names = {});
 

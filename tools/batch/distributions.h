@@ -15,7 +15,8 @@ struct MethodTotals {
   std::vector<double> totals;
 };
 
-/// How many meshes have how many critical points, in bins of equal width on a logarithmic axis, a line a method.
+/// How many meshes have how many critical points, in bins of equal width on a logarithmic axis, a line a
+/// method.
 plot::Plot histogram(const std::vector<MethodTotals>& methods);
 
 /// The share of meshes with at most so many critical points, a line a method.
@@ -24,8 +25,9 @@ plot::Plot cumulative(const std::vector<MethodTotals>& methods);
 /// Critical points against vertices, a mark a mesh and method.
 plot::Plot against_size(const std::vector<MethodTotals>& methods);
 
-/// Edges of the bins that histogram() counts in: powers of 10 with four bins between two of them, from one that is no larger than the smallest
-/// value to one that is larger than the largest. All values must be > 0, and there must be one.
+/// Edges of the bins that histogram() counts in: powers of 10 with four bins between two of them, from one
+/// that is no larger than the smallest value to one that is larger than the largest. All values must be > 0,
+/// and there must be one.
 std::vector<double> logarithmic_bins(const std::vector<double>& values);
 
 }  // namespace morsel::tools::batch

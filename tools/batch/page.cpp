@@ -149,7 +149,8 @@ std::string table_head(const BatchRequest& request) {
   return head + "</tr>\n";
 }
 
-/// What was asked for, as words of the command line; not where it went, so that a page says the same wherever it is.
+/// What was asked for, as words of the command line; not where it went, so that a page says the same wherever
+/// it is.
 std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
   std::vector<std::string> words = {"morsel", "batch", options.collection};
   for (std::string& word : request_words(request)) words.push_back(std::move(word));
@@ -160,8 +161,8 @@ std::string request_line(const BatchRequest& request, const SummaryOptions& opti
   return command_line(words);
 }
 
-/// Of what shows the whole collection: its hash is that of the lines that sha256sum prints for its meshes. Parameters are
-/// resolved mesh by mesh, in the summary's table and document.
+/// Of what shows the whole collection: its hash is that of the lines that sha256sum prints for its meshes.
+/// Parameters are resolved mesh by mesh, in the summary's table and document.
 Provenance provenance_of(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                          const SummaryOptions& options) {
   std::string sums;

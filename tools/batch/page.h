@@ -10,8 +10,9 @@
 
 namespace morsel::tools::batch {
 
-/// Writes plots/histogram.svg, cumulative.svg and against-size.svg (unless no mesh is done) and index.html: the plots, and a table of the meshes
-/// with their pictures, sorted by a click on a column's head, that needs nothing but the folder. Throws WriteFailed.
+/// Writes plots/histogram.svg, cumulative.svg and against-size.svg (unless no mesh is done) and index.html:
+/// the plots, and a table of the meshes with their pictures, sorted by a click on a column's head, that needs
+/// nothing but the folder. Throws WriteFailed.
 void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                 const SummaryOptions& options, ResultFolder& out);
 

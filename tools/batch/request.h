@@ -33,16 +33,18 @@ struct Product {
   std::filesystem::path place;  ///< where it belongs
 };
 std::vector<Product> products_of(const std::string& name, const BatchRequest& request, const OutFolder& out);
-/// The files of those that are wanted, as they are called in the folder `work` where they were made: "report.json", "figures/sheet.png".
+/// The files of those that are wanted, as they are called in the folder `work` where they were made:
+/// "report.json", "figures/sheet.png".
 std::vector<std::string> made_files(const std::vector<Product>& products, const std::filesystem::path& work);
 /// Where such a file belongs; empty if it is none of these.
 std::filesystem::path place_of(const std::string& made_file, const std::vector<Product>& products);
 
-/// Valid UTF-8 of any bytes (a path, an error), as JSON documents have it: what is read back from one is the same text.
+/// Valid UTF-8 of any bytes (a path, an error), as JSON documents have it: what is read back from one is the
+/// same text.
 std::string valid_text(const std::string& text);
 
-/// {"tool", "request", "files"}: all that reports follow from, except the mesh. "files" has name and hash of each file that a
-/// value in --field or --method names. Throws BadInput on one that cannot be read.
+/// {"tool", "request", "files"}: all that reports follow from, except the mesh. "files" has name and hash of
+/// each file that a value in --field or --method names. Throws BadInput on one that cannot be read.
 Json common_key(const BatchRequest& request);
 
 /// `common` with the mesh's "sha256"; null for one that cannot be read.
@@ -51,7 +53,8 @@ Json mesh_key(const Json& common, const std::filesystem::path& mesh);
 /// What `compare` and `batch` are told in the same words.
 std::vector<std::string> request_words(const BatchRequest& request);
 
-/// The arguments of the program that compare one mesh, the program's name first; it writes its products into `work`.
+/// The arguments of the program that compare one mesh, the program's name first; it writes its products into
+/// `work`.
 std::vector<std::string> compare_words(const BatchRequest& request, const CollectionMesh& mesh,
                                        const std::filesystem::path& work, const OutFolder& out, int threads);
 

@@ -20,9 +20,10 @@ struct ChildTasks {
   std::function<void(std::size_t i, const ChildEnd& end)> end;
 };
 
-/// Runs the children in order, at most `jobs` (≥ 1) at a time, each within the limits, and calls `end` in the order in which they
-/// end; all by the calling thread, which sleeps meanwhile. Throws Cancelled when a stop is requested by either token (of `stop` alone it is told in its sleep), and what the two functions throw; all
-/// children have ended then.
+/// Runs the children in order, at most `jobs` (≥ 1) at a time, each within the limits, and calls `end` in the
+/// order in which they end; all by the calling thread, which sleeps meanwhile. Throws Cancelled when a stop
+/// is requested by either token (of `stop` alone it is told in its sleep), and what the two functions throw;
+/// all children have ended then.
 void run_children(const ChildTasks& tasks, std::size_t jobs, const ChildLimits& limits,
                   const std::stop_token& stop = {}, const core::Progress& progress = {});
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What is known of each mesh of a collection, in a file beside its report: the reason why a later run may pass it over.
+/// What is known of each mesh of a collection, in a file beside its report: the reason why a later run may
+/// pass it over.
 
 #include <filesystem>
 #include <optional>
@@ -21,7 +22,8 @@ struct MeshError {
   int signal = 0;      ///< 0: none
   std::string message;
 
-  /// Whether it may be the machine's doing, not the mesh's: the disk full, its memory used up, killed by somebody.
+  /// Whether it may be the machine's doing, not the mesh's: the disk full, its memory used up, killed by
+  /// somebody.
   bool may_pass() const;
 };
 
@@ -42,7 +44,8 @@ std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits
 /// is damaged.
 void take_result(const std::filesystem::path& report, MeshState& state);
 
-/// Whether the mesh may be passed over: its key is as it was, and all its files are there, or it failed within the same limits and would again.
+/// Whether the mesh may be passed over: its key is as it was, and all its files are there, or it failed
+/// within the same limits and would again.
 bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits,
                 const std::vector<Product>& products);
 

@@ -25,8 +25,9 @@ Tally tally(const std::vector<MeshOutcome>& outcomes);
 
 std::string to_string(Status status);
 
-/// Writes into the folder: summary.csv, a row for each mesh and method with all resolved parameters; summary.json ("morsel.batch/1", see batch.schema.json), whose
-/// "timings" is all that differs between two runs; plots/*.svg, distributions over the collection; and index.html, which shows it all. Throws
+/// Writes into the folder: summary.csv, a row for each mesh and method with all resolved parameters;
+/// summary.json ("morsel.batch/1", see batch.schema.json), whose "timings" is all that differs between two
+/// runs; plots/*.svg, distributions over the collection; and index.html, which shows it all. Throws
 /// WriteFailed.
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                    const SummaryOptions& options, ResultFolder& out);

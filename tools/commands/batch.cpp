@@ -161,7 +161,8 @@ void add_what_is_compared(Command& command, Options& options) {
                "Leave what is listed point by point out of the reports; counts stay");
   command.flag("--no-thumbnails", options.no_thumbnails, "Take no small pictures");
   command.flag("--html", request.pages, "Make a page of each mesh that shows all this in a browser");
-  command.flag("--figures", request.figures, "Make pictures of each mesh: of each method, diagrams and curves");
+  command.flag("--figures", request.figures,
+               "Make pictures of each mesh: of each method, diagrams and curves");
   command.flag("--export", request.exports,
                "Write each mesh's surfaces, complexes (.vtp, for ParaView) and critical points (.csv)");
   add_figure_options(command, request.figure);
@@ -207,7 +208,8 @@ void add_how_it_is_run(Command& command, Options& options) {
 void add_batch(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add(
-      "batch", "Compare methods on every mesh of a collection, each once and in a process of its own, and sum up");
+      "batch",
+      "Compare methods on every mesh of a collection, each once and in a process of its own, and sum up");
   command
       .path("COLLECTION", options->collection,
             "A folder, whose meshes and those of the folders in it are taken, or a list: a file with "
@@ -223,8 +225,9 @@ void add_batch(Program& program) {
   add_common_options(command, program.common);
   command.option("--threads").help = "Number of threads of each mesh; never changes a result";
   command.option("--threads").shows_default("1");
-  command.examples = {{"batch scans --out results", "a table, a page and a report of each mesh of a folder"},
-                      {"batch scans --out results --figures --jobs 2", "pictures as well, of what is done, too"}};
+  command.examples = {
+      {"batch scans --out results", "a table, a page and a report of each mesh of a folder"},
+      {"batch scans --out results --figures --jobs 2", "pictures as well, of what is done, too"}};
   command.notes =
       "OUT gets reports/NAME.json, thumbnails/NAME.first.png and .last.png (the first and the last method), "
       "pages/NAME.html, figures/NAME/ and exports/NAME/ if they are asked for, state/NAME.json, and the "

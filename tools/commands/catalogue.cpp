@@ -41,7 +41,9 @@ void add_catalogue(Program& program) {
   fields.text("NAME", *name, "Of one of them: its keys, their defaults and meanings");
   fields.examples = {{"fields", "the names, a line each"},
                      {"fields mean-curvature", "its keys, to be written as mean-curvature:scale=8eps"}};
-  fields.action = [name](Console&) { return list(morse_functions(), *name, "Morse function", describe_function); };
+  fields.action = [name](Console&) {
+    return list(morse_functions(), *name, "Morse function", describe_function);
+  };
 
   Command& all = program.add("methods", "List the methods, or the keys of one");
   all.text("NAME", *name, "Of one of them: its keys, their defaults and meanings");

@@ -145,7 +145,8 @@ void add_check(Program& program) {
   command.examples = {{"check report.json", "is what the report says still so?"},
                       {"check results/reports", "all reports of a folder, as of a batch"}};
   command.notes =
-      "Meshes are looked for from the working folder, then from the report's folder. Timings and the program's "
+      "Meshes are looked for from the working folder, then from the report's folder. Timings and the "
+      "program's "
       "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.\n\n"
       "Exit code: 0 if nothing changed, 1 if anything did, 3 if a report could not be checked.";
   command.action = [options](Console& console) { return check(*options, console); };

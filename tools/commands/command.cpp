@@ -96,7 +96,9 @@ Option& Command::flag(std::string names, bool& target, std::string help) {
 Option& Command::switches(std::string names, std::string negation, bool& target, std::string help) {
   Option row{std::move(names), std::move(help)};
   row.negation = std::move(negation);
-  row.take = [&target](const Option&, const std::vector<std::string>& words) { target = words.back() == "yes"; };
+  row.take = [&target](const Option&, const std::vector<std::string>& words) {
+    target = words.back() == "yes";
+  };
   return add(std::move(row));
 }
 
@@ -104,7 +106,9 @@ Option& Command::switches(std::string names, std::string negation, std::optional
                           std::string help) {
   Option row{std::move(names), std::move(help)};
   row.negation = std::move(negation);
-  row.take = [&target](const Option&, const std::vector<std::string>& words) { target = words.back() == "yes"; };
+  row.take = [&target](const Option&, const std::vector<std::string>& words) {
+    target = words.back() == "yes";
+  };
   return add(std::move(row));
 }
 

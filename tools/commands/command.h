@@ -1,5 +1,6 @@
 #pragma once
-/// A command as a table of its options: what the parser, --help, the man pages and the completions are made from.
+/// A command as a table of its options: what the parser, --help, the man pages and the completions are made
+/// from.
 
 #include <cstdint>
 #include <deque>
@@ -19,12 +20,12 @@ namespace morsel::tools {
 
 /// A row of the table. The functions that return the row itself refine it.
 struct Option {
-  std::string names;                 ///< "MESH" of an argument, "-o,--output" of an option
-  std::string help;                  ///< line breaks are made by whoever shows it
-  std::string value_name = {};       ///< what stands for a value in texts; a flag has none
-  std::string default_text = {};     ///< empty: none is shown
-  std::string negation = {};         ///< the name of the flag that says no
-  std::string environment = {};      ///< a variable that gives the value if the option is not given
+  std::string names;              ///< "MESH" of an argument, "-o,--output" of an option
+  std::string help;               ///< line breaks are made by whoever shows it
+  std::string value_name = {};    ///< what stands for a value in texts; a flag has none
+  std::string default_text = {};  ///< empty: none is shown
+  std::string negation = {};      ///< the name of the flag that says no
+  std::string environment = {};   ///< a variable that gives the value if the option is not given
   std::vector<std::string> choices = {};
   std::vector<std::string> needed = {};    ///< options without which this one is refused
   std::vector<std::string> excluded = {};  ///< options with which it is
@@ -58,7 +59,8 @@ struct Example {
   std::string does;
 };
 
-/// Targets of options must live as long as the command. What they hold when the option is added is its default.
+/// Targets of options must live as long as the command. What they hold when the option is added is its
+/// default.
 class Command {
  public:
   using Action = std::function<int(Console&)>;

@@ -59,11 +59,12 @@ void add_camera_options(Command& command, render::CameraText& camera) {
             "right, top, bottom, or azimuth/elevation in degrees: 0/0 is the front, 90/0 the right")
       .value("VIEW");
   command
-      .choice("--up", camera.up,
-              std::vector<std::pair<std::string, render::UpAxis>>{
-                  {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}},
-              "The axis that points up in pictures, x, y or z; the front is seen from +z (y up), -y (z up) or "
-              "+y (x up)")
+      .choice(
+          "--up", camera.up,
+          std::vector<std::pair<std::string, render::UpAxis>>{
+              {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}},
+          "The axis that points up in pictures, x, y or z; the front is seen from +z (y up), -y (z up) or "
+          "+y (x up)")
       .value("AXIS");
   command
       .text("--inset", camera.inset,
@@ -95,7 +96,8 @@ void tell_target(const MadeField& made, Console& console) {
 
 const char* const kSpecificationNotes =
     "F and M are written name or name:key=value,key=value; methods chain as M+M; a backslash keeps , : + = / "
-    "literal. Lengths are in the mesh's unit, in eps (0.3 % of the bounding box's diagonal) or in mean edges: "
+    "literal. Lengths are in the mesh's unit, in eps (0.3 % of the bounding box's diagonal) or in mean "
+    "edges: "
     "8eps, 3edges. `morsel fields` and `morsel methods` list all names, `morsel methods salient` the keys of "
     "one.";
 

@@ -82,8 +82,8 @@ std::string page_command(const Options& options, const CommonOptions& common) {
   return command_line(words);
 }
 
-/// The folders of a comparison, opened from the outside in (one with something in it is refused) and closed from the
-/// inside out.
+/// The folders of a comparison, opened from the outside in (one with something in it is refused) and closed
+/// from the inside out.
 class Folders {
  public:
   Folders(const Options& options, const RunFiles& files, const std::stop_token& stop) {
@@ -257,7 +257,9 @@ void add_compare(Program& program) {
       {"compare scan.off --field height:axis=z --target 40 -o report.json --html report.html",
        "40 points of each method on the height, as numbers and as a page"}};
   command.notes = kSpecificationNotes;
-  command.action = [options, &program](Console& console) { return compare(*options, program.common, console); };
+  command.action = [options, &program](Console& console) {
+    return compare(*options, program.common, console);
+  };
 }
 
 }  // namespace morsel::tools

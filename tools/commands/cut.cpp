@@ -125,13 +125,16 @@ void add_cut(Program& program) {
             "The mesh cut open, .off or .ply: vertices keep their numbers, copies come after them")
       .value("OUT")
       .required();
-  command.flag("--no-shorten", options->no_shorten, "Cut along the complex's arcs as they are, which are longer");
+  command.flag("--no-shorten", options->no_shorten,
+               "Cut along the complex's arcs as they are, which are longer");
   command.path("--json", options->json,
                "Write here what was cut and which vertices the copies copy; - is standard output");
-  command.path("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)").value("FILE.vtp");
+  command.path("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
+      .value("FILE.vtp");
   add_common_options(command, program.common);
-  command.examples = {{"cut torus.off -o disc.off", "a disc with the same triangles"},
-                      {"cut torus.off -o disc.ply --graph cut.vtp", "the same, and the cut as lines for ParaView"}};
+  command.examples = {
+      {"cut torus.off -o disc.off", "a disc with the same triangles"},
+      {"cut torus.off -o disc.ply --graph cut.vtp", "the same, and the cut as lines for ParaView"}};
   command.notes = kSpecificationNotes;
   command.action = [options, &program](Console& console) { return cut(*options, program.common, console); };
 }

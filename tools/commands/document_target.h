@@ -9,7 +9,8 @@
 
 namespace morsel::tools {
 
-/// To be made before the work, so that a file that cannot be written is told then; the file is there after commit().
+/// To be made before the work, so that a file that cannot be written is told then; the file is there after
+/// commit().
 class DocumentTarget {
  public:
   /// `path`: a file, "-" for standard output, nothing if it is empty. Throws WriteFailed.

@@ -61,7 +61,8 @@ std::string usage(const Command& command) {
   bool more = false;
   for (const Option& option : command.options()) {
     if (option.is_argument())
-      line += " " + (option.is_required ? option.names : "[" + option.names + "]") + (option.is_repeated ? "..." : "");
+      line += " " + (option.is_required ? option.names : "[" + option.names + "]") +
+              (option.is_repeated ? "..." : "");
     else if (option.is_required)
       line += " " + option.all_names().front() + " " + option.value_name;
     else
@@ -94,10 +95,11 @@ std::string program_help(const std::deque<Command>& commands) {
       "       morsel COMMAND ARGUMENTS [OPTIONS]\n\nCommands:\n";
   for (const Command& command : commands) text += row(command.name, command.summary);
   text += row("help COMMAND", "Tell about a command, as morsel COMMAND --help does");
-  text += "\nExamples:\n"
-          "  morsel scan.off                        critical points of a surface's curvature, three methods\n"
-          "  morsel scan.off --figures out          the same with pictures\n"
-          "  morsel info scan.off                   what a mesh is, and what is wrong with it\n";
+  text +=
+      "\nExamples:\n"
+      "  morsel scan.off                        critical points of a surface's curvature, three methods\n"
+      "  morsel scan.off --figures out          the same with pictures\n"
+      "  morsel info scan.off                   what a mesh is, and what is wrong with it\n";
   return text +
          "\nExit codes: 0 done; 1 a check found differences, or a mesh of a batch failed; 2 wrong usage;\n"
          "3 bad input; 4 writing failed; 5 out of memory, threads or open files; 130 and 143 interrupted.\n";

@@ -108,7 +108,8 @@ void add_hierarchy(Program& program) {
             "their multiplicities, maxima), or the nearest smaller number that can be had")
       .value("N,N,...");
   command
-      .path("-o,--output", options->output, "Write the levels and their links here, as JSON; - is standard output")
+      .path("-o,--output", options->output,
+            "Write the levels and their links here, as JSON; - is standard output")
       .value("HIERARCHY.json");
   command.flag("--no-items", options->no_items,
                "Leave what is listed one by one out of the document: cancellations, and each level's "

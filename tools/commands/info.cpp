@@ -190,7 +190,9 @@ void add_info(Program& program) {
   add_common_options(command, program.common);
   command.examples = {{"info scan.off", "counts, genus, boundary loops, and what would have to be repaired"},
                       {"info figure.png", "the command, the mesh and the version that made a picture"}};
-  command.action = [options, &program](Console& console) { return inform(*options, program.common, console); };
+  command.action = [options, &program](Console& console) {
+    return inform(*options, program.common, console);
+  };
 }
 
 }  // namespace morsel::tools

@@ -123,14 +123,16 @@ void add_molecule(Program& program) {
       .among({kKinds.begin(), kKinds.end()})
       .value("KIND");
   command
-      .number("--resolution", options->surface.resolution, "Spacing of the grid, about an edge's length, in Å")
+      .number("--resolution", options->surface.resolution,
+              "Spacing of the grid, about an edge's length, in Å")
       .value("H");
   command.number("--probe", options->surface.probe, "Radius of the solvent for ses and sas, in Å").value("R");
   command
       .number("--blobbiness", options->surface.blobbiness,
               "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
       .value("B");
-  command.text("--cavities", options->cavities, "keep or drop the walls of closed cavities inside the molecule")
+  command
+      .text("--cavities", options->cavities, "keep or drop the walls of closed cavities inside the molecule")
       .among({"keep", "drop"})
       .value("C");
 
@@ -143,7 +145,8 @@ void add_molecule(Program& program) {
     } else if (key.key == "hydrogens") {
       command.flag("--no-hydrogens", options->no_hydrogens, "Leave out the hydrogens that the file has");
     } else {
-      Option row{"--" + key.key, key.description, key.default_value.empty() ? "LIST" : "WHICH", key.default_value};
+      Option row{"--" + key.key, key.description, key.default_value.empty() ? "LIST" : "WHICH",
+                 key.default_value};
       row.take = [options, name = key.key](const Option&, const std::vector<std::string>& words) {
         options->atoms.given.emplace_back(name, words.back());
       };

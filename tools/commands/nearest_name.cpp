@@ -10,14 +10,15 @@ namespace morsel::tools {
 namespace {
 
 std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before;             // row i - 2
+  std::vector<std::size_t> before;              // row i - 2
   std::vector<std::size_t> last(b.size() + 1);  // row i - 1
   std::iota(last.begin(), last.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::vector<std::size_t> row(b.size() + 1, i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     before = std::exchange(last, std::move(row));
   }

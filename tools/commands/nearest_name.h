@@ -7,8 +7,8 @@
 
 namespace morsel::tools {
 
-/// The candidate with the fewest letters added, left out, replaced or swapped with their neighbour (optimal string
-/// alignment distance), the first of several; "" if that is more than a third of them.
+/// The candidate with the fewest letters added, left out, replaced or swapped with their neighbour (optimal
+/// string alignment distance), the first of several; "" if that is more than a third of them.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 
 /// `; did you mean NAME?`, or "" if there is none.

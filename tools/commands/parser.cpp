@@ -61,7 +61,8 @@ std::vector<std::string> option_names(const Command& command) {
 }
 
 [[noreturn]] void refuse_unexpected(const Command& command, const std::string& word) {
-  if (!word.starts_with('-') || word.size() == 1) refuse(command, "\"" + word + "\" is one argument too many");
+  if (!word.starts_with('-') || word.size() == 1)
+    refuse(command, "\"" + word + "\" is one argument too many");
   const std::string name = word.substr(0, word.find('='));
   refuse(command, "there is no option " + name + nearest_hint(name, option_names(command)));
 }
@@ -74,7 +75,8 @@ std::vector<std::string> option_names(const Command& command) {
     if (!option.negation.empty()) names.push_back(option.negation);
     for (const std::string& name : names)  // CLI11 leaves out the dashes of a flag
       if (name == begin || name == "--" + begin || name == "-" + begin)
-        refuse(command, name + (option.is_flag() ? " takes no value" : " needs a value: " + option.value_name));
+        refuse(command,
+               name + (option.is_flag() ? " takes no value" : " needs a value: " + option.value_name));
   }
   refuse(command, message);
 }
@@ -91,7 +93,8 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
     const std::string name = option.all_names().front();
     if (row.count() == 0) {
       if (option.is_required)
-        refuse(command, command.name + " needs " + name + (option.is_argument() ? "" : " " + option.value_name));
+        refuse(command,
+               command.name + " needs " + name + (option.is_argument() ? "" : " " + option.value_name));
       continue;
     }
     if (!option.is_flag() && !option.is_repeated && row.count() > 1)
@@ -119,7 +122,8 @@ void parse(Command& command, std::vector<std::string> words) {
     app.parse(std::move(words));
   } catch (const CLI::ExtrasError&) {
     const std::vector<std::string> unexpected = app.remaining();
-    const auto option = std::ranges::find_if(unexpected, [](const std::string& word) { return word.starts_with('-'); });
+    const auto option =
+        std::ranges::find_if(unexpected, [](const std::string& word) { return word.starts_with('-'); });
     refuse_unexpected(command, option != unexpected.end() ? *option : unexpected.at(0));
   } catch (const CLI::ArgumentMismatch& error) {
     refuse_mismatch(command, error.what());

@@ -89,14 +89,18 @@ void add_quads(Program& program) {
   command.path("--json", options->json,
                "Write counts, repairs and quality of the quads and patches here; - is standard output");
   add_common_options(command, program.common);
-  command.examples = {{"quads scan.off -o quads.obj", "patches of 10 x 10 quads, laid out by the 40th eigenfunction"},
-                      {"quads scan.off --field eigenfunction:index=20 --resolution 16 -o quads.obj",
-                       "fewer and finer patches"}};
+  command.examples = {
+      {"quads scan.off -o quads.obj", "patches of 10 x 10 quads, laid out by the 40th eigenfunction"},
+      {"quads scan.off --field eigenfunction:index=20 --resolution 16 -o quads.obj",
+       "fewer and finer patches"}};
   command.notes =
-      "Patches are the quads of the field's Morse-Smale complex, their arcs drawn anew as curves that meet in "
+      "Patches are the quads of the field's Morse-Smale complex, their arcs drawn anew as curves that meet "
+      "in "
       "nodes alone. Smooth fields with evenly spread critical points give good layouts: eigenfunctions, the "
-      "more patches the higher the index. At a boundary loop patches have five sides; there N must be 4 or more "
-      "and even. An extremum with a single arc is cancelled with its saddle, and reported; a field that leaves a "
+      "more patches the higher the index. At a boundary loop patches have five sides; there N must be 4 or "
+      "more "
+      "and even. An extremum with a single arc is cancelled with its saddle, and reported; a field that "
+      "leaves a "
       "component without a saddle is refused.\n\n" +
       std::string(kSpecificationNotes);
   command.action = [options, &program](Console& console) { return make(*options, program.common, console); };

@@ -155,20 +155,23 @@ void add_render(Program& program) {
             "off at either end")
       .value("RANGE");
   command
-      .choice("--center", picture.scale.center,
-              std::vector<std::pair<std::string, ScaleRequest::Center>>{{"zero", ScaleRequest::Center::zero},
-                                                                        {"median", ScaleRequest::Center::median},
-                                                                        {"none", ScaleRequest::Center::none}},
-              "The value in the middle of the colours: zero, median, none (default: of a field of both signs "
-              "zero, or the median where one sign is rare)")
+      .choice(
+          "--center", picture.scale.center,
+          std::vector<std::pair<std::string, ScaleRequest::Center>>{{"zero", ScaleRequest::Center::zero},
+                                                                    {"median", ScaleRequest::Center::median},
+                                                                    {"none", ScaleRequest::Center::none}},
+          "The value in the middle of the colours: zero, median, none (default: of a field of both signs "
+          "zero, or the median where one sign is rare)")
       .value("CENTER");
   command.switches("--legend", "--no-legend", picture.legend, "The colour bar").shows_default("yes");
-  command.text("--caption", options->caption, "Text below the picture; auto is the method and its counts").value("TEXT");
+  command.text("--caption", options->caption, "Text below the picture; auto is the method and its counts")
+      .value("TEXT");
   command.path("-o,--output", options->output, "The picture").value("OUT.png").required();
   add_common_options(command, program.common);
   command.examples = {
       {"render scan.off --method salient -o points.png", "the curvature, and the points that salient leaves"},
-      {"render scan.off --method salient --show descending --view 30/20 -o parts.png", "its segments, from the side"}};
+      {"render scan.off --method salient --show descending --view 30/20 -o parts.png",
+       "its segments, from the side"}};
   command.notes = kSpecificationNotes;
   command.action = [options, &program](Console& console) { return draw(*options, program.common, console); };
 }

@@ -42,9 +42,10 @@ void add_reproduce(Program& program) {
       .value("DIR");
   Option& samples =
       command
-          .path("--meshes", request->samples,
-                "The sample meshes: lion-head.off, bunny00.off and retinal.off of CGAL's example data; also by "
-                "the variable MORSEL_SAMPLES")
+          .path(
+              "--meshes", request->samples,
+              "The sample meshes: lion-head.off, bunny00.off and retinal.off of CGAL's example data; also by "
+              "the variable MORSEL_SAMPLES")
           .value("DIR");
   samples.environment = "MORSEL_SAMPLES";
   command.text("--size", request->size, "Width and height of a panel in pixels").value("WxH");
@@ -54,11 +55,14 @@ void add_reproduce(Program& program) {
              "Where pictures are taken from, as morsel render has it (default: best); with MODEL=, of one "
              "model: lion=160/10; may be given several times")
       .value("[MODEL=]VIEW");
-  command.texts("--up", request->ups, "The axis that points up: x, y or z (default: y)").value("[MODEL=]AXIS");
+  command.texts("--up", request->ups, "The axis that points up: x, y or z (default: y)")
+      .value("[MODEL=]AXIS");
   add_common_options(command, program.common);
   command.examples = {{"reproduce paper", "with sample meshes in place of the paper's"},
                       {"reproduce paper --data models", "with the paper's own meshes, where they are there"}};
-  command.action = [request, &program](Console& console) { return make_again(*request, program.common, console); };
+  command.action = [request, &program](Console& console) {
+    return make_again(*request, program.common, console);
+  };
 }
 
 }  // namespace morsel::tools

@@ -104,8 +104,8 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
 
 void add_segment(Program& program) {
   auto options = std::make_shared<Options>();
-  Command& command =
-      program.add("segment", "Cut the surface into the segments of one field, small ones merged by persistence");
+  Command& command = program.add(
+      "segment", "Cut the surface into the segments of one field, small ones merged by persistence");
   add_field_options(command, options->mesh, options->request);
   command
       .text("--by", options->by,
@@ -133,11 +133,14 @@ void add_segment(Program& program) {
                "Write a table of the segments here: area, critical points, neighbours, boundary length; - is "
                "standard output");
   add_common_options(command, program.common);
-  command.examples = {{"segment scan.off --method salient --segments 40 -o parts.ply", "the 40 most persistent bumps"},
-                      {"segment protein.off --by ascending --persistence 1% -o parts.vtp --json parts.json",
-                       "all that stand out by more than 1 %, with a table"}};
+  command.examples = {
+      {"segment scan.off --method salient --segments 40 -o parts.ply", "the 40 most persistent bumps"},
+      {"segment protein.off --by ascending --persistence 1% -o parts.vtp --json parts.json",
+       "all that stand out by more than 1 %, with a table"}};
   command.notes = kSpecificationNotes;
-  command.action = [options, &program](Console& console) { return segment(*options, program.common, console); };
+  command.action = [options, &program](Console& console) {
+    return segment(*options, program.common, console);
+  };
 }
 
 }  // namespace morsel::tools

@@ -1,5 +1,6 @@
 #pragma once
-/// Applying a chain of methods, watched: what each step told, where critical points came from, and a wanted number.
+/// Applying a chain of methods, watched: what each step told, where critical points came from, and a wanted
+/// number.
 
 #include <cstddef>
 #include <functional>

@@ -49,7 +49,8 @@ struct MethodOutcome {
   core::ScalarField field;
   std::optional<TargetOutcome> target;
   Measurement measurement;
-  /// For each critical point, the vertex of the one of the input field that it came from; kNone if the way was lost.
+  /// For each critical point, the vertex of the one of the input field that it came from; kNone if the way
+  /// was lost.
   std::vector<core::Index> origins;
   /// For each critical point, the vertex at whose position it is reported: its own, or its origin's to snap.
   std::vector<core::Index> places;
@@ -94,8 +95,8 @@ struct PreparedComparison {
 /// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
 PreparedComparison prepare(const ComparisonRequest& request);
 
-/// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods and
-/// sinks throw.
+/// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods
+/// and sinks throw.
 void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress = {});
 

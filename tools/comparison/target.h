@@ -1,5 +1,6 @@
 #pragma once
-/// Ending with a wanted number of critical points: as much smoothing as leaves enough of them, persistence for the rest.
+/// Ending with a wanted number of critical points: as much smoothing as leaves enough of them, persistence
+/// for the rest.
 
 #include <cstddef>
 #include <optional>
@@ -33,15 +34,16 @@ struct TargetOutcome {
 /// Throws InvalidArgument if a wanted number is given that no field can have.
 void check_target(std::optional<std::size_t> target);
 
-/// The way of a method, watched field by field. Fields count as long as they have at least the wanted number of critical
-/// points. If the next one has fewer, the furthest point on the straight line to it is looked for that has not (by
-/// halving, 12 times, the logarithm of what is left to it). What is left above the number is cancelled in the order of persistence. Each pair takes two
-/// critical points away, unless its saddle is a multiple one: if that leaves too few, multiple saddles are unfolded
-/// (morse::unfold_saddle()), those first that need the least change of value.
+/// The way of a method, watched field by field. Fields count as long as they have at least the wanted number
+/// of critical points. If the next one has fewer, the furthest point on the straight line to it is looked for
+/// that has not (by halving, 12 times, the logarithm of what is left to it). What is left above the number is
+/// cancelled in the order of persistence. Each pair takes two critical points away, unless its saddle is a
+/// multiple one: if that leaves too few, multiple saddles are unfolded (morse::unfold_saddle()), those first
+/// that need the least change of value.
 class TargetSearch {
  public:
-  /// `start`: the method's input. `blends`: whether something between two fields is a sensible field; if not, what
-  /// goes too far is not made use of.
+  /// `start`: the method's input. `blends`: whether something between two fields is a sensible field; if not,
+  /// what goes too far is not made use of.
   TargetSearch(const core::ScalarField& start, std::size_t wanted, bool blends,
                const core::Progress& progress);
 
@@ -49,7 +51,8 @@ class TargetSearch {
   bool offer(const core::ScalarField& field);
   /// The method begins again from its input.
   void restart();
-  /// The number of fields that count, and the last of them, not yet blended; the method's input before the first.
+  /// The number of fields that count, and the last of them, not yet blended; the method's input before the
+  /// first.
   int iterations() const { return iterations_; }
   const core::ScalarField& reached() const { return reached_; }
   bool wants_more() const { return !beyond_ && total_ > wanted_; }

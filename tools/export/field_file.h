@@ -11,9 +11,9 @@
 namespace morsel::tools {
 
 /// Writes `field` in the vertex numbers of the input file: .txt has one value a line, as short as reads back
-/// exactly, below lines that begin with #; .ply (binary) and .vtp have the surface with the values as vertex property `name`. An input
-/// vertex that the mesh does not have gets `nan`; one that repair split gets the value of its first copy.
-/// Throws InvalidArgument on another ending, WriteFailed where writing fails.
+/// exactly, below lines that begin with #; .ply (binary) and .vtp have the surface with the values as vertex
+/// property `name`. An input vertex that the mesh does not have gets `nan`; one that repair split gets the
+/// value of its first copy. Throws InvalidArgument on another ending, WriteFailed where writing fails.
 void write_field(const std::filesystem::path& path, const core::ScalarField& field,
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
                  const std::string& name, const Provenance& provenance);

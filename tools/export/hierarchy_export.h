@@ -12,9 +12,12 @@ namespace morsel::tools {
 
 /// Writes, per level, into one folder:
 ///   surface.K.vtp  the surface as surface_file.h's, and per triangle, for each kind of cell, KIND_parent and
-///                  KIND_merges_into: the label of the cell of the level before and after that its cell is linked to
-///   complex.K.vtp  the complex as complex_file.h's, and per node `parent`, the vertex of its critical point's parent
-/// K is the level's place, 0 the finest, so that ParaView opens each kind as a series; −1 stands where there is no link.
+///                  KIND_merges_into: the label of the cell of the level before and after that its cell is
+///                  linked to
+///   complex.K.vtp  the complex as complex_file.h's, and per node `parent`, the vertex of its critical
+///   point's parent
+/// K is the level's place, 0 the finest, so that ParaView opens each kind as a series; −1 stands where there
+/// is no link.
 class HierarchyExport : public HierarchySink {
  public:
   /// Refers to `folder` and `loaded`.

@@ -8,7 +8,8 @@
 
 namespace morsel::tools {
 
-/// A value for each of the input's vertices: nan for one that the mesh does not have, that of the first copy for one that repair split.
+/// A value for each of the input's vertices: nan for one that the mesh does not have, that of the first copy
+/// for one that repair split.
 std::vector<double> by_input_vertex(const core::ScalarField& field, const core::VertexNumbering& numbering);
 
 /// The mesh's triangles on the input's vertices.

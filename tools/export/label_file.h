@@ -19,14 +19,16 @@ struct Labels {
   std::span<const core::Index> triangle;
 };
 
-/// Writes labels in the vertex numbers of the input file; an input vertex that the mesh does not have gets −1, one that
-/// repair split the label of its first copy:
+/// Writes labels in the vertex numbers of the input file; an input vertex that the mesh does not have gets
+/// −1, one that repair split the label of its first copy:
 ///   .ply  the surface (binary), the labels as int properties of vertices and faces
-///   .vtp  the surface, the labels as arrays of points and cells, and `field` as an array `field_name` of points
-///   .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and NAME.faces.txt in the order of the faces of the others
-/// Faces are the mesh's triangles: the input's faces in its order, polygons cut into triangles, without those that
-/// repair dropped. Returns what was written. Throws InvalidArgument on another ending, WriteFailed where writing fails;
-/// of the two text files then none or, should the second fail as it is finished, the first alone is there.
+///   .vtp  the surface, the labels as arrays of points and cells, and `field` as an array `field_name` of
+///   points .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and
+///   NAME.faces.txt in the order of the faces of the others
+/// Faces are the mesh's triangles: the input's faces in its order, polygons cut into triangles, without those
+/// that repair dropped. Returns what was written. Throws InvalidArgument on another ending, WriteFailed where
+/// writing fails; of the two text files then none or, should the second fail as it is finished, the first
+/// alone is there.
 std::vector<std::filesystem::path> write_labels(const std::filesystem::path& path, const Labels& labels,
                                                 const core::ScalarField& field, const std::string& field_name,
                                                 const core::VertexNumbering& numbering,

@@ -25,9 +25,9 @@ struct SurfaceFile {
   const mscomplex::Segmentation& segmentation;
 };
 
-/// Per vertex the field, critical_type, persistence and input_vertex; per vertex and triangle the labels descending,
-/// ascending and morse_smale; `more` are arrays of one value a triangle. Nobody waits until the file is on disk. Throws
-/// WriteFailed.
+/// Per vertex the field, critical_type, persistence and input_vertex; per vertex and triangle the labels
+/// descending, ascending and morse_smale; `more` are arrays of one value a triangle. Nobody waits until the
+/// file is on disk. Throws WriteFailed.
 void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
                         const Provenance& provenance, const std::vector<VtpArray>& more = {});
 

@@ -1,5 +1,6 @@
 #pragma once
-/// A hierarchy of critical points and Morse-Smale complexes, by iteration of a smoothing method or by persistence.
+/// A hierarchy of critical points and Morse-Smale complexes, by iteration of a smoothing method or by
+/// persistence.
 
 #include <cstddef>
 #include <cstdint>
@@ -39,12 +40,13 @@ struct PreparedHierarchy {
   std::vector<std::size_t> counts;
 };
 
-/// Puts the method and levels in that a request leaves to us: salient, levels 1,5,10 (the paper's Figure 4) by iteration;
-/// conventional, levels 0.1%,1%,5% by persistence.
+/// Puts the method and levels in that a request leaves to us: salient, levels 1,5,10 (the paper's Figure 4)
+/// by iteration; conventional, levels 0.1%,1%,5% by persistence.
 HierarchyRequest with_defaults(HierarchyRequest request);
 
-/// Throws InvalidArgument on unknown names and keys, bad values, a level that is given twice, what does not go together, and
-/// a method that has no iterations or fewer than the levels need. Levels may come in any order. Touches no file.
+/// Throws InvalidArgument on unknown names and keys, bad values, a level that is given twice, what does not
+/// go together, and a method that has no iterations or fewer than the levels need. Levels may come in any
+/// order. Touches no file.
 PreparedHierarchy prepare(const HierarchyRequest& request);
 
 /// What the levels are made of.
@@ -62,7 +64,8 @@ class HierarchySink {
   virtual void level(const Level& level) = 0;
 };
 
-/// Makes the field, and then level by level. Throws what functions, methods, sinks and iteration_levels() throw.
+/// Makes the field, and then level by level. Throws what functions, methods, sinks and iteration_levels()
+/// throw.
 void run_hierarchy(const core::LoadedMesh& loaded, const PreparedHierarchy& prepared,
                    const std::vector<HierarchySink*>& sinks, const core::Progress& progress = {});
 

@@ -1,5 +1,6 @@
 #pragma once
-/// A level of a hierarchy: a field's critical points, complex and cells, and their links to the levels beside it.
+/// A level of a hierarchy: a field's critical points, complex and cells, and their links to the levels beside
+/// it.
 
 #include <array>
 #include <cstddef>
@@ -41,9 +42,9 @@ inline constexpr std::array kCellKinds = {CellKind::descending, CellKind::ascend
 /// "descending", "ascending", "morse_smale".
 std::string_view to_string(CellKind kind);
 
-/// The cells of one kind, by label, with the cells of the level before (finer) and after (coarser) that they share the
-/// largest area with; of equally large ones that of smallest label. kNone where there is no such level, and for the cell of
-/// a cap that no triangle belongs to.
+/// The cells of one kind, by label, with the cells of the level before (finer) and after (coarser) that they
+/// share the largest area with; of equally large ones that of smallest label. kNone where there is no such
+/// level, and for the cell of a cap that no triangle belongs to.
 struct CellLinks {
   std::vector<double> areas;
   std::vector<mscomplex::Overlap> parents;
@@ -74,7 +75,8 @@ struct Level {
 
   const mscomplex::SegmentLabels& cells(CellKind kind) const;
   const CellLinks& cell_links(CellKind kind) const { return links[static_cast<std::size_t>(kind)]; }
-  /// Labels are below this; those that no triangle carries are counted here, and in cells().count they are not.
+  /// Labels are below this; those that no triangle carries are counted here, and in cells().count they are
+  /// not.
   core::Index label_count(CellKind kind) const;
   /// The labels that triangles carry, ascending; as many as cells().count. O(n).
   std::vector<core::Index> labels(CellKind kind) const;

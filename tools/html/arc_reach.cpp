@@ -17,9 +17,9 @@ using mscomplex::ArcKind;
 using mscomplex::Cancellation;
 using mscomplex::MorseSmaleComplex;
 
-/// Goes, for one saddle after the other from the last to be cancelled to the first, along its arcs as they are when its turn
-/// comes. What one of them has passed, all that come after it leave alone: their ways on from there are the same, and
-/// end earlier. So each saddle is passed once.
+/// Goes, for one saddle after the other from the last to be cancelled to the first, along its arcs as they
+/// are when its turn comes. What one of them has passed, all that come after it leave alone: their ways on
+/// from there are the same, and end earlier. So each saddle is passed once.
 class Passage {
  public:
   Passage(const mscomplex::PersistenceHierarchy& hierarchy, ArcKind kind)

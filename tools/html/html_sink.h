@@ -11,16 +11,17 @@
 
 namespace morsel::tools {
 
-/// Writes, while the comparison runs, an HTML document that needs nothing but itself: no network, no server, no
-/// other file. In it are
-///   #page     JSON, "morsel.page/1": the command line, the report without its items ("morsel.comparison/1"), and
+/// Writes, while the comparison runs, an HTML document that needs nothing but itself: no network, no server,
+/// no other file. In it are
+///   #page     JSON, "morsel.page/1": the command line, the report without its items ("morsel.comparison/1"),
+///   and
 ///             for the mesh and each method where their arrays are (html/page_data.h)
 ///   #buffers  those arrays (html/buffers.h), one after the other, deflated, in base64: positions (16 bits a
-///             coordinate of the bounding box), triangles, and per method the field (16 bits between percentiles),
-///             critical points (values in full), pairs, segment labels and arcs
+///             coordinate of the bounding box), triangles, and per method the field (16 bits between
+///             percentiles), critical points (values in full), pairs, segment labels and arcs
 ///   #three    three.js r111, deflated, in base64
-/// Nothing that comes from file names or parameters can end the element that it is in, and the page shows it as text
-/// alone. But for the timings in the report the bytes are the same at any number of threads.
+/// Nothing that comes from file names or parameters can end the element that it is in, and the page shows it
+/// as text alone. But for the timings in the report the bytes are the same at any number of threads.
 ///
 /// Throws WriteFailed. No more than one method's arrays are in memory at a time.
 class HtmlSink : public ComparisonSink {

@@ -10,8 +10,8 @@
 
 namespace morsel::tools::html {
 
-/// Writes what it is given, deflated (zlib's format, RFC 1950) and in base64, to a file while it comes. The same
-/// input gives the same text. Throws WriteFailed, and std::bad_alloc.
+/// Writes what it is given, deflated (zlib's format, RFC 1950) and in base64, to a file while it comes. The
+/// same input gives the same text. Throws WriteFailed, and std::bad_alloc.
 class PackedStream {
  public:
   /// Refers to `file`, to which nobody else may write before finish().

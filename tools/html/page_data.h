@@ -9,19 +9,20 @@
 
 namespace morsel::tools::html {
 
-/// {"vertices", "triangles", "origin"[3], "step", "positions", "corners", "input_vertices"}: coordinate c of vertex v
-/// is origin[c] + step × positions[c · vertices + v], within half a step; `input_vertices` is null where numbers are the
-/// input's.
+/// {"vertices", "triangles", "origin"[3], "step", "positions", "corners", "input_vertices"}: coordinate c of
+/// vertex v is origin[c] + step × positions[c · vertices + v], within half a step; `input_vertices` is null
+/// where numbers are the input's.
 Json write_mesh(const core::LoadedMesh& loaded, Buffers& buffers);
 
 /// {"name", "values", "points", "pairs", "segments", "arcs"}. Vertices are the mesh's here.
 ///   values    {"low", "high", "data"}: low + (high − low) · data / 65535; what lies outside is cut off
-///   points    {"vertex", "place", "type" (1 minimum, 2 saddle, 3 maximum), "multiplicity", "value", "origin" (1 +
-///             vertex, or 0 if the way was lost), "match" (1 + its counterpart's number among the first method's
-///             points, or 0)}; persistence follows from the pairs
-///   pairs     {"extremum", "saddle"}: numbers of points, by ascending persistence; number of points + k is loop k's cap
-///   segments  {"ascending", "descending"}: a label per triangle
-///   arcs      {"descending", "ascending"}: html/arc_paths.h, the saddle as a number of a point
+///   points    {"vertex", "place", "type" (1 minimum, 2 saddle, 3 maximum), "multiplicity", "value", "origin"
+///   (1 +
+///             vertex, or 0 if the way was lost), "match" (1 + its counterpart's number among the first
+///             method's points, or 0)}; persistence follows from the pairs
+///   pairs     {"extremum", "saddle"}: numbers of points, by ascending persistence; number of points + k is
+///   loop k's cap segments  {"ascending", "descending"}: a label per triangle arcs      {"descending",
+///   "ascending"}: html/arc_paths.h, the saddle as a number of a point
 Json write_method(const MethodOutcome& outcome, Buffers& buffers);
 
 }  // namespace morsel::tools::html

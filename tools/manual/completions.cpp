@@ -30,8 +30,10 @@ std::vector<std::string> all_names(const Option& option) {
 /// What a value can be, where that is a list.
 std::vector<std::string> values_of(const Command& command, const Option& option) {
   if (!option.choices.empty()) return option.choices;
-  if (option.value_name == "F" || (option.is_argument() && command.name == "fields")) return names_of(morse_functions());
-  if (option.value_name == "M" || (option.is_argument() && command.name == "methods")) return names_of(methods());
+  if (option.value_name == "F" || (option.is_argument() && command.name == "fields"))
+    return names_of(morse_functions());
+  if (option.value_name == "M" || (option.is_argument() && command.name == "methods"))
+    return names_of(methods());
   return {};
 }
 
@@ -48,7 +50,8 @@ std::string brief(const std::string& help) { return help.substr(0, help.find_fir
 /// Within the brackets of an argument of zsh's _arguments.
 std::string for_zsh(const std::string& text) {
   std::string escaped;
-  for (const char c : brief(text)) escaped += c == '[' || c == ']' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const char c : brief(text))
+    escaped += c == '[' || c == ']' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   return escaped;
 }
 
@@ -69,28 +72,34 @@ std::string bash_completion(const std::deque<Command>& commands) {
     for (const Option& option : command.options()) {
       const std::vector<std::string> listed = values_of(command, option);
       if (option.is_argument()) {
-        if (!listed.empty()) values += "        *) [[ $word != -* ]] && words=" + quoted_word(joined(listed, " ")) + " ;;\n";
+        if (!listed.empty())
+          values += "        *) [[ $word != -* ]] && words=" + quoted_word(joined(listed, " ")) + " ;;\n";
         continue;
       }
       for (const std::string& name : all_names(option)) options.push_back(name);
       if (!option.is_flag())
         values = "        " + joined(option.all_names(), "|") + ") " +
-                 (listed.empty() ? option.is_path ? "files=1" : "words=" : "words=" + quoted_word(joined(listed, " "))) +
+                 (listed.empty() ? option.is_path ? "files=1" : "words="
+                                 : "words=" + quoted_word(joined(listed, " "))) +
                  "; value=1 ;;\n" + values;
     }
-    cases += "    " + command.name + ")\n      options=" + quoted_word(joined(options, " ")) + "\n      case $previous in\n" +
-             values + "      esac ;;\n";
+    cases += "    " + command.name + ")\n      options=" + quoted_word(joined(options, " ")) +
+             "\n      case $previous in\n" + values + "      esac ;;\n";
   }
   return "# bash completion of morsel\n_morsel() {\n"
-         "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} options= words= files= value=\n"
+         "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} options= words= files= "
+         "value=\n"
          "  if ((COMP_CWORD == 1)); then\n    mapfile -t COMPREPLY < <(compgen -W " +
          quoted_word(joined(names, " ")) +
-         " -- \"$word\"; compgen -f -- \"$word\")\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n    help) words=" +
+         " -- \"$word\"; compgen -f -- \"$word\")\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n    help) "
+         "words=" +
          quoted_word(joined(names, " ")) + "; value=1 ;;\n" + cases +
          "  esac\n"
-         "  if [[ -z $value && $word == -* ]]; then\n    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
+         "  if [[ -z $value && $word == -* ]]; then\n    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- "
+         "\"$word\")\n"
          "  elif [[ -n $words ]]; then\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
-         "  elif [[ -z $value || -n $files ]]; then\n    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n  fi\n}\n"
+         "  elif [[ -z $value || -n $files ]]; then\n    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n "
+         " fi\n}\n"
          "complete -o filenames -F _morsel morsel\n";
 }
 
@@ -103,20 +112,23 @@ std::string zsh_completion(const std::deque<Command>& commands) {
     for (const Option& option : command.options()) {
       std::string line;
       if (option.is_argument()) {
-        line = (option.is_repeated ? "*" : "1") + std::string(":") + option.names + ":" + zsh_action(command, option);
+        line = (option.is_repeated ? "*" : "1") + std::string(":") + option.names + ":" +
+               zsh_action(command, option);
         cases += " \\\n        " + quoted_word(line);
         continue;
       }
       for (const std::string& name : all_names(option)) {
         line = (option.is_repeated ? "*" : "") + name + "[" + for_zsh(option.help) + "]";
-        if (!option.is_flag()) line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(command, option);
+        if (!option.is_flag())
+          line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(command, option);
         cases += " \\\n        " + quoted_word(line);
       }
     }
     cases += " ;;\n";
   }
   return "#compdef morsel\n# zsh completion of morsel\nlocal -a commands\ncommands=(\n" + list +
-         ")\nif ((CURRENT == 2)); then\n  _describe command commands\n  _files\nelse\n  shift words\n  ((CURRENT--))\n"
+         ")\nif ((CURRENT == 2)); then\n  _describe command commands\n  _files\nelse\n  shift words\n  "
+         "((CURRENT--))\n"
          "  case $words[1] in\n    help) _describe command commands ;;\n" +
          cases + "  esac\nfi\n";
 }
@@ -124,9 +136,11 @@ std::string zsh_completion(const std::deque<Command>& commands) {
 std::string fish_completion(const std::deque<Command>& commands) {
   std::string text = "# fish completion of morsel\n";
   for (const Command& command : commands)
-    text += "complete -c morsel -n __fish_use_subcommand -a " + command.name + " -d " + quoted_word(brief(command.summary)) + "\n";
+    text += "complete -c morsel -n __fish_use_subcommand -a " + command.name + " -d " +
+            quoted_word(brief(command.summary)) + "\n";
   for (const Command& command : commands) {
-    const std::string begin = "complete -c morsel -n " + quoted_word("__fish_seen_subcommand_from " + command.name);
+    const std::string begin =
+        "complete -c morsel -n " + quoted_word("__fish_seen_subcommand_from " + command.name);
     for (const Option& option : command.options()) {
       const std::vector<std::string> listed = values_of(command, option);
       std::string rest = listed.empty() ? "" : " -f -a " + quoted_word(joined(listed, " "));

@@ -1,5 +1,5 @@
-// morsel_manual DIR: writes the man pages and the completions of bash, zsh and fish there, from the tables that --help is
-// made from: man1/morsel.1, man1/morsel-COMMAND.1, bash/morsel, zsh/_morsel, fish/morsel.fish.
+// morsel_manual DIR: writes the man pages and the completions of bash, zsh and fish there, from the tables
+// that --help is made from: man1/morsel.1, man1/morsel-COMMAND.1, bash/morsel, zsh/_morsel, fish/morsel.fish.
 
 #include <exception>
 #include <filesystem>

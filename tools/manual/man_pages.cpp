@@ -28,9 +28,10 @@ std::string bold(std::string_view text) { return "\\fB" + plain(text) + "\\fR"; 
 
 std::string heading(const std::string& name, const std::string& summary) {
   std::string upper = name;
-  std::ranges::transform(upper, upper.begin(), [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
-  return ".TH " + upper + " 1 \"\" \"morsel " + std::string(kVersion) + "\" \"morsel\"\n.SH NAME\n" + plain(name) + " \\- " +
-         plain(summary) + "\n";
+  std::ranges::transform(upper, upper.begin(),
+                         [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  return ".TH " + upper + " 1 \"\" \"morsel " + std::string(kVersion) + "\" \"morsel\"\n.SH NAME\n" +
+         plain(name) + " \\- " + plain(summary) + "\n";
 }
 
 std::string entry(const Option& option) {
@@ -60,7 +61,8 @@ std::string entries(const Command& command, bool arguments) {
 }
 
 constexpr std::string_view kExitCodes =
-    "0 done; 1 a check found differences, or a mesh of a batch failed; 2 wrong usage; 3 bad input; 4 writing failed; "
+    "0 done; 1 a check found differences, or a mesh of a batch failed; 2 wrong usage; 3 bad input; 4 writing "
+    "failed; "
     "5 out of memory, threads or open files; 130 and 143 interrupted.";
 
 }  // namespace
@@ -68,8 +70,10 @@ constexpr std::string_view kExitCodes =
 std::string command_man_page(const Command& command) {
   std::string roff = heading("morsel-" + command.name, command.summary);
   roff += ".SH SYNOPSIS\n" + bold("morsel " + command.name) + " " + plain(usage(command)) + "\n";
-  if (const std::string arguments = entries(command, true); !arguments.empty()) roff += ".SH ARGUMENTS\n" + arguments;
-  if (const std::string options = entries(command, false); !options.empty()) roff += ".SH OPTIONS\n" + options;
+  if (const std::string arguments = entries(command, true); !arguments.empty())
+    roff += ".SH ARGUMENTS\n" + arguments;
+  if (const std::string options = entries(command, false); !options.empty())
+    roff += ".SH OPTIONS\n" + options;
   roff += ".SH EXAMPLES\n";
   for (const Example& example : command.examples)
     roff += ".TP\n" + bold("morsel " + example.words) + "\n" + plain(example.does) + "\n";
@@ -79,7 +83,8 @@ std::string command_man_page(const Command& command) {
 
 std::string program_man_page(const std::deque<Command>& commands) {
   std::string roff = heading(
-      "morsel", "critical points of scalar fields on triangle meshes, by several methods compared with each other");
+      "morsel",
+      "critical points of scalar fields on triangle meshes, by several methods compared with each other");
   roff += ".SH SYNOPSIS\n" + bold("morsel") + " MESH [OPTIONS]\n.br\n" + bold("morsel") +
           " COMMAND ARGUMENTS [OPTIONS]\n.SH COMMANDS\n";
   for (const Command& command : commands)

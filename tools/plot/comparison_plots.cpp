@@ -47,8 +47,9 @@ Panel diagram_panel(const MethodCurves& method, bool counted) {
            series_of("essential", 0x000000, Mark::diamond, method.essential, counted)}};
 }
 
-/// The power of ten up to which the axes are to be linear, logarithmic beyond, because curvature and its like have heavy
-/// tails: half of all values lie on a small part of their range. 0 if the axes are to be linear throughout.
+/// The power of ten up to which the axes are to be linear, logarithmic beyond, because curvature and its like
+/// have heavy tails: half of all values lie on a small part of their range. 0 if the axes are to be linear
+/// throughout.
 double linear_part(std::span<const MethodCurves> methods) {
   constexpr double kSmallPart = 0.1;
   constexpr double kDecades = 100;  // of them logarithmic
@@ -72,7 +73,8 @@ double linear_part(std::span<const MethodCurves> methods) {
   return std::pow(10, std::floor(std::log10(largest / kDecades)));
 }
 
-/// Of lines that may run along one another (a cancelled field keeps all other pairs): each shows the ones below it.
+/// Of lines that may run along one another (a cancelled field keeps all other pairs): each shows the ones
+/// below it.
 Dash dash_of(std::size_t line) {
   constexpr Dash kDashes[] = {Dash::solid, Dash::dashed, Dash::dotted, Dash::dash_dot};
   return kDashes[(line + line / std::size(kPalette)) % std::size(kDashes)];

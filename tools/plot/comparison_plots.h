@@ -22,8 +22,9 @@ struct MethodCurves {
   DiagramPoints minimum_saddle;
   DiagramPoints saddle_maximum;
   DiagramPoints saddle_cap;
-  /// Each component's minimum, the saddles that are paired with no extremum and, of closed components, the maximum. (The top class of a
-  /// bounded component is a cap, which is born at +∞ and has no place in a diagram.)
+  /// Each component's minimum, the saddles that are paired with no extremum and, of closed components, the
+  /// maximum. (The top class of a bounded component is a cap, which is born at +∞ and has no place in a
+  /// diagram.)
   DiagramPoints essential;
   std::vector<double> persistences;  ///< of the finite pairs, ascending
   /// Critical points after each iteration of all steps together, the input first; empty if no step iterates.
@@ -42,8 +43,8 @@ Plot diagram_plot(const MethodCurves& method, const std::string& field);
 /// Those of all methods with the same axes, side by side on the width of a page.
 Plot diagram_sheet(const std::vector<MethodCurves>& methods, const std::string& field);
 
-/// How many finite pairs have at least a persistence, against it, both logarithmic; a line a method. It begins at a 100,000th of the
-/// largest persistence; what is below, zeros included, is counted nowhere in it.
+/// How many finite pairs have at least a persistence, against it, both logarithmic; a line a method. It
+/// begins at a 100,000th of the largest persistence; what is below, zeros included, is counted nowhere in it.
 Plot persistence_plot(const std::vector<MethodCurves>& methods, const std::string& field);
 
 /// Critical points against iteration, a line for each method that iterates; without panels if none does.

@@ -11,7 +11,8 @@ namespace morsel::tools::plot {
 /// Draws on a white image, `scale` pixels a printer's point.
 class PixelCanvas : public Canvas {
  public:
-  /// Throws InvalidArgument if there would be more than 32,767 pixels in a row or column. Refers to the lettering.
+  /// Throws InvalidArgument if there would be more than 32,767 pixels in a row or column. Refers to the
+  /// lettering.
   PixelCanvas(double width, double height, double scale, drawing::Lettering& lettering);
   ~PixelCanvas() override;
   PixelCanvas(const PixelCanvas&) = delete;

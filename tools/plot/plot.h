@@ -13,7 +13,8 @@ namespace morsel::tools::plot {
 /// sRGB, 0xRRGGBB.
 using Color = std::uint32_t;
 
-/// Colours that the colour-blind tell apart, on white, the strongest first (Okabe and Ito 2008, without their yellow).
+/// Colours that the colour-blind tell apart, on white, the strongest first (Okabe and Ito 2008, without their
+/// yellow).
 inline constexpr Color kPalette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
 
 enum class Scale {
@@ -70,12 +71,14 @@ struct Plot {
   std::string title = {};
   Axis x = {};
   Axis y = {};
-  /// Both axes have the same scale and show the same range and the diagonal is drawn, as persistence diagrams have it.
+  /// Both axes have the same scale and show the same range and the diagonal is drawn, as persistence diagrams
+  /// have it.
   bool diagonal = false;
   std::vector<Panel> panels = {};
   std::size_t columns = 1;              ///< of panels
   std::vector<std::string> notes = {};  ///< small print, a line each, broken where it is too long
-  /// Kept in the file for programs, in ASCII without < and &: an SVG's <metadata>, a PNG's comment; none if it is empty.
+  /// Kept in the file for programs, in ASCII without < and &: an SVG's <metadata>, a PNG's comment; none if
+  /// it is empty.
   std::string metadata = {};
   double width = kColumnWidth;  ///< in points of 1/72 inch; the height follows from what is in the plot
 
@@ -83,21 +86,23 @@ struct Plot {
   static constexpr double kPageWidth = 516;    ///< of both columns
 };
 
-/// Writes the plot, whole or not at all. The same bytes for the same plot whatever the number of threads, the time and
-/// the machine's fonts. Text is text in DejaVu Sans; where that is missing, another font is fitted into the same place.
+/// Writes the plot, whole or not at all. The same bytes for the same plot whatever the number of threads, the
+/// time and the machine's fonts. Text is text in DejaVu Sans; where that is missing, another font is fitted
+/// into the same place.
 ///
-/// Of crowded marks, of which many lie over one another, only some are drawn: where a series has more than one for 5 square
-/// points of its panel (8,000 in a column's), one in each cell of a grid, and a note below the plot tells how many these are.
-/// Lines lose the points that do not move them by a fifth of a printer's
+/// Of crowded marks, of which many lie over one another, only some are drawn: where a series has more than
+/// one for 5 square points of its panel (8,000 in a column's), one in each cell of a grid, and a note below
+/// the plot tells how many these are. Lines lose the points that do not move them by a fifth of a printer's
 /// point. So files stay below some hundred kilobytes however many points there are. O(number of points).
 ///
-/// Throws InvalidArgument for a plot that cannot be drawn: no panel, x and y of different sizes, NaN, infinities other than
-/// y = +∞ of marks, values beyond ±1e300 or of 0 or less on a logarithmic axis, limits that are not an interval, a width outside 100 to 2000, text
-/// that is not UTF-8 or has control characters; WriteFailed where writing fails. May be called from several threads at once.
+/// Throws InvalidArgument for a plot that cannot be drawn: no panel, x and y of different sizes, NaN,
+/// infinities other than y = +∞ of marks, values beyond ±1e300 or of 0 or less on a logarithmic axis, limits
+/// that are not an interval, a width outside 100 to 2000, text that is not UTF-8 or has control characters;
+/// WriteFailed where writing fails. May be called from several threads at once.
 void write_svg(const std::filesystem::path& path, const Plot& plot);
 
-/// The same drawing in pixels, `width` of them from left to right (100 to 10,000, else InvalidArgument): 8-bit RGB on white.
-/// The same bytes as long as cairo, FreeType and zlib stay the same.
+/// The same drawing in pixels, `width` of them from left to right (100 to 10,000, else InvalidArgument):
+/// 8-bit RGB on white. The same bytes as long as cairo, FreeType and zlib stay the same.
 void write_png(const std::filesystem::path& path, const Plot& plot, int width);
 
 }  // namespace morsel::tools::plot

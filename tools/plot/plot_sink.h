@@ -17,7 +17,8 @@ namespace morsel::tools {
 ///   diagrams      those of all methods, with the same axes
 ///   persistence   how many pairs are how persistent, a line a method
 ///   iterations    critical points against iteration, a line for each method that iterates; if any does
-/// NAME is the method's; a second method of the same name gets "-2", and so on. Keeps 24 bytes a pair and method.
+/// NAME is the method's; a second method of the same name gets "-2", and so on. Keeps 24 bytes a pair and
+/// method.
 class PlotSink : public ComparisonSink {
  public:
   /// Refers to `folder`.

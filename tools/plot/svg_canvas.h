@@ -8,8 +8,8 @@
 
 namespace morsel::tools::plot {
 
-/// Makes the text of a document without ids, styles and scripts, so that several can be put into one page. Coordinates
-/// have two decimals.
+/// Makes the text of a document without ids, styles and scripts, so that several can be put into one page.
+/// Coordinates have two decimals.
 class SvgCanvas : public Canvas {
  public:
   /// Refers to the lettering, by which texts are fitted into their places.

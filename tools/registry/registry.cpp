@@ -148,6 +148,8 @@ std::string describe_function(const std::string& name) {
   return describe(find_entry(kFunctions, name, "Morse function"));
 }
 
-std::string describe_method(const std::string& name) { return describe(find_entry(kMethods, name, "method")); }
+std::string describe_method(const std::string& name) {
+  return describe(find_entry(kMethods, name, "method"));
+}
 
 }  // namespace morsel::tools

@@ -16,7 +16,8 @@
 namespace morsel::tools::render {
 
 /// Writes, into one folder:
-///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's arcs where there
+///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's
+///   arcs where there
 ///              are no more than 500 points; all from the same side, each with its own colours' range
 ///   sheet.png  these side by side, with captions (method, counts)
 /// NAME is the method's; a second method of the same name gets "-2", and so on. Called by the thread that

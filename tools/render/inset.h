@@ -7,8 +7,8 @@
 
 namespace morsel::tools::render {
 
-/// The part of the film that shows, in a picture of the film's shape, what lies within `radius` (in the body's
-/// unit) of `center`, and more along the longer side. Throws InvalidArgument on a radius out of range.
+/// The part of the film that shows, in a picture of the film's shape, what lies within `radius` (in the
+/// body's unit) of `center`, and more along the longer side. Throws InvalidArgument on a radius out of range.
 FilmWindow window_around(const Camera& camera, const core::Point& center, double radius);
 
 /// Frames a window in a picture of all the film.

@@ -44,7 +44,8 @@ struct FigureText {
 /// "field", "descending", "ascending", "morse-smale", "plain"
 std::string to_string(Show show);
 
-/// All that a picture's looks follow from besides the subject, vertices by their numbers in the input file. `caption`: as it is drawn.
+/// All that a picture's looks follow from besides the subject, vertices by their numbers in the input file.
+/// `caption`: as it is drawn.
 Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
                      const core::VertexNumbering& numbering);
 

@@ -16,12 +16,12 @@ namespace morsel::tools::render {
 /// PREFIX.first.png or PREFIX.last.png
 std::filesystem::path thumbnail_path(const std::filesystem::path& prefix, const std::string& which);
 
-/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface coloured by the method's field, with its critical points. Of a
-/// single method both are there, and equal.
+/// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface coloured by the method's
+/// field, with its critical points. Of a single method both are there, and equal.
 class ThumbnailSink : public ComparisonSink {
  public:
-  /// `methods`: how many there will be. Of `camera` the inset is left out. Throws WriteFailed if the files cannot be written, InvalidArgument on
-  /// a wrong view. Refers to `loaded`.
+  /// `methods`: how many there will be. Of `camera` the inset is left out. Throws WriteFailed if the files
+  /// cannot be written, InvalidArgument on a wrong view. Refers to `loaded`.
   ThumbnailSink(std::filesystem::path prefix, std::size_t methods, CameraText camera,
                 const core::LoadedMesh& loaded, Provenance provenance, core::Progress progress = {});
   void field(const FieldOutcome& outcome) override;

@@ -14,8 +14,9 @@ namespace morsel::tools {
 /// the path. Throws InvalidArgument as make_function().
 std::vector<std::pair<std::string, std::string>> named_files(const std::string& field);
 
-/// Each file that these Morse functions, in the words of the command line, are to read, by path; not one that is missing, of which
-/// the function has more to tell. Throws InvalidArgument as make_function(), BadInput on one that cannot be read.
+/// Each file that these Morse functions, in the words of the command line, are to read, by path; not one that
+/// is missing, of which the function has more to tell. Throws InvalidArgument as make_function(), BadInput on
+/// one that cannot be read.
 std::vector<HashedFile> input_files(const std::vector<std::string>& fields);
 
 /// [{"path", "sha256"}]

@@ -23,8 +23,8 @@ Json tool_section();
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);
-/// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the field's extent is what the
-/// percentages are of.
+/// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the field's
+/// extent is what the percentages are of.
 Json persistence_section(const persistence::Diagram& diagram, double extent);
 /// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending",
 /// "morse_smale"}}

@@ -15,17 +15,17 @@ namespace morsel::tools {
 
 /// A JSON object, "morsel.provenance/1":
 ///   schema, tool {name, version}
-///   command   the command line, but for what leaves the contents of files as they are: outputs, threads, messages
-///   inputs[]  {path, sha256}: all files that were read, the mesh first
-///   request   {…}: all options that shape the result, those included that were not given
-///   field     {name, parameters{}}, with every value as it was resolved on the mesh
-///   methods[] {name, parameters{}}, likewise: those that the file shows
-/// and what else tells a command's files apart ("level"). No date, no machine: the same command gives the same bytes.
+///   command   the command line, but for what leaves the contents of files as they are: outputs, threads,
+///   messages inputs[]  {path, sha256}: all files that were read, the mesh first request   {…}: all options
+///   that shape the result, those included that were not given field     {name, parameters{}}, with every
+///   value as it was resolved on the mesh methods[] {name, parameters{}}, likewise: those that the file shows
+/// and what else tells a command's files apart ("level"). No date, no machine: the same command gives the
+/// same bytes.
 ///
-/// JSON documents have the same in members of their own; the other formats hold this object: as a PNG's comment, in an SVG's
-/// <metadata>, as a .vtp file's field array "provenance", in a page's last comment, in comment lines of meshes and texts (their
-/// marks taken off and put together again, they are the object), in the first row of a table's column "provenance".
-/// find_provenance() reads it back from any of them.
+/// JSON documents have the same in members of their own; the other formats hold this object: as a PNG's
+/// comment, in an SVG's <metadata>, as a .vtp file's field array "provenance", in a page's last comment, in
+/// comment lines of meshes and texts (their marks taken off and put together again, they are the object), in
+/// the first row of a table's column "provenance". find_provenance() reads it back from any of them.
 class Provenance {
  public:
   Provenance(std::string_view command, Json request, const std::vector<HashedFile>& inputs);

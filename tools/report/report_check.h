@@ -19,11 +19,13 @@ struct ReportCheck {
   bool is_unchanged() const { return !mesh_is_missing && differences.empty(); }
 };
 
-/// Runs a report's comparison again and compares. Throws OtherDocument or BadInput (report_reader.h) on what is no report, BadInput
-/// also on one that asks for what this version does not do, and what comparisons throw.
+/// Runs a report's comparison again and compares. Throws OtherDocument or BadInput (report_reader.h) on what
+/// is no report, BadInput also on one that asks for what this version does not do, and what comparisons
+/// throw.
 ReportCheck check_report(const std::filesystem::path& report, const core::Progress& progress = {});
 
-/// The .json files in a folder and the folders in it, by name. Throws BadInput if it cannot be read or has none.
+/// The .json files in a folder and the folders in it, by name. Throws BadInput if it cannot be read or has
+/// none.
 std::vector<std::filesystem::path> json_files(const std::filesystem::path& folder);
 
 }  // namespace morsel::tools

@@ -7,7 +7,8 @@
 
 namespace morsel::tools {
 
-/// For each count (the methods' own, the wanted one) the clean points, then a row for each perturbation and method.
+/// For each count (the methods' own, the wanted one) the clean points, then a row for each perturbation and
+/// method.
 std::string stability_table(const PreparedStability& prepared, const StabilityResult& result);
 
 }  // namespace morsel::tools

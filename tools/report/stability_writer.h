@@ -1,5 +1,6 @@
 #pragma once
-/// What a stability run found, as a JSON document ("morsel.stability/1", see stability.schema.json) and as CSV.
+/// What a stability run found, as a JSON document ("morsel.stability/1", see stability.schema.json) and as
+/// CSV.
 
 #include <ostream>
 
@@ -25,8 +26,9 @@ Json trials_key(const StabilityRequest& request, const ReportInput& input);
 /// The whole document, every trial included.
 void write_stability(JsonSink& json, const StabilityReport& report);
 
-/// A row for each count, field, method and perturbation, with the means over the trials; each tells the program's
-/// version, the mesh with its hash, the seed and all resolved parameters. Without timings, so always the same bytes.
+/// A row for each count, field, method and perturbation, with the means over the trials; each tells the
+/// program's version, the mesh with its hash, the seed and all resolved parameters. Without timings, so
+/// always the same bytes.
 void write_stability_csv(std::ostream& out, const StabilityReport& report);
 
 }  // namespace morsel::tools

@@ -43,7 +43,8 @@ std::string resolved(std::string_view method, const FigureRecipe& recipe, Model&
 double rounded_out(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const int digits = 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
-  // Powers of ten with positive exponents are exact, so that the quotient is the nearest to the decimal number.
+  // Powers of ten with positive exponents are exact, so that the quotient is the nearest to the decimal
+  // number.
   const double power = std::pow(10, std::abs(digits));
   const double scaled = digits >= 0 ? std::abs(value) * power : std::abs(value) / power;
   const double whole = std::ceil(scaled * (1 - 1e-12));

@@ -17,8 +17,8 @@ struct PictureOptions {
   bool repair = false;          ///< told in the commands
 };
 
-/// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods, pictures and
-/// files throw. `provenance`: of the figure, without field and methods; each panel has its own.
+/// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods,
+/// pictures and files throw. `provenance`: of the figure, without field and methods; each panel has its own.
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
                           ResultFolder& folder, Provenance provenance, const core::Progress& progress = {});
 

@@ -7,7 +7,8 @@
 
 namespace morsel::tools::reproduce {
 
-/// Figure 1: how many points are left of panel 1 in panel 3, and how salient (panel 2) the places are where they lie.
+/// Figure 1: how many points are left of panel 1 in panel 3, and how salient (panel 2) the places are where
+/// they lie.
 std::string fewer_and_where(const FigureOutcome& figure);
 /// Figure 2: arcs and segments of both panels.
 std::string simpler_complex(const FigureOutcome& figure);

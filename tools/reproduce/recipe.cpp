@@ -9,8 +9,8 @@ using render::Show;
 
 enum ModelNumber : std::size_t { lion, squirrel, protein };
 
-// In all figures: range=local,support=1, with which the numbers of the paper's table come out: a ball of radius σ, and
-// for σ_s the largest difference in it, the second of the two choices that the paper names.
+// In all figures: range=local,support=1, with which the numbers of the paper's table come out: a ball of
+// radius σ, and for σ_s the largest difference in it, the second of the two choices that the paper names.
 
 }  // namespace
 

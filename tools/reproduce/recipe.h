@@ -1,5 +1,6 @@
 #pragma once
-/// What `morsel reproduce` makes again, as data: the paper's models, figures and table. Another figure is another entry.
+/// What `morsel reproduce` makes again, as data: the paper's models, figures and table. Another figure is
+/// another entry.
 
 #include <array>
 #include <cstddef>
@@ -32,7 +33,8 @@ enum class Region : std::uint8_t { none, framed, close_up };
 
 struct PanelRecipe {
   std::string_view title = {};
-  /// A method as the command line words it; "{c}" in it stands for the number of critical points of panel (c).
+  /// A method as the command line words it; "{c}" in it stands for the number of critical points of panel
+  /// (c).
   std::string_view method = {};
   render::Show show = render::Show::field;
   bool points = true;

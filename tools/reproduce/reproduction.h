@@ -44,9 +44,9 @@ struct Reproduction {
 };
 
 /// Writes into the request's folder (result_folder.h) the figures (make_figure()), table1.csv,
-/// reproduction.json ("morsel.reproduction/1") and index.html, which holds all pictures. Everything but seconds is the same
-/// at any number of threads. Throws what meshes, methods, pictures and files throw; a folder that cannot be written to is
-/// told before the work.
+/// reproduction.json ("morsel.reproduction/1") and index.html, which holds all pictures. Everything but
+/// seconds is the same at any number of threads. Throws what meshes, methods, pictures and files throw; a
+/// folder that cannot be written to is told before the work.
 Reproduction run(const Prepared& prepared, const core::Progress& progress = {});
 
 /// The table as text for a terminal.

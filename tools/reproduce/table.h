@@ -15,8 +15,9 @@ std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>
 /// The method of a row: conventional, or salient with its iterations and the setting's keys.
 std::string method_of(const TableRow& row, const TableSetting& setting);
 
-/// A line for each row and setting: model, mesh, vertices, figure, iterations, method, points, paper_points, seconds,
-/// paper_seconds (empty where the paper has no number), version, the mesh's sha256, and all resolved parameters. RFC 4180.
+/// A line for each row and setting: model, mesh, vertices, figure, iterations, method, points, paper_points,
+/// seconds, paper_seconds (empty where the paper has no number), version, the mesh's sha256, and all resolved
+/// parameters. RFC 4180.
 std::string table_csv(const std::vector<TableRowOutcome>& table);
 
 }  // namespace morsel::tools::reproduce

@@ -133,7 +133,8 @@ void ResultFolder::open() {
     fs::create_directories(path_, error);
     root_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!root_.is_open() && errno == ENOTDIR) fail_to_make(path_, "a file of that name is there");
-    if (!root_.is_open()) fail_to_make(path_, error ? error.message() : std::generic_category().message(errno));
+    if (!root_.is_open())
+      fail_to_make(path_, error ? error.message() : std::generic_category().message(errno));
     made_ = std::move(missing);
     int result = 0;
     do result = ::flock(root_.number(), LOCK_SH);

@@ -41,11 +41,12 @@ struct MadeSegments {
   Areas areas() const;
 };
 
-/// Throws InvalidArgument for a request of 0 segments, of both ways at once, or a bad threshold. Needs no field.
+/// Throws InvalidArgument for a request of 0 segments, of both ways at once, or a bad threshold. Needs no
+/// field.
 void check(const SegmentRequest& request);
 
-/// Builds complex, hierarchy and segments. Of all levels of the hierarchy the first is taken that has what is asked
-/// for.
+/// Builds complex, hierarchy and segments. Of all levels of the hierarchy the first is taken that has what is
+/// asked for.
 MadeSegments make_segments(const core::ScalarField& field, const SegmentRequest& request,
                            const core::Progress& progress = {});
 

@@ -22,7 +22,8 @@ enum class NoiseKind : std::uint8_t {
 std::string_view to_string(NoiseKind kind);
 
 /// What is done to a surface, and how much of it:
-/// - noise: each vertex is moved by Gaussian noise whose standard deviation (isotropic: of each coordinate) is
+/// - noise: each vertex is moved by Gaussian noise whose standard deviation (isotropic: of each coordinate)
+/// is
 ///   `amount` mean edge lengths, the mean taken over the edges;
 /// - decimation: edges are collapsed, the vertices that stay where they were, until the share `amount` of the
 ///   vertices is left (decimation.h);
@@ -38,8 +39,8 @@ struct Perturbation {
 /// "noise 0.05".
 std::string to_string(const Perturbation& perturbation);
 
-/// Throws InvalidArgument if the amount is out of range: noise ≥ 0, decimation in (0, 1], subdivision whole and in 1
-/// … 16.
+/// Throws InvalidArgument if the amount is out of range: noise ≥ 0, decimation in (0, 1], subdivision whole
+/// and in 1 … 16.
 void check(const Perturbation& perturbation);
 
 /// A perturbed surface. `source` numbers vertices as the file does, as far as they are the file's.
@@ -48,9 +49,9 @@ struct PerturbedMesh {
   std::vector<core::Point> places;  ///< where each vertex lies on the surface that was not perturbed
 };
 
-/// The perturbed surface of one trial: it depends on mesh, perturbation, seed and trial alone, and trial t moves each
-/// vertex by multiples of the same random numbers at all amounts of noise. O(n), decimation O(n log n). Throws what
-/// check() throws.
+/// The perturbed surface of one trial: it depends on mesh, perturbation, seed and trial alone, and trial t
+/// moves each vertex by multiples of the same random numbers at all amounts of noise. O(n), decimation O(n
+/// log n). Throws what check() throws.
 PerturbedMesh perturb(const core::LoadedMesh& clean, const Perturbation& perturbation, std::uint64_t seed,
                       std::uint64_t trial);
 

@@ -27,10 +27,10 @@ struct Reach {
   Cost cost;
 };
 
-/// The assignment problem: each row (an `other` point) takes a column (a reference point) in its reach, or none at a
-/// cost above all distances together. Rows come one after the other, each along the cheapest path that takes columns
-/// from rows before it. The potentials keep all reduced costs ≥ 0, so that Dijkstra's algorithm finds it. A row that
-/// has lost its column never gets one again: columns only become dearer.
+/// The assignment problem: each row (an `other` point) takes a column (a reference point) in its reach, or
+/// none at a cost above all distances together. Rows come one after the other, each along the cheapest path
+/// that takes columns from rows before it. The potentials keep all reduced costs ≥ 0, so that Dijkstra's
+/// algorithm finds it. A row that has lost its column never gets one again: columns only become dearer.
 class Assignment {
  public:
   Assignment(const std::vector<std::vector<Reach>>& rows, std::size_t columns)

@@ -17,18 +17,18 @@ struct PointPair {
   double distance;
 };
 
-/// Matches sets of points with one reference set, one to one, within a radius (inclusive, Euclidean): as many pairs
-/// as can be had and, among all ways to have so many, one whose distances have the least sum. So it does not depend
-/// on an order in which pairs are made, and gives up no pair for a nearer one. (match_critical_points() of a report
-/// takes the nearest pair first.)
+/// Matches sets of points with one reference set, one to one, within a radius (inclusive, Euclidean): as many
+/// pairs as can be had and, among all ways to have so many, one whose distances have the least sum. So it
+/// does not depend on an order in which pairs are made, and gives up no pair for a nearer one.
+/// (match_critical_points() of a report takes the nearest pair first.)
 class PointMatcher {
  public:
   /// Throws InvalidArgument if the radius is negative or NaN.
   PointMatcher(std::span<const core::Point> reference, double radius);
 
-  /// The pairs by ascending `other`. By shortest augmenting paths (the assignment problem; Jonker, Volgenant 1987),
-  /// in whole numbers of 2⁻³⁰ radii: O(m k) where few points are in each other's reach, O(m² k log m) at worst, for m
-  /// points with k reference points in reach. May be called from any number of threads.
+  /// The pairs by ascending `other`. By shortest augmenting paths (the assignment problem; Jonker, Volgenant
+  /// 1987), in whole numbers of 2⁻³⁰ radii: O(m k) where few points are in each other's reach, O(m² k log m)
+  /// at worst, for m points with k reference points in reach. May be called from any number of threads.
   std::vector<PointPair> match(std::span<const core::Point> other) const;
 
   std::size_t size() const { return reference_.size(); }

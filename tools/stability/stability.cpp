@@ -66,7 +66,8 @@ class CleanPoints {
   std::array<PointMatcher, kTypes.size()> matchers_;
 };
 
-/// How many of as many points of each type as were found match, on average over random vertices of their surface.
+/// How many of as many points of each type as were found match, on average over random vertices of their
+/// surface.
 double matches_by_chance(const CleanPoints& clean, const PointsByType& found, std::span<const Point> places,
                          RandomStream random) {
   std::vector<Index> vertices(places.size());

@@ -36,8 +36,8 @@ struct StabilityRequest {
   std::string reference = "conventional";
 };
 
-/// Puts in the perturbations that a request leaves to us: if there are none, noise of 0.05, 0.15, 0.3 and 0.5; and
-/// the reference field.
+/// Puts in the perturbations that a request leaves to us: if there are none, noise of 0.05, 0.15, 0.3 and
+/// 0.5; and the reference field.
 StabilityRequest with_defaults(StabilityRequest request);
 
 /// A length or a share of the bounding box's diagonal.
@@ -142,25 +142,26 @@ inline constexpr std::size_t kPlacements = 10;
 class TrialStore {
  public:
   virtual ~TrialStore() = default;
-  /// A trial for each outcome, in their order, or nothing if it is not known. May be called from several threads at once, as add().
+  /// A trial for each outcome, in their order, or nothing if it is not known. May be called from several
+  /// threads at once, as add().
   virtual std::optional<std::vector<Trial>> find(const Perturbation& perturbation,
                                                  std::size_t number) const = 0;
   virtual void add(const Perturbation& perturbation, std::size_t number,
                    const std::vector<Trial>& trials) = 0;
 };
 
-/// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their critical
-/// points with the clean ones (PointMatcher, type by type) by where they lie on the clean surface
-/// (PerturbedMesh::places): a point that stays at its vertex has not moved. Points of a subdivided surface lie where
-/// they lie.
+/// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their
+/// critical points with the clean ones (PointMatcher, type by type) by where they lie on the clean surface
+/// (PerturbedMesh::places): a point that stays at its vertex has not moved. Points of a subdivided surface
+/// lie where they lie.
 ///
 /// The chance level is the mean F-score of kPlacements sets of as many points of each type at vertices of the
 /// perturbed surface, all equally likely and no two of a set the same.
 ///
-/// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it is the
-/// same whatever else runs and at any number of threads. Throws what functions and methods throw; an error in a trial
-/// names the perturbation, trial, field and method, and of several it is that of the first. What the `store`, if there is
-/// one, has of trials is taken from it.
+/// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it
+/// is the same whatever else runs and at any number of threads. Throws what functions and methods throw; an
+/// error in a trial names the perturbation, trial, field and method, and of several it is that of the first.
+/// What the `store`, if there is one, has of trials is taken from it.
 StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
                               const core::Progress& progress = {}, TrialStore* store = nullptr);
 

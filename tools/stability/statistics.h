@@ -15,8 +15,8 @@ struct Estimate {
   std::size_t count = 0;
   double mean = 0;
   double deviation = 0;  ///< the sample's standard deviation (with count − 1)
-  /// The mean lies within ± this of the sample's with a confidence of 95 %, were the values normally distributed:
-  /// Student's t with count − 1 degrees of freedom. None for fewer than two values.
+  /// The mean lies within ± this of the sample's with a confidence of 95 %, were the values normally
+  /// distributed: Student's t with count − 1 degrees of freedom. None for fewer than two values.
   std::optional<double> half_width;
 };
 

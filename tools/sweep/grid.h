@@ -24,8 +24,8 @@ struct Combination {
   std::vector<core::Specification> steps;
 };
 
-/// A request whose names and values have been looked up: all combinations, those next to each other that differ in the
-/// last variation alone.
+/// A request whose names and values have been looked up: all combinations, those next to each other that
+/// differ in the last variation alone.
 struct PreparedSweep {
   std::vector<Variation> variations;
   std::vector<Combination> combinations;
@@ -37,9 +37,9 @@ inline constexpr std::size_t kMostCombinations = 1'000'000;
 /// A key is looked for in the field and in all steps of the method; where several have it, it is written
 /// "field.KEY", "NAME.KEY" or, with the number of the step from 1 on, "2.KEY".
 ///
-/// Throws InvalidArgument if nothing varies, on keys that nothing or more than one thing has, that vary twice or are given
-/// a value besides, on what make_function() and make_method() refuse of any combination, and on more than kMostCombinations.
-/// Touches no file.
+/// Throws InvalidArgument if nothing varies, on keys that nothing or more than one thing has, that vary twice
+/// or are given a value besides, on what make_function() and make_method() refuse of any combination, and on
+/// more than kMostCombinations. Touches no file.
 PreparedSweep prepare(const SweepRequest& request);
 
 }  // namespace morsel::tools

@@ -29,13 +29,14 @@ struct SweepOptions {
 
 /// A row for each combination, in their order.
 ///
-/// Work that combinations have in common is done once: a field is taken once for all methods, the first steps of a chain are applied
-/// once for all that follows, and what differs in the iterations of a step alone is read out of one run of it, if the
-/// method lets itself be read (core::Method::tells_results()). Rows are the same bits as those of a sweep with one combination.
-/// No more fields are in memory at a time than a chain has steps, and two more.
+/// Work that combinations have in common is done once: a field is taken once for all methods, the first steps
+/// of a chain are applied once for all that follows, and what differs in the iterations of a step alone is
+/// read out of one run of it, if the method lets itself be read (core::Method::tells_results()). Rows are the
+/// same bits as those of a sweep with one combination. No more fields are in memory at a time than a chain
+/// has steps, and two more.
 ///
-/// Seconds of a row that was read out are those up to its iteration. Throws what functions and methods throw; an error names its
-/// combination.
+/// Seconds of a row that was read out are those up to its iteration. Throws what functions and methods throw;
+/// an error names its combination.
 std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const PreparedSweep& prepared,
                                 const SweepOptions& options = {}, const core::Progress& progress = {});
 
