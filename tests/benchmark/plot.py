@@ -1,4 +1,5 @@
-"""plot.py BENCHMARK.json PLOT.svg: time and memory a vertex against the size of the mesh, if the scaling suite ran."""
+"""plot.py BENCHMARK.json PLOT.svg: time and memory a vertex against the size of the mesh, if the scaling
+suite ran."""
 
 import json
 import sys

@@ -27,10 +27,12 @@ class Browser:
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self.write_end = os.pipe()
         self.read_end, from_browser = os.pipe()
-        command = [program, "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--disable-quic", "--no-first-run",
+        command = [program, "--headless", "--no-sandbox", "--disable-gpu-sandbox", "--disable-quic",
+                   "--no-first-run",
                    "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
                    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-                   "--disable-default-apps", "--disable-extensions", "--disable-dev-shm-usage", "--hide-scrollbars",
+                   "--disable-default-apps", "--disable-extensions", "--disable-dev-shm-usage",
+                   "--hide-scrollbars",
                    "--force-color-profile=srgb", "--remote-debugging-pipe",
                    f"--user-data-dir={self.profile.name}", "about:blank"]
         # the browser reads from descriptor 3 and writes to 4
@@ -177,7 +179,8 @@ class Page:
 
     def picture(self, whole=False):
         """A screenshot as PNG."""
-        return base64.b64decode(self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"])
+        return base64.b64decode(self.call("Page.captureScreenshot", format="png",
+                                          captureBeyondViewport=whole)["data"])
 
     def close(self):
         self.browser.call("Target.closeTarget", targetId=self.target)

@@ -83,10 +83,12 @@ class PageData:
 
     def position(self, v):
         n = self.mesh["vertices"]
-        return [self.mesh["origin"][c] + self.mesh["step"] * self.mesh["positions"][c * n + v] for c in range(3)]
+        return [self.mesh["origin"][c] + self.mesh["step"] * self.mesh["positions"][c * n + v]
+                for c in range(3)]
 
     def persistence(self, method):
-        """Of each point: an extremum's is its pair's, a saddle's the largest of its pairs', infinite if one is left."""
+        """Of each point: an extremum's is its pair's, a saddle's the largest of its pairs', infinite if one
+        is left."""
         points = method["points"]
         count = len(points["vertex"])
         result, left = [0.0] * count, list(points["multiplicity"])

@@ -1,4 +1,5 @@
-"""A reader of PNG files written from the specification, so that what the program writes is read by other code."""
+"""A reader of PNG files written from the specification, so that what the program writes is read by other
+code."""
 
 import struct
 import zlib
@@ -15,7 +16,8 @@ class Png:
         while at < len(data):
             size, kind = struct.unpack(">I4s", data[at:at + 8])
             body = data[at + 8:at + 8 + size]
-            assert struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body), "checksum"
+            assert struct.unpack(">I",
+                                 data[at + 8 + size:at + 12 + size])[0] == zlib.crc32(kind + body), "checksum"
             if kind == b"IHDR":
                 self.width, self.height, depth, color, _, _, interlaced = struct.unpack(">IIBBBBB", body)
                 assert depth == 8 and not interlaced
@@ -45,7 +47,8 @@ class Png:
                     row[i] = (row[i] + (left + above[i]) // 2) & 255
                 elif kind == 4:
                     p = left + above[i] - corner
-                    near = min((abs(p - left), 0, left), (abs(p - above[i]), 1, above[i]), (abs(p - corner), 2, corner))
+                    near = min((abs(p - left), 0, left), (abs(p - above[i]), 1, above[i]),
+                               (abs(p - corner), 2, corner))
                     row[i] = (row[i] + near[2]) & 255
             rows.append(row)
             above = row

@@ -53,8 +53,8 @@ def until(condition, seconds=60):
 
 
 def interrupted(folder, arguments, how, code, ready):
-    """Runs the program until `ready`, then sends it the signal `how`, of which it must end with `code`. The number of
-    entries that journals in the folder have then."""
+    """Runs the program until `ready`, then sends it the signal `how`, of which it must end with `code`. The
+    number of entries that journals in the folder have then."""
     with subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=folder, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE) as process:
         until(lambda: process.poll() is not None or ready())
@@ -88,7 +88,8 @@ class ProgramTest(unittest.TestCase):
         return path
 
     def morsel(self, *arguments, code=0, cwd=None, **options):
-        """Runs the program; its exit code must be `code`, and an error must be one clear line on standard error."""
+        """Runs the program; its exit code must be `code`, and an error must be one clear line on standard
+        error."""
         result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=240,
                                 cwd=cwd or self.folder, check=False, **options)
         self.assertEqual(result.returncode, code, f"{arguments}\n{result.stdout}\n{result.stderr}")

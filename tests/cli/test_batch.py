@@ -49,7 +49,8 @@ class BatchTest(ProgramTest):
 
     def batch(self, *arguments, out="out", code=0, collection="meshes", pictures=False):
         """Most tests do without pictures, which take longest."""
-        return self.morsel_batch(collection, "--out", out, *QUICK, *([] if pictures else ["--no-thumbnails"]), *arguments,
+        return self.morsel_batch(collection, "--out", out, *QUICK, *([] if pictures else ["--no-thumbnails"]),
+                                 *arguments,
                                  code=code)
 
     def morsel_batch(self, *arguments, code=0):
@@ -111,9 +112,11 @@ class Results(BatchTest):
 
     def test_a_report_is_that_of_compare(self):
         self.batch("--snap", "--no-items", "--target", "8", "--field", "height:axis=x")
-        self.morsel("compare", "meshes/sphere.off", *QUICK, "--snap", "--no-items", "--target", "8", "--field",
+        self.morsel("compare", "meshes/sphere.off", *QUICK, "--snap", "--no-items", "--target", "8",
+                    "--field",
                     "height:axis=x", "-o", "alone.json")
-        self.assertEqual(without_timings(self.out / "reports/sphere.off.json"), without_timings(self.folder / "alone.json"))
+        self.assertEqual(without_timings(self.out / "reports/sphere.off.json"),
+                         without_timings(self.folder / "alone.json"))
 
     def test_a_list_gives_the_same_as_the_folder_in_its_own_order(self):
         self.file("meshes/list.txt", "# three\nsphere.off\r\n\ndeeper/an anchor.off\noctahedron.off\n")
@@ -219,7 +222,8 @@ class Again(BatchTest):
 
 class Failures(BatchTest):
     def morsel_batch(self, *arguments, code=0):
-        result = subprocess.run([PROGRAM, "batch", *map(str, arguments)], capture_output=True, text=True, timeout=240,
+        result = subprocess.run([PROGRAM, "batch", *map(str, arguments)], capture_output=True, text=True,
+                                timeout=240,
                                 cwd=self.folder, check=False)
         self.assertEqual(result.returncode, code, result.stderr)
         return result
@@ -257,28 +261,34 @@ class Failures(BatchTest):
 
     def test_a_time_limit(self):
         begin = time.monotonic()
-        self.morsel_batch("meshes", "--out", "out", "--time-limit", "0.5", *LONG, "--only", "sphere.off", code=1)
+        self.morsel_batch("meshes", "--out", "out", "--time-limit", "0.5", *LONG, "--only", "sphere.off",
+                          code=1)
         self.assertLess(time.monotonic() - begin, 20)
         self.assertEqual(self.error("sphere.off"), {"kind": "time-limit", "exit_code": None, "signal": 9,
                                                     "message": "longer than the time limit of 0.5 s"})
-        again = self.morsel_batch("meshes", "--out", "out", "--time-limit", "0.5", *LONG, "--only", "sphere.off", code=1)
+        again = self.morsel_batch("meshes", "--out", "out", "--time-limit", "0.5", *LONG, "--only",
+                                  "sphere.off", code=1)
         self.assertIn("(1 by earlier runs)", again.stdout)
-        other = self.morsel_batch("meshes", "--out", "out", "--time-limit", "0.6", *LONG, "--only", "sphere.off", code=1)
+        other = self.morsel_batch("meshes", "--out", "out", "--time-limit", "0.6", *LONG, "--only",
+                                  "sphere.off", code=1)
         self.assertNotIn("earlier", other.stdout)
 
-    @unittest.skipIf(os.environ.get("ASAN_OPTIONS") or os.environ.get("TSAN_OPTIONS"), "sanitizers take memory themselves")
+    @unittest.skipIf(os.environ.get("ASAN_OPTIONS") or os.environ.get("TSAN_OPTIONS"),
+                     "sanitizers take memory themselves")
     def test_a_memory_limit(self):
         width, height = 500, 1000
         vertices = (struct.pack("<3f", x, y, (x * x + y) % 7) for y in range(height) for x in range(width))
         corners = (y * width + x for y in range(height - 1) for x in range(width - 1))
-        faces = (struct.pack("<B3iB3i", 3, i, i + 1, i + width, 3, i + 1, i + width + 1, i + width) for i in corners)
+        faces = (struct.pack("<B3iB3i", 3, i, i + 1, i + width, 3, i + 1, i + width + 1, i + width)
+                 for i in corners)
         header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {width * height}\nproperty float x\nproperty float y\n"
                   f"property float z\nelement face {2 * (width - 1) * (height - 1)}\nproperty list uchar int vertex_indices\nend_header\n")
         (self.meshes / "large.ply").write_bytes(header.encode() + b"".join(vertices) + b"".join(faces))
         self.batch("--memory-limit", "120", code=1)
         self.assertEqual(self.statuses(), {**dict.fromkeys(self.names, "done"), "large.ply": "failed"})
         error = self.error("large.ply")
-        self.assertEqual((error["kind"], error["message"]), ("memory-limit", "more memory than the limit of 120 MiB"))
+        self.assertEqual((error["kind"], error["message"]), ("memory-limit",
+                                                             "more memory than the limit of 120 MiB"))
 
 
 class AtWork(BatchTest):
@@ -289,8 +299,10 @@ class AtWork(BatchTest):
 
     def is_child(self, pid):
         try:
-            with open(f"/proc/{pid}/cmdline", "rb") as words, open(f"/proc/{pid}/stat", encoding="utf-8") as stat:
-                return (b"compare" in words.read() and os.readlink(f"/proc/{pid}/cwd") == str(self.folder.resolve())
+            with open(f"/proc/{pid}/cmdline", "rb") as words, open(f"/proc/{pid}/stat",
+                                                                   encoding="utf-8") as stat:
+                return (b"compare" in words.read()
+                        and os.readlink(f"/proc/{pid}/cwd") == str(self.folder.resolve())
                         and ") Z " not in stat.read())
         except OSError:
             return False
@@ -326,10 +338,12 @@ class Interruptions(AtWork):
                 process.communicate(timeout=60)
             self.assertEqual(process.returncode, code)
             until(lambda: not self.children(), 10)
-            self.assertEqual(sorted(path.name for path in (self.out / "reports").rglob("*.json")), ["octahedron.off.json"])
+            self.assertEqual(sorted(path.name for path in (self.out / "reports").rglob("*.json")),
+                             ["octahedron.off.json"])
             json.loads((self.out / "reports/meshes/octahedron.off.json").read_text())
             if how != signal.SIGKILL:  # then not even what is not whole is left
-                self.assertEqual([path for path in self.out.rglob("*") if path.suffix == ".tmp" or path.name == "work"], [])
+                self.assertEqual([path for path in self.out.rglob("*") if path.suffix == ".tmp"
+                                  or path.name == "work"], [])
             before = self.times()
             result = self.morsel("batch", "list", "--out", "out", *self.arguments)
             self.assertIn("3 done, 0 failed (1 by earlier runs)", result.stdout)
@@ -346,7 +360,8 @@ class WrongInput(BatchTest):
         for wrong, code, said in ((("empty",), 3, "no mesh"),
                                   (("absent",), 3, "absent"),
                                   ((self.file("list", "# nothing\n"),), 3, "no mesh in the list"),
-                                  ((self.file("twice", "meshes/sphere.off\n./meshes/sphere.off\n"),), 3, "two meshes"),
+                                  ((self.file("twice", "meshes/sphere.off\n./meshes/sphere.off\n"),), 3,
+                                   "two meshes"),
                                   (("meshes/sphere.off",), 3, "is a mesh"),
                                   (("meshes", "--method", "nonsense"), 2, "nonsense"),
                                   (("meshes", "--field", "height:axes=z"), 2, "axes"),

@@ -38,7 +38,8 @@ class CollectionPage(BatchTest):
         self.assertEqual(self.rows(page), [*by_size, self.bad])
         page.run(sort)
         self.assertEqual(self.rows(page), [*by_size[::-1], self.bad])
-        self.assertEqual(page.run("document.querySelector('[aria-sort]').getAttribute('aria-sort')"), "descending")
+        self.assertEqual(page.run("document.querySelector('[aria-sort]').getAttribute('aria-sort')"),
+                         "descending")
         self.assertEqual(page.said(), [])
 
     def test_meshes_are_found(self):

@@ -26,8 +26,10 @@ class Products(BatchTest):
         self.batch(*ALL, "--no-items", pictures=True)
         self.assertEqual(self.files("pages"), [f"{name}.html" for name in self.names])
         # In the words of batch, as files tell the command that made them.
-        self.morsel("compare", "--field=mean-curvature", "--method=conventional", "--method=salient:iterations=2",
-                    "--no-items", "--view=best", "--up=y", "--size=200x150", "--figures", "figures", "--export", "exports",
+        self.morsel("compare", "--field=mean-curvature", "--method=conventional",
+                    "--method=salient:iterations=2",
+                    "--no-items", "--view=best", "--up=y", "--size=200x150", "--figures", "figures",
+                    "--export", "exports",
                     "--", "meshes/sphere.off")
         for kind in ("figures", "exports"):
             alone = contents(self.folder / kind)
@@ -35,7 +37,8 @@ class Products(BatchTest):
             self.assertEqual(self.files(kind), [f"{name}/{file}" for name in self.names for file in alone])
         for mesh in self.summary()["meshes"]:
             self.assertEqual([mesh[key] for key in ("page", "figures", "exports")],
-                             [f"pages/{mesh['name']}.html", f"figures/{mesh['name']}", f"exports/{mesh['name']}"])
+                             [f"pages/{mesh['name']}.html", f"figures/{mesh['name']}",
+                              f"exports/{mesh['name']}"])
         self.assertFalse((self.out / "work").exists())
 
     def test_a_page_tells_how_to_make_it_where_it_is(self):
@@ -53,7 +56,8 @@ class Products(BatchTest):
         for link in links:
             self.assertTrue(link == "data:," or (self.out / link).exists(), link)
         for name in self.names:
-            for link in (f"pages/{name}.html", f"reports/{name}.json", f"figures/{name}/sheet.png", f"exports/{name}/"):
+            for link in (f"pages/{name}.html", f"reports/{name}.json", f"figures/{name}/sheet.png",
+                         f"exports/{name}/"):
                 self.assertIn(link, links)
         self.assertFalse([link for link in links if "bad.off" in link])
 
@@ -79,19 +83,25 @@ class Products(BatchTest):
 
     def test_the_camera_is_that_of_all_pictures(self):
         pictures = ("--method", "conventional", "--only", "deeper/an anchor.off")
-        for out, arguments in (("best", ()), ("left", ("--view", "left")), ("low", ("--view=-30/-20", "--up", "z")),
-                               ("figures", ("--view", "left", "--figures", "--size", "120x90", "--inset", "3:10eps"))):
+        for out, arguments in (("best", ()), ("left", ("--view", "left")),
+                               ("low", ("--view=-30/-20", "--up", "z")),
+                               ("figures", ("--view", "left", "--figures", "--size", "120x90", "--inset",
+                                            "3:10eps"))):
             self.morsel_batch("meshes", "--out", out, *pictures, *arguments)
-        first = {out: tuple(map(bytes, Png((self.folder / out / "thumbnails/deeper/an anchor.off.first.png").read_bytes()).rows))
+        first = {out: tuple(map(bytes,
+                                Png((self.folder / out / "thumbnails/deeper/an anchor.off.first.png").read_bytes()).rows))
                  for out in ("best", "left", "low", "figures")}
         self.assertEqual(first["left"], first["figures"])
         self.assertEqual(len(set(first.values())), 3)
         # a caption is below the picture
-        self.assertEqual(size_of(self.folder / "figures/figures/deeper/an anchor.off/conventional.png")[0], 120)
+        self.assertEqual(size_of(self.folder / "figures/figures/deeper/an anchor.off/conventional.png")[0],
+                         120)
         request = self.summary("figures")["request"]
-        self.assertEqual([request[key] for key in ("view", "up", "size", "inset")], ["left", "y", "120x90", "3:10eps"])
+        self.assertEqual([request[key] for key in ("view", "up", "size", "inset")],
+                         ["left", "y", "120x90", "3:10eps"])
         request = self.summary("low")["request"]
-        self.assertEqual([request[key] for key in ("view", "up", "size", "inset")], ["-30/-20", "z", None, None])
+        self.assertEqual([request[key] for key in ("view", "up", "size", "inset")],
+                         ["-30/-20", "z", None, None])
 
 
     def test_a_vertex_that_a_mesh_does_not_have_is_that_mesh_s_failure(self):

@@ -16,7 +16,8 @@ LONG_ENOUGH = ("--method", "conventional", "--method", "salient:iterations=400")
 
 class Together(AtWork):
     def start(self, *arguments, **options):
-        process = subprocess.Popen([PROGRAM, "batch", "meshes", "--out", "out", *arguments], cwd=self.folder, text=True,
+        process = subprocess.Popen([PROGRAM, "batch", "meshes", "--out", "out", *arguments], cwd=self.folder,
+                                   text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
@@ -42,7 +43,8 @@ class Together(AtWork):
             self.assertEqual(report["request"].get("snap", False), state["key"]["request"]["snap"], name)
             page = (self.out / "pages" / f"{name[:-5]}.html").read_text()
             self.assertEqual("--snap" in page, state["key"]["request"]["snap"], name)
-        self.assertEqual([path for path in self.out.rglob("*") if path.suffix in (".part", ".tmp") or path.name == "work"], [])
+        self.assertEqual([path for path in self.out.rglob("*") if path.suffix in (".part", ".tmp")
+                          or path.name == "work"], [])
 
     def test_two_runs_on_one_mesh_do_not_meet(self):
         """The second one once emptied the folder that the first one worked in."""
@@ -102,7 +104,8 @@ class Together(AtWork):
         self.assertIn("1 failed", self.ends(process, 1))
         error = next(mesh for mesh in self.summary()["meshes"] if mesh["name"] == "sphere.off")["error"]
         self.assertEqual((error["kind"], error["signal"]), ("signal", 9))
-        self.assertIn("1 done", self.morsel("batch", "meshes", "--out", "out", "--only", "sphere.off", "--method",
+        self.assertIn("1 done", self.morsel("batch", "meshes", "--out", "out", "--only", "sphere.off",
+                                            "--method",
                                             "conventional", "--method", "salient:iterations=400").stdout)
 
     def test_a_full_disk_leaves_nothing_half_done(self):

@@ -31,13 +31,16 @@ class Compare(ProgramTest):
         schema = json.loads(SCHEMA.read_text())
         mesh = self.file("octahedron.off", OCTAHEDRON)
         chain = "salient:iterations=2,sigma=0.5,range=local+tps:threshold=1%"
-        for arguments in ([mesh], [mesh, "--field", "height:axis=x", "--method", chain], [SAMPLES / "lion-head.off"],
+        for arguments in ([mesh], [mesh, "--field", "height:axis=x", "--method", chain],
+                          [SAMPLES / "lion-head.off"],
                           [self.file("damaged.off", DAMAGED), "--repair"]):
             jsonschema.validate(self.report(*arguments), schema)
 
     def test_curvature_at_a_scale_and_the_robust_preset(self):
-        report = self.report(SAMPLES / "lion-head.off", "--method", "salient", "--method", "salient:preset=robust",
-                             "--method", "salient:preset=robust,iterations=2,scale=1.5edges", "--target", "101")
+        report = self.report(SAMPLES / "lion-head.off", "--method", "salient", "--method",
+                             "salient:preset=robust",
+                             "--method", "salient:preset=robust,iterations=2,scale=1.5edges", "--target",
+                             "101")
         paper, robust, own = (m["parameters"] for m in report["methods"])
         self.assertNotIn("scale", paper)
         self.assertEqual((robust["preset"], robust["iterations"], robust["range"]), ("robust", 1, "0.2std"))
@@ -45,7 +48,8 @@ class Compare(ProgramTest):
         self.assertEqual(own["iterations"], 2)
         for method in report["methods"]:
             self.assertEqual(method["critical_points"]["total"], 101)
-        scaled = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1.8edges", "--method",
+        scaled = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1.8edges",
+                             "--method",
                              "salient:sigma=1edges,iterations=1,range=0.2std", name="scaled.json")
         alone = self.report(SAMPLES / "lion-head.off", "--method", "salient:preset=robust", name="alone.json")
         self.assertAlmostEqual(scaled["field"]["parameters"]["scale"], robust["scale"], delta=1e-12)
@@ -54,11 +58,13 @@ class Compare(ProgramTest):
         self.morsel("compare", SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1e6edges", code=3)
 
     def test_diffused_curvature(self):
-        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=diffused", "--method",
+        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=diffused",
+                             "--method",
                              "conventional")
         parameters = report["field"]["parameters"]
         self.assertEqual(parameters["estimator"], "diffused")
-        self.assertAlmostEqual(parameters["diffusion"], 12 * 0.003 * report["mesh"]["bbox_diagonal"], delta=1e-12)
+        self.assertAlmostEqual(parameters["diffusion"], 12 * 0.003 * report["mesh"]["bbox_diagonal"],
+                               delta=1e-12)
         self.assertGreater(parameters["scale"], 0)
         self.assertEqual(report["methods"][0]["critical_points"]["total"], 103)
         self.morsel("compare", SAMPLES / "lion-head.off", "--field",
@@ -85,7 +91,8 @@ class Compare(ProgramTest):
     def test_the_schema_refuses_what_it_should(self):
         schema = json.loads(SCHEMA.read_text())
         report = self.report(self.file("octahedron.off", OCTAHEDRON))
-        for spoil in (lambda r: r["mesh"].pop("sha256"), lambda r: r["methods"][0]["critical_points"].pop("total"),
+        for spoil in (lambda r: r["mesh"].pop("sha256"),
+                      lambda r: r["methods"][0]["critical_points"].pop("total"),
                       lambda r: r.update(schema="morsel.comparison/2"), lambda r: r.update(methods=[])):
             spoiled = json.loads(json.dumps(report))
             spoil(spoiled)
@@ -98,7 +105,8 @@ class Compare(ProgramTest):
         self.assertEqual(names, ["conventional", "salient", "tps"])
         conventional, salient, tps = report["methods"]
         self.assertEqual(conventional["critical_points"],
-                         {"minima": 462, "saddles": 934, "saddle_multiplicity": 960, "maxima": 499, "total": 1895})
+                         {"minima": 462, "saddles": 934, "saddle_multiplicity": 960, "maxima": 499,
+                          "total": 1895})
         self.assertAlmostEqual(salient["critical_points"]["total"], 97, delta=2)
         self.assertEqual(conventional["persistence"]["pairs"], 960)
         self.assertEqual([entry["pairs"] for entry in conventional["persistence"]["above"]], [734, 295, 98])
@@ -143,7 +151,8 @@ class Compare(ProgramTest):
         self.assertEqual([step["name"] for step in method["parameters"]["steps"]], ["salient", "tps"])
 
     def test_denoising_takes_the_field_again_on_the_smoothed_surface(self):
-        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=quadric", "--method",
+        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=quadric",
+                             "--method",
                              "denoise:iterations=2+gaussian", "--method", "saliency")
         self.assertEqual(report["field"]["parameters"]["estimator"], "quadric")
         chain, saliency = report["methods"]
@@ -156,7 +165,8 @@ class Compare(ProgramTest):
     def test_denoising_says_when_the_field_does_not_care(self):
         mesh = self.file("octahedron.off", OCTAHEDRON)
         values = self.file("values.txt", "1\n2\n3\n4\n5\n6\n")
-        report = self.report(mesh, "--field", f"vertex-scalar:file={values}", "--method", "denoise:kind=laplacian")
+        report = self.report(mesh, "--field", f"vertex-scalar:file={values}", "--method",
+                             "denoise:kind=laplacian")
         self.assertIn("unchanged_because", report["methods"][0]["details"])
 
     def test_the_report_goes_to_standard_output(self):

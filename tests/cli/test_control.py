@@ -61,7 +61,8 @@ class Control(ProgramTest):
 
     def test_origins_are_critical_points_of_the_input(self):
         schema = json.loads(SCHEMA.read_text())
-        arguments = (SAMPLES / "lion-head.off", "--method", "conventional", "--method", "salient", "--method", "tps")
+        arguments = (SAMPLES / "lion-head.off", "--method", "conventional", "--method", "salient", "--method",
+                     "tps")
         plain = self.report(*arguments)
         input_types = {item["vertex"]: item["type"] for item in plain["methods"][0]["items"]}
         positions = {item["vertex"]: item["position"] for item in plain["methods"][0]["items"]}

@@ -30,7 +30,8 @@ def read_input_vertices(path):
     """The property of a PLY file that has x, y, z and input_vertex, all double."""
     head, body = path.read_bytes().split(b"end_header\n", 1)
     lines = head.decode().splitlines()
-    assert [line.split()[2] for line in lines if line.startswith("property double")] == ["x", "y", "z", "input_vertex"]
+    assert [line.split()[2] for line in lines if line.startswith("property double")] == ["x", "y", "z",
+                                                                                         "input_vertex"]
     count = int(next(line for line in lines if line.startswith("element vertex")).split()[2])
     return [int(row[3]) for row in struct.iter_unpack("<4d", body[:32 * count])]
 
@@ -49,7 +50,8 @@ class Cut(ProgramTest):
         self.assertEqual([p["vertices"] for p in document["cut"]["paths"]], [[0, 2, 1]])
         self.assertEqual(document["output"], {"vertices": 7, "faces": 8, "first_copy": 6, "copied": [2]})
         component, = document["cut"]["components"]
-        self.assertEqual((component["vertices"], component["genus"], component["boundary_loops"], component["copies"]),
+        self.assertEqual((component["vertices"], component["genus"], component["boundary_loops"],
+                          component["copies"]),
                          (6, 0, 0, 1))
 
     def test_the_cut_mesh_is_a_disc_that_glues_back(self):
@@ -98,8 +100,10 @@ class Cut(ProgramTest):
             documents.append((document, (self.folder / "cut.off").read_bytes()))
         self.assertEqual(documents[0], documents[1])
         document = documents[0][0]
-        self.assertEqual(sum(c["copies"] for c in document["cut"]["components"]), len(document["output"]["copied"]))
-        self.assertAlmostEqual(sum(c["length"] for c in document["cut"]["components"]), document["cut"]["length"])
+        self.assertEqual(sum(c["copies"] for c in document["cut"]["components"]),
+                         len(document["output"]["copied"]))
+        self.assertAlmostEqual(sum(c["length"] for c in document["cut"]["components"]),
+                               document["cut"]["length"])
         info = json.loads(self.morsel("info", "cut.off", "--json").stdout)
         self.assertEqual(info["mesh"]["euler_characteristic"], document["mesh"]["components"])
         self.assertEqual(info["mesh"]["boundary_loops"], document["mesh"]["components"])
@@ -110,7 +114,8 @@ class Cut(ProgramTest):
         self.assertEqual(document["output"]["copied"], [])
 
     def test_a_field_that_was_simplified(self):
-        document = self.cut(ELEPHANT, "--field", "mean-curvature", "--method", "salient:iterations=2", "--target", 100)
+        document = self.cut(ELEPHANT, "--field", "mean-curvature", "--method", "salient:iterations=2",
+                            "--target", 100)
         self.assertEqual(document["request"]["target"], 100)
         self.assertLessEqual(document["method"]["target"]["reached"], 100)
 

@@ -22,25 +22,33 @@ HOSTILE = "a\x1b[2J\nb\x07\u009b\u202e"
 
 
 def edits(value, most_of_a_list=2):
-    """Functions that change one value within a document that they are given, each in its way; with what they are called."""
-    members = value.items() if isinstance(value, dict) else list(enumerate(value))[:most_of_a_list] if isinstance(value, list) else ()
+    """Functions that change one value within a document that they are given, each in its way; with what they
+    are called."""
+    if isinstance(value, dict):
+        members = value.items()
+    else:
+        members = list(enumerate(value))[:most_of_a_list] if isinstance(value, list) else ()
     for key, inner in members:
         for other in REPLACEMENTS:
-            yield f"{key}={other!r}", lambda document, key=key, other=other: document.__setitem__(key, copy.deepcopy(other))
+            yield (f"{key}={other!r}",
+                   lambda document, key=key, other=other: document.__setitem__(key, copy.deepcopy(other)))
         yield f"{key} removed", lambda document, key=key: document.__delitem__(key)
         for name, edit in edits(inner, most_of_a_list):
             yield f"{key}.{name}", lambda document, key=key, edit=edit: edit(document[key])
 
 
 def some(all_edits):
-    """Every third of them, since each takes a run of the program; all, if the environment has MORSEL_ALL_EDITS."""
+    """Every third of them, since each takes a run of the program; all, if the environment has
+    MORSEL_ALL_EDITS."""
     return itertools.islice(all_edits, 0, None, 1 if "MORSEL_ALL_EDITS" in os.environ else 3)
 
 
 class Documents(ProgramTest):
     def run_any(self, *arguments, codes=(0, 1, 3)):
-        """Runs the program on what may be damaged: one of these codes and, if it is an error, one sentence."""
-        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, timeout=240, cwd=self.folder, check=False)
+        """Runs the program on what may be damaged: one of these codes and, if it is an error, one
+        sentence."""
+        result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, timeout=240,
+                                cwd=self.folder, check=False)
         errors = result.stderr.decode()
         self.assertIn(result.returncode, codes, f"{arguments}\n{errors}")
         self.assertNotIn("json.exception", errors)
@@ -83,12 +91,14 @@ class Depth(Documents):
                 self.assertIn("nested deeper than 64 levels", errors)
 
     def test_reports(self):
-        for text in ("[" * DEEP, '{"schema": "morsel.comparison/1", "x": ' + '{"a":' * DEEP, '{"x":' * DEEP + "1" + "}" * DEEP):
+        for text in ("[" * DEEP, '{"schema": "morsel.comparison/1", "x": ' + '{"a":' * DEEP,
+                     '{"x":' * DEEP + "1" + "}" * DEEP):
             self.file("r.json", text)
             self.assertIn("nested deeper", self.run_any("check", "r.json", codes=(3,))[2])
         self.morsel("compare", self.mesh, "--field", "height", "-o", "r.json")
         report = (self.folder / "r.json").read_text()
-        for place, key in (('"items": [', ""), ('"diagram": [', ""), ('"timings": {', '"x": '), ('"minima": ', "")):
+        for place, key in (('"items": [', ""), ('"diagram": [', ""), ('"timings": {', '"x": '),
+                           ('"minima": ', "")):
             self.assertIn(place, report)
             self.file("deep.json", report.replace(place, place + key + "[" * DEEP + "]" * DEEP + ",", 1))
             self.assertIn("nested deeper", self.run_any("check", "deep.json", codes=(3,))[2])
@@ -104,7 +114,8 @@ class Depth(Documents):
 
 class Reports(Documents):
     def test_whatever_is_wrong_in_a_report_is_a_difference_or_bad_input(self):
-        self.morsel("compare", self.mesh, "--field", "height", "--method", "salient:iterations=1", "--target", "2", "-o", "r.json")
+        self.morsel("compare", self.mesh, "--field", "height", "--method", "salient:iterations=1", "--target",
+                    "2", "-o", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
         codes = set()
         for name, edit in some(edits(report, 1)):
@@ -119,7 +130,8 @@ class Reports(Documents):
                 if code == 3:
                     self.assertIn("edited.json", errors)
                 elif code == 0:
-                    self.assertTrue(name.startswith(("timings", "tool.version", "request.items", "request.snap")), name)
+                    self.assertTrue(name.startswith(("timings", "tool.version", "request.items",
+                                                     "request.snap")), name)
         self.assertEqual(codes, {0, 1, 3})
 
     def test_a_number_as_a_methods_name_is_told(self):
@@ -158,11 +170,13 @@ class Provenances(Documents):
         self.assertGreater(codes.count(3), 50)
 
     def test_what_it_holds_does_not_reach_the_terminal_raw(self):
-        provenance = {"schema": "morsel.provenance/1", "tool": {"name": "morsel", "version": HOSTILE}, "command": HOSTILE,
+        provenance = {"schema": "morsel.provenance/1", "tool": {"name": "morsel", "version": HOSTILE},
+                      "command": HOSTILE,
                       "inputs": [{"path": HOSTILE, "sha256": HOSTILE}], "request": {HOSTILE: HOSTILE},
                       "field": {"name": HOSTILE, "parameters": {HOSTILE: HOSTILE}}}
         for ascii_only in (False, True):
-            self.file("p.txt", "# " + json.dumps(provenance, separators=(",", ":"), ensure_ascii=ascii_only) + "\n")
+            self.file("p.txt", "# " + json.dumps(provenance, separators=(",", ":"),
+                                                 ensure_ascii=ascii_only) + "\n")
             output = self.run_any("info", "p.txt", codes=(0,))[1]
             self.assertNotIn("\u202e", output)
             self.assertIn("\\x1b[2J\\nb\\x07\\u009b\\u202e", output)
@@ -173,7 +187,8 @@ class States(Documents):
         super().setUp()
         (self.folder / "meshes").mkdir()
         self.mesh.rename(self.folder / "meshes" / "o.off")
-        self.batch = ("batch", "meshes", "--out", "out", "--field", "height", "--method", "conventional", "--no-thumbnails")
+        self.batch = ("batch", "meshes", "--out", "out", "--field", "height", "--method", "conventional",
+                      "--no-thumbnails")
         self.morsel(*self.batch)
         self.state = self.folder / "out" / "state" / "o.off.json"
 
@@ -189,7 +204,8 @@ class States(Documents):
             with self.subTest(name):
                 _, output, errors = self.run_any(*self.batch, "--summary-only", codes=(0, 1))
                 if "not run" in output and not name.startswith(("key", "schema", "files.0='text'")):
-                    self.assertRegex(errors, r"\Amorsel: warning: 1 damaged state counts as absent: [^\n]+\n\Z")
+                    self.assertRegex(errors,
+                                     r"\Amorsel: warning: 1 damaged state counts as absent: [^\n]+\n\Z")
                 told += "damaged state" in errors
                 json.loads((self.folder / "out" / "summary.json").read_text())
         self.assertGreater(told, 70)
@@ -209,7 +225,8 @@ class States(Documents):
 
 
 class Journals(Documents):
-    SWEEP = ("sweep", SAMPLES / "lion-head.off", "--method", "salient:iterations=1", "--vary", "sigma=1eps,2eps,3eps,4eps,5eps,6eps",
+    SWEEP = ("sweep", SAMPLES / "lion-head.off", "--method", "salient:iterations=1", "--vary",
+             "sigma=1eps,2eps,3eps,4eps,5eps,6eps",
              "--field", "height", "-o", "rows.json", "--threads", "1")
 
     def interrupt(self):
@@ -262,7 +279,8 @@ class Names(Documents):
                                 (("compare", name, "--field", "height", "-o", HOSTILE + ".json"), 0),
                                 (("check", HOSTILE + ".json"), 0), (("compare", name, "--field", HOSTILE), 2),
                                 (("compare", name, "--method", HOSTILE), 2), ((HOSTILE,), 2),
-                                (("field", name, "--field", "vertex-scalar:file=" + HOSTILE, "-o", "x.txt"), 3)):
+                                (("field", name, "--field", "vertex-scalar:file=" + HOSTILE, "-o", "x.txt"),
+                                 3)):
             with self.subTest(arguments):
                 self.run_any(*arguments, codes=(code,))
         ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
@@ -281,7 +299,8 @@ class Names(Documents):
         for name in (b"=cmd.off", b"a\n\x1b]<&\".off", b"\xff\xfe.off"):
             with open(os.fsencode(self.folder / "meshes") + b"/" + name, "w", encoding="utf-8") as file:
                 file.write(OCTAHEDRON)
-        self.run_any("batch", "meshes", "--out", "out", "--field", "height", "--method", "conventional", "--no-thumbnails",
+        self.run_any("batch", "meshes", "--out", "out", "--field", "height", "--method", "conventional",
+                     "--no-thumbnails",
                      "--html", "--figures", "--export", codes=(0,))
         out = self.folder / "out"
         json.loads((out / "summary.json").read_text())
@@ -291,13 +310,15 @@ class Names(Documents):
                 xml.etree.ElementTree.fromstring(data)
         for path in out.rglob("*.html"):
             self.assertNotRegex(path.read_text(), "[\x00-\x08\x0b-\x1f\x7f-\x9f]")
-        rows = list(csv.reader(io.StringIO((out / "summary.csv").read_text(errors="surrogateescape"), newline="")))
+        rows = list(csv.reader(io.StringIO((out / "summary.csv").read_text(errors="surrogateescape"),
+                                           newline="")))
         self.assertIn("./=cmd.off", [row[0] for row in rows])
         self.assertFalse([cell for row in rows for cell in row if cell[:1] in ("=", "@", "\t", "\r")])
 
     def test_a_table_of_a_mesh_whose_name_is_a_formula(self):
         self.mesh.rename(self.folder / "=cmd.off")
-        self.morsel("sweep", "=cmd.off", "--field", "height", "--method", "salient", "--vary", "iterations=1,2", "-o", "r.csv")
+        self.morsel("sweep", "=cmd.off", "--field", "height", "--method", "salient", "--vary",
+                    "iterations=1,2", "-o", "r.csv")
         with open(self.folder / "r.csv", newline="", encoding="utf-8") as table:
             self.assertEqual({row["mesh"] for row in csv.DictReader(table)}, {"./=cmd.off"})
 

@@ -1,4 +1,5 @@
-"""Wrong usage, bad input, writing that fails, interruption: one clear sentence, the right exit code, no file left."""
+"""Wrong usage, bad input, writing that fails, interruption: one clear sentence, the right exit code, no file
+left."""
 
 import json
 import os
@@ -57,10 +58,12 @@ class Usage(ProgramTest):
         self.refuse("--method", "tps:threshold=nan", naming=["threshold", "nan"])
         self.refuse("--method", "tps:threshold=1%,count=5", naming=["threshold", "count"])
         self.refuse("--field", "height:axis=w", naming=["axis", "w"])
-        self.refuse("--field", "mean-curvature:estimator=fast", naming=["fast", "taubin", "cotangent", "quadric"])
+        self.refuse("--field", "mean-curvature:estimator=fast",
+                    naming=["fast", "taubin", "cotangent", "quadric"])
         self.refuse("--field", "shape-index:estimator=quadric,radius=0", naming=["radius", "0"])
         self.refuse("--field", "mean-curvature:estimator=diffused,diffusion=0", naming=["diffusion", "0"])
-        self.refuse("--field", "mean-curvature:diffusion=8eps", naming=["diffusion", "estimator=diffused", "taubin"])
+        self.refuse("--field", "mean-curvature:diffusion=8eps",
+                    naming=["diffusion", "estimator=diffused", "taubin"])
         self.refuse("--field", "shape-index:estimator=diffused", naming=["diffused", "taubin", "quadric"])
         self.refuse("--field", "height:direction=0/0/0", naming=["direction"])
         self.refuse("--field", "vertex-scalar", naming=["file", "property"])
@@ -98,7 +101,8 @@ class Usage(ProgramTest):
                 (("compare", "m.off", "--up", "w"), "--up must be x, y or z, not \"w\""),
                 (("molecule", "m.pdb", "-o", "m.off", "--kind", "guassian"), "did you mean gaussian?"),
                 (("batch", "x", "--out", "y", "--size", "3x3"), "--size needs --figures"),
-                (("batch", "x", "--out", "y", "--plan", "--summary-only"), "--plan and --summary-only exclude"),
+                (("batch", "x", "--out", "y", "--plan", "--summary-only"),
+                 "--plan and --summary-only exclude"),
                 (("batch", "x", "--out", "y", "--time-limit", "0"), "a finite number above 0, not \"0\""),
                 (("batch", "x", "--out", "y", "--memory-limit", "9"), "a whole number from 64 to"),
                 (("compare", "m.off", "--target", "0"), "a whole number of at least 1, not \"0\""),
@@ -116,20 +120,24 @@ class Usage(ProgramTest):
     def test_options_are_read_however_they_are_written(self):
         mesh = self.file("-m.off", OCTAHEDRON)
         self.file("m.off", OCTAHEDRON)
-        plain = ("compare", "m.off", "--field", "height", "--method", "conventional", "--method", "salient", "-o", "-")
+        plain = ("compare", "m.off", "--field", "height", "--method", "conventional", "--method", "salient",
+                 "-o", "-")
         report = json.loads(self.morsel(*plain).stdout)
         report.pop("timings")
         for words in (
                 ("m.off", "--field=height", "--method=conventional", "--method", "salient", "--output=-"),
-                ("compare", "--field", "height", "--method", "conventional", "m.off", "--method", "salient", "-o-"),
-                ("compare", "-o", "-", "--field", "height", "--method", "conventional", "--method", "salient", "--", "m.off")):
+                ("compare", "--field", "height", "--method", "conventional", "m.off", "--method", "salient",
+                 "-o-"),
+                ("compare", "-o", "-", "--field", "height", "--method", "conventional", "--method", "salient",
+                 "--", "m.off")):
             again = json.loads(self.morsel(*words).stdout)
             again.pop("timings")
             self.assertEqual(again, report, words)
         self.assertIn("vertices", self.morsel("info", "--", mesh.name).stdout)
 
     def test_help_teaches(self):
-        """Without a command, with an option and as a command; of each command the same text, which fits a terminal."""
+        """Without a command, with an option and as a command; of each command the same text, which fits a
+        terminal."""
         text = self.morsel().stdout
         self.assertEqual(self.morsel("--help").stdout, text)
         self.assertEqual(self.morsel("help").stdout, text)
@@ -160,7 +168,8 @@ class Usage(ProgramTest):
 
     def test_every_example_of_help_is_read(self):
         """None has a name, a key or an option that does not exist: each ends with a file that is missing."""
-        for command in ("compare", "field", "render", "hierarchy", "segment", "cut", "quads", "stability", "sweep"):
+        for command in ("compare", "field", "render", "hierarchy", "segment", "cut", "quads", "stability",
+                        "sweep"):
             text = self.morsel(command, "--help").stdout
             for example in re.findall(r"^  morsel (.*)$", text, re.MULTILINE):
                 with self.subTest(example):
@@ -188,7 +197,8 @@ class BadInput(ProgramTest):
         vertices, faces = corners[:6], corners[6:]
         both = [(x + dx, y, z) for dx in (0, 9) for x, y, z in vertices]
         both += [(3, a + d, b + d, c + d) for d in (0, 6) for _, a, b, c in faces]
-        two = self.file("two.off", "OFF\n12 16 0\n" + "\n".join(" ".join(map(str, row)) for row in both) + "\n")
+        two = self.file("two.off", "OFF\n12 16 0\n" + "\n".join(" ".join(map(str, row))
+                                                                for row in both) + "\n")
         for path, option, text, words in (
                 (mesh, "--field", "eigenfunction:index=6", ["6", "1 to 5"]),
                 (mesh, "--field", "geodesic:source=6", ["vertex 6", "6 vertices"]),
@@ -232,16 +242,19 @@ class Writing(ProgramTest):
     def test_folders_of_a_target_are_made(self):
         """As those of --figures are; of a run that fails none is left."""
         self.morsel("field", self.mesh, "-o", "new/deep/z.txt")
-        self.morsel("compare", self.mesh, "--method", "conventional", "-o", "new/r.json", "--html", "pages/p.html",
+        self.morsel("compare", self.mesh, "--method", "conventional", "-o", "new/r.json", "--html",
+                    "pages/p.html",
                     "--figures", "figures/octahedron", "--size", "60x42")
         for made in ("new/deep/z.txt", "new/r.json", "pages/p.html", "figures/octahedron/conventional.png"):
             self.assertTrue((self.folder / made).is_file(), made)
         damaged = self.file("damaged.off", DAMAGED)
         self.morsel("field", damaged, "-o", "other/deep/z.txt", code=3)
-        self.morsel("compare", damaged, "-o", "other/r.json", "--html", "other/p.html", "--export", "other/e", "--figures",
+        self.morsel("compare", damaged, "-o", "other/r.json", "--html", "other/p.html", "--export", "other/e",
+                    "--figures",
                     "other/f", code=3)
         self.morsel("hierarchy", damaged, "--export", "other/deep/e", code=3)
-        self.morsel("sweep", damaged, "--vary", "iterations=1..2", "--figures", "other", "-o", "more/s.csv", code=3)
+        self.morsel("sweep", damaged, "--vary", "iterations=1..2", "--figures", "other", "-o", "more/s.csv",
+                    code=3)
         for folder in ("other", "more"):
             self.assertFalse((self.folder / folder).exists(), folder)
 
@@ -254,12 +267,14 @@ class Writing(ProgramTest):
             self.skipTest("no /dev/full")
         self.morsel("compare", self.mesh, "-o", "/dev/full", code=4)
         with open("/dev/full", "w", encoding="ascii") as full:
-            result = subprocess.run([PROGRAM, "compare", self.mesh], stdout=full, stderr=subprocess.PIPE, check=False)
+            result = subprocess.run([PROGRAM, "compare", self.mesh], stdout=full, stderr=subprocess.PIPE,
+                                    check=False)
         self.assertEqual(result.returncode, 4)
 
     def test_a_bad_method_leaves_the_old_report_as_it_was(self):
         self.file("report.json", "old")
-        self.morsel("compare", self.mesh, "--field", "vertex-scalar:property=none", "-o", "report.json", code=3)
+        self.morsel("compare", self.mesh, "--field", "vertex-scalar:property=none", "-o", "report.json",
+                    code=3)
         self.assertEqual((self.folder / "report.json").read_text(), "old")
         self.assertEqual(sorted(os.listdir(self.folder)), ["octahedron.off", "report.json"])
 

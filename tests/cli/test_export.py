@@ -52,7 +52,8 @@ class Export(ProgramTest):
                 self.assertIn(label, points)
             lines = read(self.folder / "out" / f"{name}.complex.vtp")
             self.assertEqual(lines.GetNumberOfLines(), complex_["arcs"])
-            self.assertEqual(lines.GetNumberOfVerts(), sum(complex_[k] for k in ("minima", "saddles", "maxima", "caps")))
+            self.assertEqual(lines.GetNumberOfVerts(), sum(complex_[k]
+                                                           for k in ("minima", "saddles", "maxima", "caps")))
             bounds, outer = lines.GetBounds(), surface.GetBounds()
             for axis in range(3):
                 self.assertGreaterEqual(bounds[2 * axis], outer[2 * axis] - 1e-12)
@@ -72,7 +73,8 @@ class Export(ProgramTest):
         vertices = int(lines[1][0])
         positions = [tuple(map(float, line[:3])) for line in lines[2:2 + vertices]]
         surface = read(self.folder / "out" / "conventional.surface.vtp")
-        self.assertEqual(cells(surface.GetPolys()), [[int(v) for v in line[1:4]] for line in lines[2 + vertices:]])
+        self.assertEqual(cells(surface.GetPolys()), [[int(v) for v in line[1:4]]
+                                                     for line in lines[2 + vertices:]])
         self.assertEqual([surface.GetPoint(v) for v in range(vertices)], positions)
 
         complex_ = read(self.folder / "out" / "conventional.complex.vtp")

@@ -21,7 +21,8 @@ class Field(ProgramTest):
         self.assertTrue(math.isnan(x[1]))
         self.assertEqual(x[:1] + x[2:], [0, 1, 1, 0])
         # and such a file can be a field again
-        report = self.report(mesh, "--repair", "--field", "vertex-scalar:file=x.txt", "--method", "conventional")
+        report = self.report(mesh, "--repair", "--field", "vertex-scalar:file=x.txt", "--method",
+                             "conventional")
         self.assertEqual((report["field"]["min"], report["field"]["max"]), (0, 1))
 
     def test_text_and_ply_read_back_to_the_same_bits(self):
@@ -30,7 +31,8 @@ class Field(ProgramTest):
         self.morsel("field", lion, "-o", "h.ply")
         self.morsel("field", lion, "--field", "vertex-scalar:file=h.txt", "-o", "again.txt")
         self.assertEqual(data_lines(self.folder / "h.txt"), data_lines(self.folder / "again.txt"))
-        self.morsel("field", "h.ply", "--field", "vertex-scalar:property=mean-curvature", "-o", "from_ply.txt")
+        self.morsel("field", "h.ply", "--field", "vertex-scalar:property=mean-curvature", "-o",
+                    "from_ply.txt")
         self.assertEqual(data_lines(self.folder / "h.txt"), data_lines(self.folder / "from_ply.txt"))
 
     def test_a_method_can_be_applied(self):

@@ -19,7 +19,8 @@ class Hierarchy(ProgramTest):
         return json.loads((self.folder / name).read_text())
 
     def check_forest(self, document):
-        """Every parent is there, of the same type; cells' links lead to cells and are no larger than those."""
+        """Every parent is there, of the same type; cells' links lead to cells and are no larger than
+        those."""
         before = None
         for place, level in enumerate(document["levels"]):
             self.assertEqual(level["level"], place)
@@ -42,7 +43,8 @@ class Hierarchy(ProgramTest):
                     self.assertEqual(point["status"], "new")
                 else:
                     self.assertIn((point["parent"], point["type"]), possible)
-                    self.assertEqual(point["status"], "kept" if point["parent"] == point["vertex"] else "moved")
+                    self.assertEqual(point["status"], "kept"
+                                     if point["parent"] == point["vertex"] else "moved")
             for kind in KINDS:
                 cells = level["cells"][kind]
                 self.assertEqual(len(cells), complex_["segments"][kind])
@@ -120,7 +122,8 @@ class ByIteration(Hierarchy):
         document = self.hierarchy(self.file("o.off", OCTAHEDRON), "--field", "height", "--levels", "0")
         self.check_forest(document)
         level, = document["levels"]
-        self.assertEqual([(p["vertex"], p["type"]) for p in level["points"]], [(0, "maximum"), (1, "minimum")])
+        self.assertEqual([(p["vertex"], p["type"]) for p in level["points"]],
+                         [(0, "maximum"), (1, "minimum")])
         cell, = level["cells"]["morse_smale"]
         self.assertEqual((cell["minimum"], cell["maximum"], cell["cap"]), (1, 0, None))
         self.assertAlmostEqual(cell["area"], 4 * 3 ** 0.5)
@@ -133,10 +136,12 @@ class ByIteration(Hierarchy):
                          [("1", "1,033"), ("5", "137"), ("10", "97")])
 
     def test_vertex_numbers_are_those_of_the_input(self):
-        document = self.hierarchy(self.file("d.off", DAMAGED), "--repair", "--field", "height:direction=-1/0/0",
+        document = self.hierarchy(self.file("d.off", DAMAGED), "--repair", "--field",
+                                  "height:direction=-1/0/0",
                                   "--by", "persistence", "--levels", "0,1")
         self.check_forest(document)
-        self.assertEqual([(p["vertex"], p["parent"]) for level in document["levels"] for p in level["points"]],
+        self.assertEqual([(p["vertex"], p["parent"]) for level in document["levels"]
+                          for p in level["points"]],
                          [(2, None), (2, 2)])
         self.assertEqual(document["levels"][0]["cells"]["ascending"][0]["minimum"], 2)
 
@@ -146,7 +151,8 @@ class ByPersistence(Hierarchy):
         document = self.hierarchy(LION, "--by", "persistence")
         self.check_forest(document)
         method, = self.report(LION, "--method", "conventional")["methods"]
-        above = [entry["pairs"] - method["persistence"]["infinite_pairs"] for entry in method["persistence"]["above"]]
+        above = [entry["pairs"] - method["persistence"]["infinite_pairs"]
+                 for entry in method["persistence"]["above"]]
         cells = 462 + 960 + 499
         pairs = method["persistence"]["pairs"] - method["persistence"]["infinite_pairs"]
         self.assertEqual(len(document["cancellations"]), pairs)
@@ -198,7 +204,8 @@ class Files(Hierarchy):
             names = [f"{what}.{k}.vtp" for what in ("complex", "surface") for k in range(3)]
             self.assertEqual([path.name for path in made_in(self.folder / kind)], names)
             for level in document["levels"]:
-                self.check_surface(read(self.folder / kind / f"surface.{level['level']}.vtp"), document, level)
+                self.check_surface(read(self.folder / kind / f"surface.{level['level']}.vtp"), document,
+                                   level)
                 self.check_complex(read(self.folder / kind / f"complex.{level['level']}.vtp"), level)
 
     def check_surface(self, surface, document, level):
@@ -220,7 +227,8 @@ class Files(Hierarchy):
         complex_ = level["ms_complex"]
         self.assertEqual(lines.GetNumberOfLines(), complex_["arcs"])
         of_cells = arrays(lines.GetCellData())
-        self.assertEqual(lines.GetNumberOfVerts(), sum(complex_[k] for k in ("minima", "saddles", "maxima", "caps")))
+        self.assertEqual(lines.GetNumberOfVerts(), sum(complex_[k]
+                                                       for k in ("minima", "saddles", "maxima", "caps")))
         parents = {p["vertex"]: -1 if p["parent"] is None else p["parent"] for p in level["points"]}
         for i in range(lines.GetNumberOfCells()):
             node = of_cells["kind"].GetValue(i) < 3
@@ -311,14 +319,16 @@ class Refused(Hierarchy):
     def test_what_does_not_go_together(self):
         self.refuse("--counts", "50", naming=["--by persistence"])
         self.refuse("--target", "50", naming=["--target", "--by persistence"])
-        self.refuse("--by", "persistence", "--levels", "1%", "--counts", "50", naming=["--levels", "--counts"])
+        self.refuse("--by", "persistence", "--levels", "1%", "--counts", "50",
+                    naming=["--levels", "--counts"])
 
     def test_methods_without_enough_iterations(self):
         for method in ("tps", "spectral", "fair", "saliency", "conventional", "salient+tps"):
             self.refuse("--method", method, naming=[method.split("+")[-1], "iterations", "salient"])
         self.refuse("--method", "salient:iterations=3", naming=["3 iterations", "level 10"])
         self.refuse("--method", "salient:until-count=200", naming=["until-count", "after 5", "level 10"])
-        self.refuse("--method", "salient:classify=saliency", "--levels", "2", naming=["salient", "another field"])
+        self.refuse("--method", "salient:classify=saliency", "--levels", "2",
+                    naming=["salient", "another field"])
 
     def test_other_errors(self):
         self.refuse("--method", "nonsense", naming=["nonsense", "salient"])

@@ -46,16 +46,19 @@ class Html(ProgramTest):
         page = self.page(LION)
         short = self.report(LION, "--no-items", name="short.json")
         del short["timings"]
-        self.assertEqual({key: value for key, value in page.meta["report"].items() if key != "timings"}, short)
+        self.assertEqual({key: value for key, value in page.meta["report"].items() if key != "timings"},
+                         short)
         self.assertEqual(page.meta["schema"], "morsel.page/1")
         self.assertEqual(len(page.methods), 3)
         for method, expected in zip(page.methods, full["methods"]):
             points = method["points"]
-            for i, (item, persistence) in enumerate(zip(expected["items"], page.persistence(method), strict=True)):
+            for i, (item, persistence) in enumerate(zip(expected["items"], page.persistence(method),
+                                                        strict=True)):
                 told = points["vertex"][i], TYPES[points["type"][i]], points["multiplicity"][i], points["value"][i]
                 self.assertEqual(told, (item["vertex"], item["type"], item["multiplicity"], item["value"]))
                 self.assertEqual(points["origin"][i] - 1, -1 if item["origin"] is None else item["origin"])
-                self.assertEqual(persistence, math.inf if item["persistence"] is None else item["persistence"])
+                self.assertEqual(persistence, math.inf
+                                 if item["persistence"] is None else item["persistence"])
                 self.assertEqual(points["place"][i], item["vertex"])
             first = page.methods[0]["points"]["vertex"]
             matched = [(v, first[m - 1]) for v, m in zip(points["vertex"], points["match"]) if m > 0]
@@ -76,7 +79,8 @@ class Html(ProgramTest):
         coordinates = [float(x) for x in numbers[4:4 + 3 * vertices]]
         for v in range(vertices):
             for c in range(3):
-                self.assertLessEqual(abs(page.position(v)[c] - coordinates[3 * v + c]), 0.5001 * page.mesh["step"])
+                self.assertLessEqual(abs(page.position(v)[c] - coordinates[3 * v + c]),
+                                     0.5001 * page.mesh["step"])
         faces = [int(x) for x in numbers[4 + 3 * vertices:4 + 3 * vertices + 4 * triangles]]
         self.assertEqual(page.mesh["corners"], [x for i, x in enumerate(faces) if i % 4 != 0])
         self.morsel("field", LION, "-o", "f.txt")
@@ -86,7 +90,8 @@ class Html(ProgramTest):
         self.assertEqual(sum(f < low for f in field), round(0.005 * (vertices - 1)))
         self.assertEqual(sum(f > high for f in field), vertices - 1 - round(0.995 * (vertices - 1)))
         for f, step in zip(field, values["data"], strict=True):
-            self.assertLessEqual(abs(low + (high - low) * step / 65535 - min(max(f, low), high)), (high - low) / 131000)
+            self.assertLessEqual(abs(low + (high - low) * step / 65535 - min(max(f, low), high)),
+                                 (high - low) / 131000)
 
     def test_each_piece_of_the_arcs_is_there_once(self):
         self.morsel("compare", LION, "--method", "conventional", "--method", "salient", "--html", "page.html",
@@ -100,7 +105,8 @@ class Html(ProgramTest):
         for method in page.methods:
             for kind, number in (("descending", 4), ("ascending", 5)):
                 got = list(page.pieces(method, kind))
-                expected = list(exported_pieces(self.folder / "out" / f"{method['name']}.complex.vtp", number))
+                expected = list(exported_pieces(self.folder / "out" / f"{method['name']}.complex.vtp",
+                                                number))
                 # places that a rounding away lie in another cell are looked for in the cells around
                 drawn = {}
                 for piece in got:
@@ -111,7 +117,8 @@ class Html(ProgramTest):
                     shifts = [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)]
                     if (a, b) in drawn:
                         return True
-                    return any((tuple(p + q for p, q in zip(a, s)), tuple(p + q for p, q in zip(b, t))) in drawn
+                    return any((tuple(p + q for p, q in zip(a, s)),
+                                tuple(p + q for p, q in zip(b, t))) in drawn
                                for s in shifts for t in shifts)
 
                 unique = set(expected)
@@ -127,7 +134,8 @@ class Html(ProgramTest):
     def test_snapped_points_are_where_they_came_from(self):
         report = self.report(LION, "--method", "salient", "--snap")
         page = self.page(LION, "--method", "salient", "--snap")
-        for place, item in zip(page.methods[0]["points"]["place"], report["methods"][0]["items"], strict=True):
+        for place, item in zip(page.methods[0]["points"]["place"], report["methods"][0]["items"],
+                               strict=True):
             for x, y in zip(page.position(place), item["position"]):
                 self.assertAlmostEqual(x, y, delta=page.mesh["step"])
 
@@ -160,7 +168,8 @@ class Html(ProgramTest):
 
     def test_the_command_line_makes_the_page_again(self):
         mesh = self.file("it's $HOME.off", OCTAHEDRON)
-        page = self.page(mesh, "--field", "height:axis=z", "--method", "conventional", "--method", "tps:count=2",
+        page = self.page(mesh, "--field", "height:axis=z", "--method", "conventional", "--method",
+                         "tps:count=2",
                          "--target", "2", "--threads", "1", name="a b.html")
         program, *arguments = shlex.split(page.meta["command"])
         self.assertEqual(program, "morsel")

@@ -62,7 +62,8 @@ class Check(ProgramTest):
         self.assertIn("methods[1] (salient): critical_points.total: 77 -> 2", result.stdout)
 
     def test_a_changed_item_or_pair_of_a_real_mesh_is_shown_however_the_report_is_laid_out(self):
-        self.morsel("compare", SAMPLES / "lion-head.off", "--method", "tps", "--method", "salient", "-o", "report.json")
+        self.morsel("compare", SAMPLES / "lion-head.off", "--method", "tps", "--method", "salient", "-o",
+                    "report.json")
         def edit(report):
             report["methods"][1]["items"][3]["vertex"] = -7
             report["methods"][0]["persistence"]["diagram"][700]["kind"] = "none"
@@ -111,7 +112,8 @@ class Check(ProgramTest):
         self.file("reports/notes.txt", "no report")
         self.file("reports/other.json", '{"schema": "morsel.cut/1"}')
         same = self.morsel("check", "reports", "report.json")
-        self.assertEqual(same.stdout.splitlines()[-1], "3 reports: 3 unchanged, 0 changed, 0 not checked; passed over: 1 other document")
+        self.assertEqual(same.stdout.splitlines()[-1],
+                         "3 reports: 3 unchanged, 0 changed, 0 not checked; passed over: 1 other document")
         self.assertEqual(len(same.stdout.splitlines()), 4)
 
         report = json.loads((self.folder / "reports/a.json").read_text())
@@ -123,7 +125,8 @@ class Check(ProgramTest):
         table = [line for line in lines if "critical_points.total" in line]
         self.assertEqual(len(table), 1)
         self.assertEqual(table[0].split()[-2:], ["77", "2"])
-        self.assertEqual(lines[-1], "2 reports: 1 unchanged, 1 changed, 0 not checked; passed over: 1 other document")
+        self.assertEqual(lines[-1],
+                         "2 reports: 1 unchanged, 1 changed, 0 not checked; passed over: 1 other document")
 
         # one that cannot be checked stops nobody else, and is never passed over
         self.file("reports/b.json", "{")
@@ -131,10 +134,12 @@ class Check(ProgramTest):
         result = subprocess.run([PROGRAM, "check", "reports"], capture_output=True, text=True, timeout=240,
                                 cwd=self.folder, check=False)  # results come with the error
         self.assertEqual(result.returncode, 3)
-        self.assertEqual(result.stdout.splitlines()[-1], "4 reports: 1 unchanged, 1 changed, 2 not checked; passed over: 1 other document")
+        self.assertEqual(result.stdout.splitlines()[-1],
+                         "4 reports: 1 unchanged, 1 changed, 2 not checked; passed over: 1 other document")
         self.assertIn("2 of 4 reports", result.stderr)
         for named in ("absent.json", "reports/other.json"):
-            bad = subprocess.run([PROGRAM, "check", "report.json", named], capture_output=True, text=True, timeout=240,
+            bad = subprocess.run([PROGRAM, "check", "report.json", named], capture_output=True, text=True,
+                                 timeout=240,
                                  cwd=self.folder, check=False)
             self.assertEqual(bad.returncode, 3)
             self.assertIn("1 of 2 reports", bad.stderr)

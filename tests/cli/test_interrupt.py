@@ -1,8 +1,9 @@
 """SIGINT at random moments over all commands: exit code 130, soon, and nothing left behind.
 
-In the suite a few moments a command, the same ones each time. Alone, with a number of seconds or of moments, many more, and
-the largest latencies: test_interrupt.py --moments 20 [--seed N] [NAME…]. Latencies are told in seconds as a clock shows them
-and, in brackets, of the processor, which other work on the machine does not lengthen."""
+In the suite a few moments a command, the same ones each time. Alone, with a number of seconds or of moments,
+many more, and the largest latencies: test_interrupt.py --moments 20 [--seed N] [NAME…]. Latencies are told in
+seconds as a clock shows them and, in brackets, of the processor, which other work on the machine does not
+lengthen."""
 
 import argparse
 import os
@@ -17,8 +18,8 @@ import unittest
 
 from support import PROGRAM, SAMPLES
 
-# What the suite allows, of the processor and, for machines that are busy with other tests, of a clock. An idle one needs
-# less than a second.
+# What the suite allows, of the processor and, for machines that are busy with other tests, of a clock. An
+# idle one needs less than a second.
 MOST_PROCESSOR_SECONDS = 5
 MOST_SECONDS = 60
 TICKS = os.sysconf("SC_CLK_TCK")
@@ -39,17 +40,20 @@ METHODS = {
     "tps": "tps:threshold=1%",
     "tps-count": "tps:count=100",
 }
-FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature", "curvedness", "shape-index", "eigenfunction",
+FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature", "curvedness",
+          "shape-index", "eigenfunction",
           "geodesic:source=max-z")
 
 
 def commands(mesh, small, report):
     """Name → (arguments, what it writes)."""
     result = {
-        "compare-all": ("compare", small, "-o", "r.json", "--export", "e", "--figures", "f", "--html", "h.html",
+        "compare-all": ("compare", small, "-o", "r.json", "--export", "e", "--figures", "f", "--html",
+                        "h.html",
                         "--thumbnails", "t"),
         "compare": ("compare", mesh, "-o", "r.json"),
-        "compare-target": ("compare", small, "--target", "50", "--method", "salient", "--method", "gaussian", "-o", "r.json"),
+        "compare-target": ("compare", small, "--target", "50", "--method", "salient", "--method", "gaussian",
+                           "-o", "r.json"),
         "html": ("compare", small, "--method", "conventional", "--html", "h.html"),
         "export": ("compare", mesh, "--method", "conventional", "--export", "e"),
         "segment": ("segment", mesh, "-o", "s.ply", "--json", "s.json"),
@@ -57,7 +61,8 @@ def commands(mesh, small, report):
         "cut-noisy": ("cut", mesh, "--field", "mean-curvature", "-o", "c.ply"),
         "quads": ("quads", small, "-o", "q.obj", "--json", "q.json", "--field", "eigenfunction:index=12"),
         "hierarchy": ("hierarchy", mesh, "-o", "h.json"),
-        "hierarchy-iterations": ("hierarchy", small, "--by", "iteration", "--method", "salient", "-o", "h.json"),
+        "hierarchy-iterations": ("hierarchy", small, "--by", "iteration", "--method", "salient", "-o",
+                                 "h.json"),
         "hierarchy-export": ("hierarchy", small, "--export", "e"),
         "molecule": ("molecule", "atoms.pdb", "-o", "m.off", "--resolution", "0.2"),
         "render": ("render", mesh, "-o", "p.png", "--size", "1200x900"),
@@ -71,7 +76,8 @@ def commands(mesh, small, report):
         "field-write": ("field", mesh, "--field", "height", "-o", "f.vtp"),
     }
     for name, method in METHODS.items():
-        result["method-" + name] = ("field", mesh, "--field", "mean-curvature", "--method", method, "-o", "f.txt")
+        result["method-" + name] = ("field", mesh, "--field", "mean-curvature", "--method", method, "-o",
+                                    "f.txt")
     for name in FIELDS:
         result["field-" + name] = ("field", mesh, "--field", name, "-o", "f.ply")
     return result
@@ -111,7 +117,8 @@ def write_atoms(path):
             place = [99.0] * 3
             while sum(x * x for x in place) > 625:
                 place = [draw.uniform(-25, 25) for _ in range(3)]
-            file.write("ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n" % (i + 1, i + 1, *place))
+            file.write("ATOM  %5d  CA  ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n"
+                       % (i + 1, i + 1, *place))
         file.write("END\n")
 
 
@@ -134,14 +141,15 @@ class Setting:
         refined(self.small, self.mesh)
         write_atoms(folder / "atoms.pdb")
         self.report = folder / "report.json"
-        subprocess.run([PROGRAM, "compare", self.small, "--quiet", "-o", self.report], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "compare", self.small, "--quiet", "-o", self.report], check=True,
+                       stdout=subprocess.DEVNULL)
 
     def commands(self):
         return commands(self.mesh, self.small, self.report)
 
     def moment(self, arguments, wait):
-        """Runs the command in a folder of its own and interrupts it. Exit code, latency in seconds, of the processor, and
-        the time that it ran."""
+        """Runs the command in a folder of its own and interrupts it. Exit code, latency in seconds, of the
+        processor, and the time that it ran."""
         with tempfile.TemporaryDirectory(dir=self.folder) as name:
             work = pathlib.Path(name)
             (work / "atoms.pdb").symlink_to(self.folder / "atoms.pdb")
@@ -212,8 +220,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--moments", type=int, required=True, help="a command")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--longest", type=float, default=20, help="seconds after which a command is interrupted at the latest")
-    parser.add_argument("--above", type=float, default=1, help="processor seconds from which on a moment is told")
+    parser.add_argument("--longest", type=float, default=20,
+                        help="seconds after which a command is interrupted at the latest")
+    parser.add_argument("--above", type=float, default=1,
+                        help="processor seconds from which on a moment is told")
     parser.add_argument("names", nargs="*")
     given = parser.parse_args()
     draw = random.Random(given.seed)

@@ -6,7 +6,8 @@ import unittest
 from support import OCTAHEDRON, ProgramTest, data_lines
 
 
-def atom(serial, position, *, name="C", residue="GLY", chain="A", number=1, element="C", record="ATOM", alternate=" ",
+def atom(serial, position, *, name="C", residue="GLY", chain="A", number=1, element="C", record="ATOM",
+         alternate=" ",
          occupancy=1):
     x, y, z = position
     return (f"{record:<6}{serial:5}  {name:<3}{alternate}{residue:>3} {chain}{number:4}    {x:8.3f}{y:8.3f}{z:8.3f}"
@@ -84,7 +85,8 @@ class Molecule(ProgramTest):
         self.assertIn("left out: 2 of other chains", said)
         self.surface(file, "--chains", "A/B")
         self.assertEqual(self.components(), 2)
-        ion = self.file("ion.pdb", atom(1, (0, 0, 0)) + atom(2, (20, 0, 0), name="ZN", residue="ZN", element="ZN",
+        ion = self.file("ion.pdb", atom(1, (0, 0, 0)) + atom(2, (20, 0, 0), name="ZN", residue="ZN",
+                                                             element="ZN",
                                                              record="HETATM"))
         _, _, said = self.surface(ion)
         self.assertIn("left out: 1 hetero", said)
@@ -109,7 +111,8 @@ class Molecule(ProgramTest):
 
     def test_cavities_are_kept_or_dropped(self):
         shell = "".join(
-            atom(i, (8 * math.sqrt(1 - z * z) * math.cos(i * 2.399963), 8 * math.sqrt(1 - z * z) * math.sin(i * 2.399963), 8 * z))
+            atom(i, (8 * math.sqrt(1 - z * z) * math.cos(i * 2.399963),
+                     8 * math.sqrt(1 - z * z) * math.sin(i * 2.399963), 8 * z))
             for i in range(200) for z in [1 - (2 * i + 1) / 200])
         file = self.file("shell.pdb", shell)
         _, _, said = self.surface(file, "--kind", "ses")
@@ -123,12 +126,14 @@ class Molecule(ProgramTest):
         for kind in ("gaussian", "ses"):
             self.surface(file, "--kind", kind, "--threads", "1")
             self.surface(file, "--kind", kind, "--threads", "4", name="again.off")
-            self.assertEqual((self.folder / "surface.off").read_text(), (self.folder / "again.off").read_text())
+            self.assertEqual((self.folder / "surface.off").read_text(),
+                             (self.folder / "again.off").read_text())
 
     def test_files_without_atoms_and_damaged_ones_are_refused(self):
         for name, text, said in (
                 ("empty.pdb", "", "empty.pdb has no atoms"),
-                ("wet.pdb", atom(1, (0, 0, 0), residue="HOH", element="O", record="HETATM"), "no atoms left of 1"),
+                ("wet.pdb", atom(1, (0, 0, 0), residue="HOH", element="O", record="HETATM"),
+                 "no atoms left of 1"),
                 ("cut.pdb", atom(1, (0, 0, 0))[:40], "cut.pdb, line 1"),
                 ("bad.pdb", atom(1, (0, 0, 0)).replace("0.000", "0.0x0", 1), '"0.0x0"'),
                 ("empty.cif", "data_x\n", "empty.cif has no atoms"),
@@ -143,7 +148,8 @@ class Molecule(ProgramTest):
 
     def test_wrong_usage(self):
         file = self.file("one.pdb", atom(1, (0, 0, 0)))
-        for options in (("--resolution", "0"), ("--resolution", "nan"), ("--probe", "-1"), ("--kind", "cartoon"),
+        for options in (("--resolution", "0"), ("--resolution", "nan"), ("--probe", "-1"),
+                        ("--kind", "cartoon"),
                         ("--blobbiness", "0"), ("--altloc", "AB"), ("--hetero", "some"), ("--model", "0"),
                         ("--cavities", "fill"), ("--repair",)):
             self.morsel("molecule", file, "-o", "x.off", *options, code=2)
@@ -153,8 +159,10 @@ class Molecule(ProgramTest):
 
     def test_a_resolution_out_of_reason_is_refused_at_once(self):
         file = self.file("one.pdb", atom(1, (0, 0, 0)))
-        self.assertIn("too coarse", self.morsel("molecule", file, "-o", "x.off", "--resolution", "3", code=3).stderr)
-        self.assertIn("a grid of", self.morsel("molecule", file, "-o", "x.off", "--resolution", "1e-4", code=3).stderr)
+        self.assertIn("too coarse", self.morsel("molecule", file, "-o", "x.off", "--resolution", "3",
+                                                code=3).stderr)
+        self.assertIn("a grid of", self.morsel("molecule", file, "-o", "x.off", "--resolution", "1e-4",
+                                               code=3).stderr)
         self.assertIn("model 2", self.morsel("molecule", file, "-o", "x.off", "--model", "2", code=3).stderr)
 
     def test_an_output_that_cannot_be_written(self):
@@ -168,11 +176,14 @@ class Molecule(ProgramTest):
         values = [float(line) for line in data_lines(self.folder / "d.txt")]
         squares = [(1, 16), (9, 4)] + [(5, 10)] * 4
         for value, (carbon, nitrogen) in zip(values, squares):
-            self.assertAlmostEqual(value, math.exp(-carbon / 1.7**2) + math.exp(-nitrogen / 1.55**2), places=14)
+            self.assertAlmostEqual(value, math.exp(-carbon / 1.7**2) + math.exp(-nitrogen / 1.55**2),
+                                   places=14)
 
     def test_atomic_density_in_a_report(self):
-        self.surface(self.file("row.pdb", "".join(atom(i, (1.4 * i, math.sin(i), math.cos(i))) for i in range(12))))
-        report = self.report("surface.off", "--field", "atomic-density:structure=row.pdb", "--method", "conventional")
+        self.surface(self.file("row.pdb", "".join(atom(i, (1.4 * i, math.sin(i), math.cos(i)))
+                                                  for i in range(12))))
+        report = self.report("surface.off", "--field", "atomic-density:structure=row.pdb", "--method",
+                             "conventional")
         self.assertEqual(report["field"]["parameters"]["atoms"], 12)
         self.assertEqual(report["field"]["parameters"]["decay"], 0.5)
         self.morsel("check", "report.json")
@@ -186,7 +197,8 @@ class Molecule(ProgramTest):
                                   ("decay=1", 2, "structure"),
                                   ("structure=far.pdb,decay=0", 2, "decay"),
                                   ("structure=far.pdb,chains=X", 3, 'no chain "X"')):
-            result = self.morsel("field", mesh, "--field", "atomic-density:" + field, "-o", "x.txt", code=code)
+            result = self.morsel("field", mesh, "--field", "atomic-density:" + field, "-o", "x.txt",
+                                 code=code)
             self.assertIn(said, result.stderr)
 
 

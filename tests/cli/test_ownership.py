@@ -1,4 +1,5 @@
-"""What is the user's is safe: no command removes, replaces or follows what it did not make, however files and folders lie."""
+"""What is the user's is safe: no command removes, replaces or follows what it did not make, however files and
+folders lie."""
 
 import hashlib
 import json
@@ -15,7 +16,8 @@ QUICK = ("--method", "conventional")
 SMALL = ("--size", "60x42")
 NOBODY = 65534
 # What batch writes into OUT; folders end with a slash.
-PLACES = ("work/", "figures/", "exports/", "reports/", "state/", "thumbnails/", "pages/", "plots/", "index.html",
+PLACES = ("work/", "figures/", "exports/", "reports/", "state/", "thumbnails/", "pages/", "plots/",
+          "index.html",
           "summary.csv", "summary.json")
 
 
@@ -49,7 +51,8 @@ class OwnershipTest(ProgramTest):
         return folder
 
     def refused(self, *arguments, naming=(), code=2, **options):
-        """The command ends with `code` and one sentence, and nothing in the test's folder is other than before."""
+        """The command ends with `code` and one sentence, and nothing in the test's folder is other than
+        before."""
         before = contents(self.folder)
         result = self.morsel(*arguments, code=code, **options)
         self.assertEqual(contents(self.folder), before, arguments)
@@ -66,7 +69,8 @@ class OwnershipTest(ProgramTest):
         """A folder of its own file system."""
         point = self.folder / "mounted"
         point.mkdir()
-        result = subprocess.run(["mount", "-t", "tmpfs", "-o", ",".join(("size=16m", *options)), "tmpfs", point],
+        result = subprocess.run(["mount", "-t", "tmpfs", "-o", ",".join(("size=16m", *options)), "tmpfs",
+                                 point],
                                 capture_output=True, text=True, check=False)
         if result.returncode != 0:
             self.skipTest(f"no tmpfs can be mounted: {result.stderr.strip()}")
@@ -76,7 +80,8 @@ class OwnershipTest(ProgramTest):
 
 class Batch(OwnershipTest):
     def batch(self, collection, out, *arguments, **options):
-        return self.morsel("batch", collection, "--out", out, *QUICK, *(SMALL if "--figures" in arguments else ()),
+        return self.morsel("batch", collection, "--out", out, *QUICK,
+                           *(SMALL if "--figures" in arguments else ()),
                            *arguments, **options)
 
     def test_a_collection_named_work_is_not_emptied(self):
@@ -99,11 +104,13 @@ class Batch(OwnershipTest):
         self.meshes("a/meshes")
         (self.folder / "link").symlink_to("a")
         (self.folder / "to-meshes").symlink_to("a/meshes")
-        for out in ("a/meshes", "a/meshes/", "a", ".", "a/meshes/out", "a/meshes/deeper/out", "link", "link/meshes/out",
+        for out in ("a/meshes", "a/meshes/", "a", ".", "a/meshes/out", "a/meshes/deeper/out", "link",
+                    "link/meshes/out",
                     "to-meshes", "to-meshes/out", "a/../a/meshes/out", self.folder / "a/meshes"):
             for collection in ("a/meshes", "link/meshes", "to-meshes"):
                 with self.subTest(out=out, collection=collection):
-                    self.refused("batch", collection, "--out", out, *QUICK, naming=["--out", "COLLECTION", "choose"])
+                    self.refused("batch", collection, "--out", out, *QUICK,
+                                 naming=["--out", "COLLECTION", "choose"])
         self.batch("a/meshes", "a/out")  # beside it
         self.refused("batch", "a", "--out", "a/out", *QUICK, naming=["--out"])  # though it is marked
 
@@ -115,7 +122,8 @@ class Batch(OwnershipTest):
 
     def test_out_of_somebody_else_is_refused(self):
         self.meshes()
-        for name in ("thesis.txt", ".hidden", "folder/file", "index.html", "state/notes.json", "meshes-of-mine/a.off"):
+        for name in ("thesis.txt", ".hidden", "folder/file", "index.html", "state/notes.json",
+                     "meshes-of-mine/a.off"):
             with self.subTest(name=name):
                 out = self.folder / "out"
                 (out / name).parent.mkdir(parents=True)
@@ -129,13 +137,16 @@ class Batch(OwnershipTest):
         self.meshes()
         self.batch("meshes", "out")
         (self.folder / "out" / LIST).unlink()
-        self.refused("batch", "meshes", "--out", "out", *QUICK, naming=["morsel 0.1", "choose a new or an empty folder"])
+        self.refused("batch", "meshes", "--out", "out", *QUICK,
+                     naming=["morsel 0.1", "choose a new or an empty folder"])
 
     def test_what_is_in_the_place_of_a_result_is_told_before_the_work(self):
         self.meshes()
         self.batch("meshes", "out", "--only", "a.off", "--no-summary")
-        for place in ("index.html", "summary.csv", "summary.json", "plots/histogram.svg", "reports/b.off.json",
-                      "state/b.off.json", "thumbnails/b.off.first.png", "thumbnails/b.off.last.png", "pages/b.off.html",
+        for place in ("index.html", "summary.csv", "summary.json", "plots/histogram.svg",
+                      "reports/b.off.json",
+                      "state/b.off.json", "thumbnails/b.off.first.png", "thumbnails/b.off.last.png",
+                      "pages/b.off.html",
                       "figures/b.off", "exports/b.off"):
             with self.subTest(place=place):
                 path = self.folder / "out" / place
@@ -143,7 +154,8 @@ class Batch(OwnershipTest):
                 for make in (lambda: path.write_text("the only copy"), lambda: path.symlink_to("/nowhere/x"),
                              lambda: path.symlink_to(self.mesh)):
                     make()
-                    self.refused("batch", "meshes", "--out", "out", *QUICK, "--html", "--figures", "--export", code=4,
+                    self.refused("batch", "meshes", "--out", "out", *QUICK, "--html", "--figures", "--export",
+                                 code=4,
                                  naming=[f"out/{place}"])
                     path.unlink()
         self.batch("meshes", "out", "--html", "--figures", "--export")
@@ -151,7 +163,8 @@ class Batch(OwnershipTest):
     def test_files_beside_results_stay(self):
         self.meshes()
         self.batch("meshes", "out", "--html", "--figures", "--export")
-        theirs = ["notes.txt", "work/notes.txt", "figures/a.off/mine.png", "exports/a.off/deep/mine.vtp", "plots/mine.svg",
+        theirs = ["notes.txt", "work/notes.txt", "figures/a.off/mine.png", "exports/a.off/deep/mine.vtp",
+                  "plots/mine.svg",
                   "reports/mine.json", "state/mine.json", "pages/mine.html", ".hidden"]
         for name in theirs:
             (self.folder / "out" / name).parent.mkdir(exist_ok=True)
@@ -164,7 +177,8 @@ class Batch(OwnershipTest):
                          [self.folder / "out/figures/a.off/mine.png"])
         (self.folder / "meshes/a.off").write_text("OFF\n")
         before.pop("meshes/a.off")
-        subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder, check=False, capture_output=True)
+        subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder, check=False,
+                       capture_output=True)
         self.assertFalse((self.folder / "out/reports/a.off.json").exists())
         self.kept(before)
 
@@ -178,7 +192,8 @@ class Batch(OwnershipTest):
                 link = self.folder / "out" / place.rstrip("/")
                 shutil.rmtree(link, ignore_errors=True)
                 link.symlink_to(self.folder / "kept")
-                self.refused("batch", "meshes", "--out", "out", *QUICK, "--html", "--figures", "--export", code=4,
+                self.refused("batch", "meshes", "--out", "out", *QUICK, "--html", "--figures", "--export",
+                             code=4,
                              naming=["symbolic link"])
                 shutil.rmtree(self.folder / "out")
 
@@ -194,10 +209,12 @@ class Batch(OwnershipTest):
         self.meshes()
         self.batch("meshes", "out")
         good = (self.folder / "out" / LIST).read_text()
-        for bad in (good + "+/etc/passwd\n", good + "+../meshes/a.off\n", good + "+x/../../meshes/a.off\n", "[" * 100000 + "\n",
+        for bad in (good + "+/etc/passwd\n", good + "+../meshes/a.off\n", good + "+x/../../meshes/a.off\n",
+                    "[" * 100000 + "\n",
                     good.replace("results/1", "results/9"), good + "\n", good + "+a%00\n"):
             (self.folder / "out" / LIST).write_text(bad)
-            self.refused("batch", "meshes", "--out", "out", *QUICK, code=3, naming=[LIST, "choose a new or an empty folder"])
+            self.refused("batch", "meshes", "--out", "out", *QUICK, code=3,
+                         naming=[LIST, "choose a new or an empty folder"])
         (self.folder / "out" / LIST).write_text(good + "+reports/a.off.js")  # of a process that was killed
         self.batch("meshes", "out")
         self.assertEqual((self.folder / "out" / LIST).read_text().splitlines()[0], good.splitlines()[0])
@@ -208,13 +225,15 @@ class Batch(OwnershipTest):
         long = "x" * 251 + ".off"
         (folder / long).write_text(OCTAHEDRON)
         for _ in range(2):
-            result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder, text=True,
+            result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder,
+                                    text=True,
                                     capture_output=True, check=False)
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertIn("2 done, 1 failed", result.stdout)
             self.assertIn(f"{long}: failed: the name {long} has 255 bytes", result.stderr)
         summary = json.loads((self.folder / "out/summary.json").read_text())
-        self.assertEqual(next(mesh["error"]["exit_code"] for mesh in summary["meshes"] if mesh["name"] == long), 4)
+        self.assertEqual(next(mesh["error"]["exit_code"] for mesh in summary["meshes"]
+                              if mesh["name"] == long), 4)
         self.assertNotIn(long, self.morsel("batch", "meshes", "--out", "out", *QUICK, "--plan").stdout)
         self.morsel("batch", "meshes", "--out", "out", *QUICK, "--only", "y" * 300 + ".off", code=2)
         self.morsel("batch", "n" * 300, "--out", "out", *QUICK, code=3)
@@ -228,11 +247,13 @@ class Batch(OwnershipTest):
 
     def test_a_plan_has_one_line_a_mesh(self):
         folder = self.meshes()
-        names = ["a.off", "b.off", "line\nbreak\t\x7f.off", '"quoted".off', "back\\slash.off", "new\n\"line\\.off"]
+        names = ["a.off", "b.off", "line\nbreak\t\x7f.off", '"quoted".off', "back\\slash.off",
+                 "new\n\"line\\.off"]
         for name in names:
             (folder / name).write_text(OCTAHEDRON)
         (folder / os.fsdecode(b"bytes\xff\n.off")).write_text(OCTAHEDRON)
-        result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", "--plan"], cwd=self.folder, capture_output=True, check=True)
+        result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", "--plan"], cwd=self.folder,
+                                capture_output=True, check=True)
         rows = [line.split("\t") for line in os.fsdecode(result.stdout).splitlines()]
         self.assertEqual({len(row) for row in rows}, {2})
         self.assertEqual({json.loads(name) if name.startswith('"') else name for _, name in rows},
@@ -240,12 +261,14 @@ class Batch(OwnershipTest):
         self.assertFalse((self.folder / "out").exists())
         for name in names:
             self.batch("meshes", "out", "--only", name, "--no-summary")
-        result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder, capture_output=True, check=False)
+        result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder,
+                                capture_output=True, check=False)
         self.assertIn(b"7 meshes: 7 done", result.stdout, result.stderr)
 
     def test_what_a_killed_run_leaves_is_listed_and_goes_with_the_next(self):
         self.meshes()
-        process = subprocess.Popen([PROGRAM, "batch", "meshes", "--out", "out", "--method", "salient:iterations=1000000"],
+        process = subprocess.Popen([PROGRAM, "batch", "meshes", "--out", "out", "--method",
+                                    "salient:iterations=1000000"],
                                    cwd=self.folder, stderr=subprocess.DEVNULL)
         until(lambda: list(self.folder.glob("out/work/*/*")))
         process.kill()
@@ -259,22 +282,26 @@ class Batch(OwnershipTest):
     def test_two_runs_at_once_begin_one_folder(self):
         self.meshes()
         for _ in range(5):
-            processes = [subprocess.Popen([PROGRAM, "batch", "meshes", "--out", "out", *QUICK, "--no-thumbnails", *more],
-                                          cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            processes = [subprocess.Popen([PROGRAM, "batch", "meshes", "--out", "out", *QUICK,
+                                           "--no-thumbnails", *more],
+                                          cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                          text=True)
                          for more in ((), ("--snap",), (), ("--no-items",))]
             for process in processes:
                 _, errors = process.communicate(timeout=120)
                 self.assertEqual(process.returncode, 0, errors)
             listed = (self.folder / "out" / LIST).read_text().splitlines()
             self.assertEqual(json.loads(listed[0]), {"schema": "morsel.results/1"})
-            there = {f"+{path.relative_to(self.folder / 'out')}" for path in (self.folder / "out").rglob("*") if path.is_file()}
+            there = {f"+{path.relative_to(self.folder / 'out')}" for path in (self.folder / "out").rglob("*")
+                     if path.is_file()}
             self.assertLessEqual(there - {f"+{LIST}"}, set(listed))
             shutil.rmtree(self.folder / "out")
 
 
 class FileSystems(OwnershipTest):
     def batch(self, *arguments, **options):
-        return subprocess.run([PROGRAM, "batch", *map(str, arguments), *QUICK], cwd=self.folder, capture_output=True,
+        return subprocess.run([PROGRAM, "batch", *map(str, arguments), *QUICK], cwd=self.folder,
+                              capture_output=True,
                               text=True, check=False, **options)
 
     def test_collection_and_out_on_other_file_systems(self):
@@ -284,25 +311,29 @@ class FileSystems(OwnershipTest):
         before = contents(self.folder)
         for collection, out in (("meshes", "mounted/out"), ("mounted/meshes", "out")):
             self.assertEqual(self.batch(collection, "--out", out, "--html", "--export").returncode, 0)
-            self.assertIn("(2 by earlier runs)", self.batch(collection, "--out", out, "--html", "--export").stdout)
+            self.assertIn("(2 by earlier runs)", self.batch(collection, "--out", out, "--html",
+                                                            "--export").stdout)
         self.kept(before)
         self.refused("batch", "mounted/meshes", "--out", "mounted", *QUICK)
         (self.folder / "again").mkdir()
-        bound = subprocess.run(["mount", "--bind", mounted / "meshes", self.folder / "again"], check=False, capture_output=True)
+        bound = subprocess.run(["mount", "--bind", mounted / "meshes", self.folder / "again"], check=False,
+                               capture_output=True)
         if bound.returncode == 0:
             self.addCleanup(subprocess.run, ["umount", "-l", self.folder / "again"], check=True)
             self.refused("batch", "mounted/meshes", "--out", "again/out", *QUICK)
 
     def test_what_is_mounted_in_a_left_work_folder_stays(self):
         self.meshes()
-        self.assertEqual(self.batch("meshes", "--out", "out", "--only", "a.off", "--no-summary").returncode, 0)
+        self.assertEqual(self.batch("meshes", "--out", "out", "--only", "a.off", "--no-summary").returncode,
+                         0)
         mounted = self.mounted()
         (mounted / "thesis.txt").write_text("the only copy")
         (self.folder / "out/work/killed/0").mkdir(parents=True)
         with open(self.folder / "out" / LIST, "a", encoding="utf-8") as listed:
             listed.write("+work/killed/\n")
         inner = self.folder / "out/work/killed/0"
-        result = subprocess.run(["mount", "--bind", mounted, inner], check=False, capture_output=True, text=True)
+        result = subprocess.run(["mount", "--bind", mounted, inner], check=False, capture_output=True,
+                                text=True)
         if result.returncode != 0:
             self.skipTest(f"nothing can be mounted there: {result.stderr}")
         self.addCleanup(subprocess.run, ["umount", "-l", inner], check=True)
@@ -313,7 +344,8 @@ class FileSystems(OwnershipTest):
         mounted = self.mounted()
         self.meshes()
         self.meshes("mounted/kept")
-        self.assertEqual(self.batch("meshes", "--out", "mounted/out", "--only", "a.off", "--no-summary").returncode, 0)
+        self.assertEqual(self.batch("meshes", "--out", "mounted/out", "--only", "a.off",
+                                    "--no-summary").returncode, 0)
         before = {name: kind for name, kind in contents(self.folder).items() if not name.endswith(LIST)}
         with open(mounted / "filling", "wb") as filling, self.assertRaises(OSError):
             while True:
@@ -350,7 +382,8 @@ class FileSystems(OwnershipTest):
         other = {"user": NOBODY, "group": NOBODY, "extra_groups": ()}
         for out in ("out", "empty", "new"):
             self.refused("batch", meshes, "--out", out, *QUICK, code=4, naming=["ermission denied"], **other)
-            self.refused("compare", "m.off", "--export", out, *QUICK, code=4, naming=["ermission denied"], **other)
+            self.refused("compare", "m.off", "--export", out, *QUICK, code=4, naming=["ermission denied"],
+                         **other)
         shared = self.folder / "shared"
         shared.mkdir()
         shared.chmod(stat.S_ISVTX | 0o777)
@@ -389,7 +422,8 @@ class Folders(OwnershipTest):
             with self.subTest(command=name):
                 self.morsel(*command)
                 listed = (self.folder / "out" / LIST).read_bytes()
-                there = {str(path.relative_to(self.folder / "out")) for path in (self.folder / "out").rglob("*") if path.is_file()}
+                there = {str(path.relative_to(self.folder / "out"))
+                         for path in (self.folder / "out").rglob("*") if path.is_file()}
                 self.assertEqual({line[1:] for line in listed.decode().splitlines()[1:]}, there - {LIST})
                 self.file("out/thesis.txt", "the only copy")
                 before = contents(self.folder)
@@ -423,14 +457,16 @@ class Folders(OwnershipTest):
         for other in ("d", "d/", "./d", "d/deeper"):
             with self.subTest(other=other):
                 for _ in range(2):
-                    self.morsel(*every, other, "-o", "d/report.json", "--html", "d/page.html", "--thumbnails", "d/small")
+                    self.morsel(*every, other, "-o", "d/report.json", "--html", "d/page.html", "--thumbnails",
+                                "d/small")
                 for name in ("sheet.png", "report.json", "page.html", "small.first.png"):
                     self.assertTrue((self.folder / "d" / name).exists())
                 shutil.rmtree(self.folder / "d")
         self.morsel("compare", "m.off", *QUICK, *SMALL, "--export", "e", "--figures", "e/deeper")
 
     def test_an_output_in_the_place_of_a_result_is_not_lost(self):
-        self.assertIn("another output", self.morsel("compare", "m.off", *QUICK, *SMALL, "--figures", "d", "-o", "d/sheet.png",
+        self.assertIn("another output", self.morsel("compare", "m.off", *QUICK, *SMALL, "--figures", "d",
+                                                    "-o", "d/sheet.png",
                                                     code=4).stderr)
         self.assertIn("another output", self.morsel("compare", "m.off", *QUICK, "--export", "e", "--html",
                                                     "e/conventional.points.csv", code=4).stderr)
@@ -470,9 +506,12 @@ class Outputs(OwnershipTest):
         (self.folder / "linked").symlink_to(".")
         for command, (words, options) in self.COMMANDS.items():
             words = [word.format(self.mesh.name) for word in words]
-            required = () if "-o" not in options or command not in ("segment", "cut", "quads") else ("-o", f"free{options['-o']}")
+            required = ()
+            if command in ("segment", "cut", "quads"):
+                required = ("-o", f"free{options['-o']}")
             for option, ending in options.items():
-                for inputs, more in ((self.mesh, ()), (self.values, ("--field", "vertex-scalar:file=values.txt"))):
+                for inputs, more in ((self.mesh, ()), (self.values,
+                                                       ("--field", "vertex-scalar:file=values.txt"))):
                     if more and "--field" in words:
                         words = words[:words.index("--field")]
                     names, made = self.names_of(inputs, ending)
@@ -495,7 +534,8 @@ class Outputs(OwnershipTest):
             self.refused("quads", "m.off", "-o", "q.obj", "--json", name)
         self.file("s.first.png", OCTAHEDRON).rename(self.folder / "p.first.png")
         (self.folder / "p.off").symlink_to("p.first.png")
-        self.refused("compare", "p.off", "--thumbnails", "p", naming=["--thumbnails p.first.png", "MESH p.off"])
+        self.refused("compare", "p.off", "--thumbnails", "p",
+                     naming=["--thumbnails p.first.png", "MESH p.off"])
 
     def test_a_molecule_is_not_replaced_by_its_surface(self):
         atom = "ATOM      1  CA  GLY A   1       0.000   0.000   0.000  1.00  0.00           C\n"
@@ -514,26 +554,32 @@ class Outputs(OwnershipTest):
         """`compare -o x.json --html x.json` once let one of them win."""
         (self.folder / "soft").symlink_to("x")
         (self.folder / "linked").symlink_to(".")
-        for first, second in (("x", "x"), ("x", "./x"), ("x", "soft"), ("soft", "linked/x"), (self.folder / "x", "x")):
+        for first, second in (("x", "x"), ("x", "./x"), ("x", "soft"), ("soft", "linked/x"),
+                              (self.folder / "x", "x")):
             for exists in (False, True):
                 if exists:
                     self.file("x", "the only copy")
-                self.refused("compare", "m.off", "-o", first, "--html", second, naming=["-o", "--html", "one file"])
+                self.refused("compare", "m.off", "-o", first, "--html", second,
+                             naming=["-o", "--html", "one file"])
                 self.refused("segment", "m.off", "-o", "x.ply", "--json", "x.ply", naming=["-o", "--json"])
                 (self.folder / "x").unlink(missing_ok=True)
         for ending in (".vertices.txt", ".faces.txt"):
             self.refused("segment", "m.off", "-o", "s.txt", "--json", f"s{ending}", naming=[f"s{ending}"])
         self.refused("cut", "m.off", "-o", "c.off", "--json", "c.off")
-        self.refused("cut", "m.off", "-o", "c.off", "--graph", "g.vtp", "--json", "g.vtp", naming=["--graph", "--json"])
+        self.refused("cut", "m.off", "-o", "c.off", "--graph", "g.vtp", "--json", "g.vtp",
+                     naming=["--graph", "--json"])
         self.refused("quads", "m.off", "-o", "q.obj", "--json", "q.obj")
-        self.refused("compare", "m.off", "-o", "p.first.png", "--thumbnails", "p", naming=["--thumbnails p.first.png"])
+        self.refused("compare", "m.off", "-o", "p.first.png", "--thumbnails", "p",
+                     naming=["--thumbnails p.first.png"])
         self.refused("compare", "m.off", "-o", "d", "--figures", "d", naming=["--figures d"])
         self.refused("hierarchy", "m.off", "-o", "d", "--export", "d", naming=["--export d"])
-        self.refused("sweep", "m.off", "--vary", "iterations=1", "-o", "d.csv", "--figures", "d.csv.journal", naming=["journal"])
+        self.refused("sweep", "m.off", "--vary", "iterations=1", "-o", "d.csv", "--figures", "d.csv.journal",
+                     naming=["journal"])
         for kind in ("json", "csv"):
             mesh = self.file(f"s.{kind}.journal", OCTAHEDRON)
             os.link(mesh, self.folder / f"{kind}.off")
-            self.refused("sweep", f"{kind}.off", "--vary", "iterations=1", "-o", f"s.{kind}", naming=["journal"])
+            self.refused("sweep", f"{kind}.off", "--vary", "iterations=1", "-o", f"s.{kind}",
+                         naming=["journal"])
             self.refused("stability", f"{kind}.off", "-o", f"s.{kind}", naming=["journal"])
 
     def test_devices_and_pipes_may_be_named_twice(self):
@@ -543,7 +589,8 @@ class Outputs(OwnershipTest):
         result = subprocess.run(f"'{PROGRAM}' compare m.off {' '.join(QUICK)} -o /dev/stdout --html /dev/stdout > both",
                                 shell=True, cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
-        result = subprocess.run(f"'{PROGRAM}' compare m.off -o /dev/stdout >> m.off", shell=True, cwd=self.folder,
+        result = subprocess.run(f"'{PROGRAM}' compare m.off -o /dev/stdout >> m.off", shell=True,
+                                cwd=self.folder,
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 2)
         self.assertEqual(self.mesh.read_text(), OCTAHEDRON)
@@ -559,8 +606,10 @@ class Outputs(OwnershipTest):
         for arguments in (("compare", "m.off", "--figures", ""), ("compare", "m.off", "--export", ""),
                           ("compare", "m.off", "--thumbnails", ""), ("hierarchy", "m.off", "--export", ""),
                           ("sweep", "m.off", "--vary", "iterations=1", "--figures", ""), ("reproduce", ""),
-                          ("reproduce", "out", "--data", ""), ("batch", "", "--out", "out"), ("batch", "meshes", "--out", ""),
-                          ("molecule", "", "-o", "m.off"), ("molecule", "m.pdb", "-o", ""), ("info", ""), ("check", "")):
+                          ("reproduce", "out", "--data", ""), ("batch", "", "--out", "out"),
+                          ("batch", "meshes", "--out", ""),
+                          ("molecule", "", "-o", "m.off"), ("molecule", "m.pdb", "-o", ""), ("info", ""),
+                          ("check", "")):
             with self.subTest(arguments=arguments):
                 self.refused(*arguments, naming=["''"])
 
@@ -570,7 +619,8 @@ class Outputs(OwnershipTest):
                 continue  # needs another field
             words = [word.format(self.mesh.name) for word in words]
             with self.subTest(command=command):
-                self.morsel(*words, *(word for option, ending in options.items() for word in (option, f"{command}{option}{ending}")))
+                self.morsel(*words, *(word for option, ending in options.items()
+                                      for word in (option, f"{command}{option}{ending}")))
                 for option, ending in options.items():
                     self.assertTrue((self.folder / f"{command}{option}{ending}").exists())
 

@@ -115,7 +115,8 @@ class Plots(ProgramTest):
             colors = {data[i:i + 3] for i in range(0, len(data), 3)}
             self.assertIn(b"\xff\xff\xff", colors)
             self.assertGreater(len(colors), 50)
-            # A margin of 6 points of 1/72 inch at 300 pixels an inch, of which numbers at the ends of axes take half.
+            # A margin of 6 points of 1/72 inch at 300 pixels an inch, of which numbers at the ends of axes
+            # take half.
             row, margin = 3 * width, 10
             self.assertEqual(set(data[:margin * row]) | set(data[-margin * row:]), {0xff})
             for y in range(0, height, 7):
@@ -123,7 +124,8 @@ class Plots(ProgramTest):
                 self.assertEqual(set(line[:3 * margin]) | set(line[-3 * margin:]), {0xff}, (name, y))
 
     def test_a_field_without_pairs_has_plots_of_its_essential_classes(self):
-        _, files = self.compare(self.file("o.off", OCTAHEDRON), "--field", "height", "--method", "conventional")
+        _, files = self.compare(self.file("o.off", OCTAHEDRON), "--field", "height", "--method",
+                                "conventional")
         self.assertNotIn("iterations.svg", files)
         svg = xml.parse(files["conventional.diagram.svg"]).getroot()
         named = [(name, paths) for name, paths in groups(svg) if name]
@@ -141,7 +143,8 @@ class Plots(ProgramTest):
         self.assertEqual(made[0], made[2])
 
     def test_methods_of_one_name_get_files_of_their_own(self):
-        _, files = self.compare(self.file("o.off", OCTAHEDRON), "--method", "tps", "--method", "tps:threshold=1%")
+        _, files = self.compare(self.file("o.off", OCTAHEDRON), "--method", "tps", "--method",
+                                "tps:threshold=1%")
         self.assertIn("tps.diagram.svg", files)
         self.assertIn("tps-2.diagram.svg", files)
 

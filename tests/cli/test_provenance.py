@@ -1,5 +1,6 @@
-"""Every file that the program writes tells where it comes from: version, inputs with hashes, resolved parameters; and is the same
-when it is made again. A reader for each kind of file, written from what the documentation says."""
+"""Every file that the program writes tells where it comes from: version, inputs with hashes, resolved
+parameters; and is the same when it is made again. A reader for each kind of file, written from what the
+documentation says."""
 
 import csv
 import hashlib
@@ -50,7 +51,8 @@ def of_vtp(path):
 
 def of_lines(path, mark):
     """Of comment lines, which are short: some readers take no long ones."""
-    lines = [line.decode() for line in path.read_bytes().split(b"end_header")[0].splitlines() if line.startswith(mark)]
+    lines = [line.decode() for line in path.read_bytes().split(b"end_header")[0].splitlines()
+             if line.startswith(mark)]
     assert max(map(len, lines)) < 500
     return json.loads("".join(line[len(mark):] for line in lines))
 
@@ -76,7 +78,8 @@ def without_timings(path):
             return [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(file)]
     if path.suffix == ".html":
         text = re.sub(r'"timings":\s*\{.*?\}\s*\}', "", path.read_text(), flags=re.DOTALL)
-        return re.sub(r"<small>[\d.]+ s</small>|\bout[13]\b", "", text)  # pages show the command that makes them
+        return re.sub(r"<small>[\d.]+ s</small>|\bout[13]\b", "",
+                      text)  # pages show the command that makes them
     return path.read_bytes()
 
 
@@ -94,7 +97,8 @@ class Provenance(ProgramTest):
         return hashlib.sha256((self.folder / name).read_bytes()).hexdigest()
 
     def written_twice(self, *arguments, expected):
-        """The files that a command writes into {out}; it writes the same, but for timings, at another number of threads."""
+        """The files that a command writes into {out}; it writes the same, but for timings, at another number
+        of threads."""
         runs = []
         for threads in (1, 3):
             out = self.folder / f"out{threads}"
@@ -122,7 +126,8 @@ class Provenance(ProgramTest):
                 if path.suffix == ".json":
                     document = json.loads(path.read_text())
                     self.assertEqual(document["tool"]["version"], self.version)
-                    self.assertEqual((document["mesh"]["path"], document["mesh"]["sha256"]), (inputs[0], hashes[0]["sha256"]))
+                    self.assertEqual((document["mesh"]["path"], document["mesh"]["sha256"]),
+                                     (inputs[0], hashes[0]["sha256"]))
                     self.assertIn("request", document)
                     continue
                 if path.suffix == ".csv":
@@ -139,7 +144,8 @@ class Provenance(ProgramTest):
                 if methods:
                     self.assertEqual(document["field"]["name"], keys[0])
                     self.assertIn(keys[1], document["field"]["parameters"])
-                    wanted = next((show for start, show in (shown or {}).items() if name.startswith(start)), methods)
+                    wanted = next((show for start, show in (shown or {}).items() if name.startswith(start)),
+                                  methods)
                     self.assertEqual([method["name"] for method in document["methods"]], wanted)
                     for method in document["methods"]:
                         if method["name"] == "salient":
@@ -147,20 +153,26 @@ class Provenance(ProgramTest):
     def test_compare(self):
         methods = ["conventional", "salient", "tps"]
         files = self.written_twice(
-            "compare", self.mesh, "-o", "{out}/report.json", "--html", "{out}/page.html", "--figures", "{out}", "--size", "60x42",
+            "compare", self.mesh, "-o", "{out}/report.json", "--html", "{out}/page.html", "--figures",
+            "{out}", "--size", "60x42",
             "--export", "{out}", "--thumbnails", "{out}/small", expected={
                 "report.json", "page.html", "small.first.png", "small.last.png", "sheet.png",
-                *(f"{all_methods}.{kind}" for all_methods in ("diagrams", "persistence", "iterations") for kind in ("png", "svg")),
+                *(f"{all_methods}.{kind}" for all_methods in ("diagrams", "persistence", "iterations")
+                  for kind in ("png", "svg")),
                 *(f"{method}.{kind}" for method in methods for kind in (
                     "png", "diagram.png", "diagram.svg", "surface.vtp", "complex.vtp", "points.csv"))})
-        shown = {f"{method}.": [method] for method in methods} | {"small.first": ["conventional"], "small.last": ["tps"]}
+        shown = {f"{method}.": [method] for method in methods} | {"small.first": ["conventional"],
+                                                                  "small.last": ["tps"]}
         self.check(files, "compare", [self.mesh], methods, shown)
 
     def test_field(self):
         for kind in ("txt", "ply", "vtp"):
-            files = self.written_twice("field", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "--method",
-                                       "salient:iterations=2", "-o", f"{{out}}/f.{kind}", expected={f"f.{kind}"})
-            self.check(files, "field", [self.octahedron, self.values], ["salient"], keys=("vertex-scalar", "file_sha256"))
+            files = self.written_twice("field", self.octahedron, "--field",
+                                       f"vertex-scalar:file={self.values}", "--method",
+                                       "salient:iterations=2", "-o", f"{{out}}/f.{kind}",
+                                       expected={f"f.{kind}"})
+            self.check(files, "field", [self.octahedron, self.values], ["salient"],
+                       keys=("vertex-scalar", "file_sha256"))
             shutil.rmtree(self.folder / "out1")
 
     def test_hierarchy(self):
@@ -172,50 +184,63 @@ class Provenance(ProgramTest):
         self.assertEqual(of_vtp(files["surface.1.vtp"])["request"]["levels"], "0,2")
 
     def test_segment(self):
-        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("txt", {"s.vertices.txt", "s.faces.txt"})):
-            files = self.written_twice("segment", self.mesh, "--persistence", "1%", "-o", f"{{out}}/s.{kind}", "--json",
+        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}),
+                            ("txt", {"s.vertices.txt", "s.faces.txt"})):
+            files = self.written_twice("segment", self.mesh, "--persistence", "1%", "-o", f"{{out}}/s.{kind}",
+                                       "--json",
                                        "{out}/s.json", expected={"s.json", *names})
             self.check(files, "segment", [self.mesh], ["conventional"])
             shutil.rmtree(self.folder / "out1")
 
     def test_cut(self):
         for kind in ("off", "ply"):
-            files = self.written_twice("cut", self.mesh, "--field", "mean-curvature", "--method", "salient+tps:count=8", "-o",
-                                       f"{{out}}/c.{kind}", "--json", "{out}/c.json", "--graph", "{out}/g.vtp",
+            files = self.written_twice("cut", self.mesh, "--field", "mean-curvature", "--method",
+                                       "salient+tps:count=8", "-o",
+                                       f"{{out}}/c.{kind}", "--json", "{out}/c.json", "--graph",
+                                       "{out}/g.vtp",
                                        expected={f"c.{kind}", "c.json", "g.vtp"})
             self.check(files, "cut", [self.mesh], ["salient+tps"])
             self.assertEqual(READERS[f".{kind}"](files[f"c.{kind}"])["request"]["shorten"], True)
             shutil.rmtree(self.folder / "out1")
 
     def test_quads(self):
-        files = self.written_twice("quads", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "-o",
+        files = self.written_twice("quads", self.octahedron, "--field", f"vertex-scalar:file={self.values}",
+                                   "-o",
                                    "{out}/q.obj", "--json", "{out}/q.json", expected={"q.obj", "q.json"})
-        self.check(files, "quads", [self.octahedron, self.values], ["conventional"], keys=("vertex-scalar", "file"))
+        self.check(files, "quads", [self.octahedron, self.values], ["conventional"],
+                   keys=("vertex-scalar", "file"))
         report = json.loads(files["q.json"].read_text())
         self.assertEqual(report["field"]["parameters"]["file_sha256"], self.sha256(self.values))
 
     def test_render(self):
-        files = self.written_twice("render", self.mesh, "--method", "salient", "--size", "160x120", "--samples", "1", "--inset", "7",
-                                   "--view=-20/10", "--caption", "über <&> --", "-o", "{out}/p.png", expected={"p.png"})
+        files = self.written_twice("render", self.mesh, "--method", "salient", "--size", "160x120",
+                                   "--samples", "1", "--inset", "7",
+                                   "--view=-20/10", "--caption", "über <&> --", "-o", "{out}/p.png",
+                                   expected={"p.png"})
         self.check(files, "render", [self.mesh], ["salient"])
         document = of_png(files["p.png"])
-        self.assertEqual(document["command"], "morsel render 'a mesh--1.off' --method salient --size 160x120 --samples 1 --inset 7 "
+        self.assertEqual(document["command"],
+                         "morsel render 'a mesh--1.off' --method salient --size 160x120 --samples 1 --inset 7 "
                                               "--view=-20/10 --caption 'über <&> --'")
         self.assertEqual(document["picture"]["inset"], {"vertex": 7, "radius": "15eps"})
-        self.assertEqual((document["picture"]["view"], document["picture"]["caption"]), ("-20/10", "über <&> --"))
+        self.assertEqual((document["picture"]["view"], document["picture"]["caption"]),
+                         ("-20/10", "über <&> --"))
 
     def test_molecule(self):
         self.file("two.pdb", atom(1, (0, 0, 0)) + atom(2, (2, 0, 0)))
         for kind in ("off", "ply"):
-            files = self.written_twice("molecule", "two.pdb", "-o", f"{{out}}/m.{kind}", expected={f"m.{kind}"})
+            files = self.written_twice("molecule", "two.pdb", "-o", f"{{out}}/m.{kind}",
+                                       expected={f"m.{kind}"})
             self.check(files, "molecule", ["two.pdb"], [])
             request = READERS[f".{kind}"](files[f"m.{kind}"])["request"]
-            self.assertEqual((request["kind"], request["resolution"], request["hetero"]), ("gaussian", 0.5, "residues"))
+            self.assertEqual((request["kind"], request["resolution"], request["hetero"]),
+                             ("gaussian", 0.5, "residues"))
             shutil.rmtree(self.folder / "out1")
 
     def test_stability(self):
         for kind in ("json", "csv"):
-            files = self.written_twice("stability", self.mesh, "--noise", "0.1", "--trials", "2", "--seed", "7", "-o",
+            files = self.written_twice("stability", self.mesh, "--noise", "0.1", "--trials", "2", "--seed",
+                                       "7", "-o",
                                        f"{{out}}/s.{kind}", expected={f"s.{kind}"})
             if kind == "json":
                 self.check(files, "stability", [self.mesh], [])
@@ -229,7 +254,8 @@ class Provenance(ProgramTest):
             shutil.rmtree(self.folder / "out1")
 
     def test_sweep(self):
-        files = self.written_twice("sweep", self.mesh, "--vary", "iterations=1..3", "--vary", "range=1std,local", "-o",
+        files = self.written_twice("sweep", self.mesh, "--vary", "iterations=1..3", "--vary",
+                                   "range=1std,local", "-o",
                                    "{out}/s.json", "--figures", "{out}",
                                    expected={"s.json", *(f"{key}.{kind}" for key in ("iterations", "range")
                                                          for kind in ("png", "svg"))})
@@ -237,7 +263,8 @@ class Provenance(ProgramTest):
         self.assertEqual(of_svg(files["range.svg"])["request"]["variations"][0],
                          {"key": "iterations", "values": ["1", "2", "3"]})
         shutil.rmtree(self.folder / "out1")
-        files = self.written_twice("sweep", self.octahedron, "--field", f"vertex-scalar:file={self.values}", "--vary",
+        files = self.written_twice("sweep", self.octahedron, "--field", f"vertex-scalar:file={self.values}",
+                                   "--vary",
                                    "iterations=1..3", "-o", "{out}/s.csv", expected={"s.csv"})
         for row in without_timings(files["s.csv"]):
             self.assertEqual((row["version"], row["mesh"], row["sha256"]),
@@ -260,19 +287,22 @@ class Provenance(ProgramTest):
                 if name == "reproduction.json":
                     document = json.loads(path.read_text())
                     self.assertEqual(document["tool"]["version"], self.version)
-                    self.assertEqual([{k: model["mesh"][k] for k in meshes[0]} for model in document["models"]], meshes)
+                    self.assertEqual([{k: model["mesh"][k] for k in meshes[0]}
+                                      for model in document["models"]], meshes)
                 elif name == "table1.csv":
                     for row in without_timings(path):
                         self.assertEqual((row["version"], row["sha256"]), (self.version, meshes[0]["sha256"]))
                         self.assertIn("estimator", json.loads(row["field_parameters"]))
-                        self.assertEqual("sigma" in json.loads(row["method_parameters"]), row["method"] != "conventional")
+                        self.assertEqual("sigma" in json.loads(row["method_parameters"]),
+                                         row["method"] != "conventional")
                 else:
                     document = READERS[path.suffix](path)
                     self.check_document(document, path)
                     self.assertTrue(all(file in meshes for file in document["inputs"]))
                     self.assertTrue(document["runs"] if name == "index.html" else document["methods"])
                     panel = re.fullmatch(r"figure\d[a-e]\.png", name)
-                    self.assertTrue(document["command"].startswith("morsel render " if panel else "morsel reproduce "))
+                    self.assertTrue(document["command"].startswith("morsel render "
+                                                                   if panel else "morsel reproduce "))
 
     def test_batch(self):
         (self.folder / "meshes").mkdir()
@@ -283,7 +313,8 @@ class Provenance(ProgramTest):
                 "summary.csv", "summary.json", "index.html",
                 *(f"plots/{plot}.svg" for plot in ("histogram", "cumulative", "against-size")),
                 *(name for mesh in "ab" for name in (f"reports/{mesh}.off.json", f"state/{mesh}.off.json",
-                                                     f"thumbnails/{mesh}.off.first.png", f"thumbnails/{mesh}.off.last.png"))})
+                                                     f"thumbnails/{mesh}.off.first.png",
+                                                     f"thumbnails/{mesh}.off.last.png"))})
         hashed = self.sha256(self.mesh)
         sums = "".join(f"{hashed}  {name}\n" for name in ("a.off", "b.off"))
         collection = [{"path": "meshes", "sha256": hashlib.sha256(sums.encode()).hexdigest()}]
@@ -296,9 +327,11 @@ class Provenance(ProgramTest):
                     self.assertIn('"sigma":', text)
                 elif path.suffix == ".csv":
                     for row in without_timings(path):
-                        self.assertEqual((row["version"], row["sha256"], row["field"]), (self.version, hashed, "mean-curvature"))
+                        self.assertEqual((row["version"], row["sha256"], row["field"]),
+                                         (self.version, hashed, "mean-curvature"))
                         self.assertIn("estimator", json.loads(row["field_parameters"]))
-                        self.assertEqual("sigma" in json.loads(row["method_parameters"]), row["method"] == "salient")
+                        self.assertEqual("sigma" in json.loads(row["method_parameters"]),
+                                         row["method"] == "salient")
                 else:
                     document = READERS[path.suffix](path)
                     self.check_document(document, path)
@@ -308,9 +341,11 @@ class Provenance(ProgramTest):
 
     def test_no_command_is_left_out(self):
         """A new command has its files looked at here, too."""
-        listed = re.findall(r"^  (\w+) ", self.morsel().stdout.split("Commands:")[1].split("Examples:")[0], re.MULTILINE)
+        listed = re.findall(r"^  (\w+) ", self.morsel().stdout.split("Commands:")[1].split("Examples:")[0],
+                            re.MULTILINE)
         tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")}
-        self.assertEqual(set(listed) - tested, {"info", "check", "fields", "methods", "help"})  # which write no file
+        self.assertEqual(set(listed) - tested, {"info", "check", "fields", "methods",
+                                                "help"})  # which write no file
 
 
 if __name__ == "__main__":

@@ -36,7 +36,8 @@ class Quads(ProgramTest):
     def check(self, vertices, quads, document):
         """A manifold of quads that is what the document says."""
         jsonschema.validate(document, json.loads(QUADS_SCHEMA.read_text()))
-        self.assertEqual((len(vertices), len(quads)), (document["quads"]["vertices"], document["quads"]["quads"]))
+        self.assertEqual((len(vertices), len(quads)), (document["quads"]["vertices"],
+                                                       document["quads"]["quads"]))
         self.assertTrue(all(len(q) == 4 for q in quads))
         sides = {(q[i], q[(i + 1) % 4]) for q in quads for i in range(4)}
         self.assertEqual(len(sides), 4 * len(quads))
@@ -46,7 +47,8 @@ class Quads(ProgramTest):
         self.assertEqual(len(vertices) - len(edges) + len(quads), document["mesh"]["euler_characteristic"])
         valence = collections.Counter(v for edge in edges for v in edge)
         valences = collections.Counter(valence.values())
-        self.assertEqual(dict(valences), {v["valence"]: v["vertices"] for v in document["quality"]["valences"]})
+        self.assertEqual(dict(valences), {v["valence"]: v["vertices"]
+                                          for v in document["quality"]["valences"]})
         on_boundary = {v for side in boundary for v in side}
         self.assertEqual(document["quality"]["extraordinary_vertices"],
                          sum(k != (3 if v in on_boundary else 4) for v, k in valence.items()))
@@ -74,7 +76,8 @@ class Quads(ProgramTest):
             self.assertAlmostEqual(sum(map(abs, v)), 1, 12)
 
     def test_the_elephant(self):
-        vertices, quads, document, result = self.quads(SAMPLES / "elephant.off", "--field", "eigenfunction:index=20",
+        vertices, quads, document, result = self.quads(SAMPLES / "elephant.off", "--field",
+                                                       "eigenfunction:index=20",
                                                        "--resolution", "6")
         self.check(vertices, quads, document)
         self.assertIn("patches", result.stdout)
@@ -86,14 +89,16 @@ class Quads(ProgramTest):
             self.assertGreater(repair["persistence"], 0)
 
     def test_a_boundary_loop(self):
-        vertices, quads, document, result = self.quads(SAMPLES / "lion-head.off", "--field", "eigenfunction:index=30")
+        vertices, quads, document, result = self.quads(SAMPLES / "lion-head.off", "--field",
+                                                       "eigenfunction:index=30")
         self.check(vertices, quads, document)
         self.assertGreater(document["layout"]["boundary_patches"], 0)
         self.assertIn("of five sides", result.stdout)
 
     def test_simplification(self):
         _, _, fine, _ = self.quads(SAMPLES / "elephant.off", "--field", "eigenfunction:index=20")
-        vertices, quads, coarse, result = self.quads(SAMPLES / "elephant.off", "--field", "eigenfunction:index=20",
+        vertices, quads, coarse, result = self.quads(SAMPLES / "elephant.off", "--field",
+                                                     "eigenfunction:index=20",
                                                      "--persistence", "20%")
         self.check(vertices, quads, coarse)
         self.assertEqual(fine["simplification"], {"threshold": 0, "cancelled_pairs": 0})
@@ -113,7 +118,8 @@ class Quads(ProgramTest):
         self.assertEqual(first[2], second[2])
 
     def test_the_document_on_standard_output(self):
-        result = self.morsel("quads", self.mesh, "--field", "vertex-scalar:file=values.txt", "-o", "q.obj", "--json", "-")
+        result = self.morsel("quads", self.mesh, "--field", "vertex-scalar:file=values.txt", "-o", "q.obj",
+                             "--json", "-")
         self.assertEqual(json.loads(result.stdout)["schema"], "morsel.quads/1")
 
     def test_what_is_refused(self):

@@ -1,7 +1,8 @@
-"""morsel reproduce: figures, table, numbers and page; and small pictures held against those in tests/cli/pictures.
+"""morsel reproduce: figures, table, numbers and page; and small pictures held against those in
+tests/cli/pictures.
 
-Pictures may differ a little between processors, so they are compared with a tolerance. Where they are meant to change, look
-at the new ones and put them there with
+Pictures may differ a little between processors, so they are compared with a tolerance. Where they are meant
+to change, look at the new ones and put them there with
 
     MORSEL_RENEW_PICTURES=1 tools/test -R "cli: reproduce"
 """
@@ -26,13 +27,14 @@ REPRODUCTION_SCHEMA = SCHEMA.parent / "reproduction.schema.json"
 PICTURES = pathlib.Path(__file__).parent / "pictures"
 KEPT = ("figure1b.png", "figure2b.png", "figure3d.png", "figure4c.png")
 SMALL = ("--size", "160x120", "--samples", "9")
-PANELS = ["figure1a", "figure1b", "figure1c", "figure1d", "figure2a", "figure2b", "figure3a", "figure3b", "figure3c",
+PANELS = ["figure1a", "figure1b", "figure1c", "figure1d", "figure2a", "figure2b", "figure3a", "figure3b",
+          "figure3c",
           "figure3d", "figure3e", "figure4a", "figure4b", "figure4c"]
 
 
 def difference(a, b):
-    """Of two pictures: the mean absolute difference of a channel, and the share of the pixels that are far off, in any
-    channel by more than 48 of 255; None if their sizes differ."""
+    """Of two pictures: the mean absolute difference of a channel, and the share of the pixels that are far
+    off, in any channel by more than 48 of 255; None if their sizes differ."""
     if (a.width, a.height, a.channels) != (b.width, b.height, b.channels):
         return None
     total = far = 0
@@ -127,7 +129,8 @@ class Reproduction(ProgramTest):
     def test_counts_are_those_of_compare(self):
         rows = {(row["model"], row["iterations"]): row for row in self.document["table"]}
         self.assertEqual(len(rows), 7)
-        for model, iterations, mesh in (("lion", 10, self.data / "My_LION.off"), ("protein", 1, SAMPLES / "retinal.off")):
+        for model, iterations, mesh in (("lion", 10, self.data / "My_LION.off"),
+                                        ("protein", 1, SAMPLES / "retinal.off")):
             methods = [run["specification"] for run in rows[model, iterations]["runs"]]
             self.assertEqual(len(methods), 4)
             report = self.report(mesh, *(word for method in methods for word in ("--method", method)))
@@ -158,7 +161,8 @@ class Reproduction(ProgramTest):
         figure = self.document["figures"][2]
         totals = [panel["critical_points"]["total"] for panel in figure["panels"]]
         self.assertLess(totals[2], totals[0])
-        self.assertIn(totals[2] - totals[1], (0, 1))  # a pair less where the parity of simple saddles asks for it
+        self.assertIn(totals[2] - totals[1],
+                      (0, 1))  # a pair less where the parity of simple saddles asks for it
         self.assertEqual(totals[1], totals[3])
         self.assertEqual(totals[2], totals[4])
         region = figure["region"]
@@ -176,10 +180,12 @@ class Reproduction(ProgramTest):
             self.assertEqual(level["kept"] + level["moved"] + level["new"], level["points"])
 
     def test_each_command_makes_its_panel(self):
-        panels = {panel["file"]: panel["command"] for figure in self.document["figures"] for panel in figure["panels"]}
+        panels = {panel["file"]: panel["command"] for figure in self.document["figures"]
+                  for panel in figure["panels"]}
         self.assertEqual(sorted(panels), sorted(f"{panel}.png" for panel in PANELS))
         shutil.copytree(self.data, self.folder / "data")
-        for file in ("figure1b.png", "figure1c.png", "figure2a.png", "figure3b.png", "figure3d.png", "figure4a.png"):
+        for file in ("figure1b.png", "figure1c.png", "figure2a.png", "figure3b.png", "figure3d.png",
+                     "figure4a.png"):
             words = shlex.split(panels[file])
             self.assertEqual(words[0], "morsel")
             self.morsel(*words[1:])
@@ -202,7 +208,8 @@ class Reproduction(ProgramTest):
         for figure in self.document["figures"]:
             self.assertIn(figure["paper"], page.text)
             self.assertIn(figure["here"], page.text)
-        for word in ("My_LION.off", "squirrel.off", "retinal.off", "prefers-color-scheme: dark", "width=device-width"):
+        for word in ("My_LION.off", "squirrel.off", "retinal.off", "prefers-color-scheme: dark",
+                     "width=device-width"):
             self.assertIn(word, text)
 
     def test_pictures_look_as_they_did(self):
@@ -210,7 +217,8 @@ class Reproduction(ProgramTest):
             if os.environ.get("MORSEL_RENEW_PICTURES"):
                 shutil.copy(self.out / name, PICTURES / name)
             kept = Png((PICTURES / name).read_bytes())
-            self.assertTrue(is_alike(self.picture(name), kept), f"{name}: {difference(self.picture(name), kept)}")
+            self.assertTrue(is_alike(self.picture(name), kept),
+                            f"{name}: {difference(self.picture(name), kept)}")
 
     def test_pictures_that_look_different_are_told_apart(self):
         commands = {panel["file"]: shlex.split(panel["command"])[1:]
@@ -221,7 +229,8 @@ class Reproduction(ProgramTest):
                    "figure2b.png": [["--method", "salient:iterations=9,range=local,support=1"], ["--no-arcs"],
                                     ["--show", "descending"]],
                    "figure3d.png": [["--method", "conventional"], ["--no-points"], ["--no-arcs"]],
-                   "figure4c.png": [["--method", "salient:iterations=9,range=local,support=1"], ["--no-points"]]}
+                   "figure4c.png": [["--method", "salient:iterations=9,range=local,support=1"],
+                                    ["--no-points"]]}
         for file, options in changes.items():
             kept = Png((PICTURES / file).read_bytes())
             for change in options:
@@ -231,8 +240,10 @@ class Reproduction(ProgramTest):
                     del words[at:at + len(change)]
                 self.morsel(*words, *change)
                 changed = Png((self.folder / file).read_bytes())
-                self.assertFalse(is_alike(changed, kept), f"{file} with {change}: {difference(changed, kept)}")
-        # What a processor may do to a picture is let pass: a level here and there, an edge that falls otherwise.
+                self.assertFalse(is_alike(changed, kept),
+                                 f"{file} with {change}: {difference(changed, kept)}")
+        # What a processor may do to a picture is let pass: a level here and there, an edge that falls
+        # otherwise.
         nearly = Png((PICTURES / "figure1b.png").read_bytes())
         for y, row in enumerate(nearly.rows):
             for x in range(0, len(row), 7):
@@ -249,7 +260,8 @@ class Requests(ProgramTest):
             shutil.copy(SAMPLES / "elk.off", data / f"{name}.off")
         seen = []
         for threads in (1, 3):
-            self.morsel("reproduce", f"out{threads}", "--data", data, *SMALL, "--threads", threads, "--view", "20/10",
+            self.morsel("reproduce", f"out{threads}", "--data", data, *SMALL, "--threads", threads, "--view",
+                        "20/10",
                         "--view=lion=-30/5", "--up", "lion=z")
             out = self.folder / f"out{threads}"
             document = json.loads((out / "reproduction.json").read_text())
@@ -262,7 +274,8 @@ class Requests(ProgramTest):
 
     def test_wrong_requests_are_refused_before_any_work(self):
         for options in (["--size", "10"], ["--size", "0x5"], ["--samples", "0"], ["--view", "below"],
-                        ["--view", "tiger=front"], ["--view", "lion=x"], ["--up", "w"], ["--up", "lion=up"], ["--figure"]):
+                        ["--view", "tiger=front"], ["--view", "lion=x"], ["--up", "w"], ["--up", "lion=up"],
+                        ["--figure"]):
             self.morsel("reproduce", "out", *options, code=2)
         self.morsel("reproduce", code=2)
         self.assertEqual(list(self.folder.iterdir()), [])
@@ -283,7 +296,8 @@ class Requests(ProgramTest):
         result = self.morsel("reproduce", "out", "--data", data, code=3)
         self.assertIn("lion-head.OFF and sea_lion.off", result.stderr)
         (data / "lion.ply").write_text("ply\n")
-        self.assertIn("lion.ply", self.morsel("reproduce", "out", "--data", data, "--meshes", SAMPLES, code=3).stderr)
+        self.assertIn("lion.ply", self.morsel("reproduce", "out", "--data", data, "--meshes", SAMPLES,
+                                              code=3).stderr)
 
     def test_what_cannot_be_written_is_told_before_the_work(self):
         (self.folder / "file").write_text("")

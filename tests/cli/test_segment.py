@@ -14,8 +14,8 @@ from vtk.util.numpy_support import vtk_to_numpy
 SEGMENTS_SCHEMA = SCHEMA.parent / "segments.schema.json"
 KINDS = ("descending", "ascending", "morse-smale")
 
-# Two squares of a strip with a hill at each end would have no inner vertex; a ring of triangles around two hubs has:
-# vertices 0 and 1 are the hubs, the field along x is highest at 2, 4 and 6 by turns.
+# Two squares of a strip with a hill at each end would have no inner vertex; a ring of triangles around two
+# hubs has: vertices 0 and 1 are the hubs, the field along x is highest at 2, 4 and 6 by turns.
 STAR = """OFF
 8 12 0
 0 0 1
@@ -94,7 +94,8 @@ class Segment(ProgramTest):
                 self.assertAlmostEqual(n["length"], 2 * math.sqrt(2), places=12)
         by_vertex = {p["vertex"]: p["persistence"] for s in table["segments"] for p in s["critical_points"]}
         self.assertEqual(by_vertex, {0: 2, 2: 1, 4: 2, 6: None})
-        self.assertEqual(table["merging"], {"segments_before": 3, "cancelled_pairs": 0, "largest_persistence": 0,
+        self.assertEqual(table["merging"], {"segments_before": 3, "cancelled_pairs": 0,
+                                            "largest_persistence": 0,
                                             "note": ""})
 
     def test_merging_takes_the_least_persistent_first(self):
@@ -112,7 +113,8 @@ class Segment(ProgramTest):
         many, _ = self.table(*star, "--segments", 50)
         self.assertEqual(many["count"], 3)
         morse_smale, _ = self.table(*star, "--by", "morse-smale")
-        self.assertEqual([(s["minimum"], s["maximum"]) for s in morse_smale["segments"]], [(1, 2), (1, 4), (1, 6)])
+        self.assertEqual([(s["minimum"], s["maximum"]) for s in morse_smale["segments"]],
+                         [(1, 2), (1, 4), (1, 6)])
 
     def test_files_agree_and_segments_are_connected(self):
         lion = SAMPLES / "lion-head.off"
@@ -135,9 +137,11 @@ class Segment(ProgramTest):
                     self.assertAlmostEqual(s["area"], areas[s["segment"]])
                     self.assertEqual(s["triangles"], of_face.count(s["segment"]))
                     self.assertEqual(s["vertices"], of_vertex.count(s["segment"]))
-                lengths = {(s["segment"], n["segment"]): n for s in table["segments"] for n in s["neighbours"]}
+                lengths = {(s["segment"], n["segment"]): n for s in table["segments"]
+                           for n in s["neighbours"]}
                 for (a, b), n in lengths.items():
-                    self.assertEqual((n["length"], n["edges"]), (lengths[b, a]["length"], lengths[b, a]["edges"]))
+                    self.assertEqual((n["length"], n["edges"]),
+                                     (lengths[b, a]["length"], lengths[b, a]["edges"]))
 
                 self.morsel("segment", lion, "--by", kind, *more, "-o", "out.txt")
                 lines = {name: list(map(int, data_lines(self.folder / f"out.{name}.txt")))
@@ -168,14 +172,16 @@ class Segment(ProgramTest):
         self.assertEqual(points[1], (9, 9, 9))
         segment, = table["segments"]
         self.assertEqual((segment["maximum"], segment["cap"], segment["vertices"]), (None, 0, 4))
-        self.assertEqual((segment["area"], segment["boundary_length"], segment["mesh_boundary_length"]), (1, 4, 4))
+        self.assertEqual((segment["area"], segment["boundary_length"], segment["mesh_boundary_length"]),
+                         (1, 4, 4))
         ascending, _ = self.table(mesh, "--repair", "--field", "height:axis=x", "--by", "ascending")
         self.assertEqual(ascending["segments"][0]["minimum"], 0)
 
     def test_what_cannot_be_merged_is_told(self):
         # Two components end with a segment each.
         two = self.file("two.off", OCTAHEDRON.replace("6 8 0", "12 16 0").replace("3 0 2 3", "".join(
-            f"{x + 9} {y} {z}\n" for x, y, z in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)))
+            f"{x + 9} {y} {z}\n" for x, y, z in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1, 0), (-1, 0, 0),
+                                                 (0, -1, 0)))
             + "".join(f"3 {a + 6} {b + 6} {c + 6}\n" for a, b, c in (
                 (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 2), (1, 3, 2), (1, 4, 3), (1, 5, 4), (1, 2, 5)))
             + "3 0 2 3", 1))
@@ -191,7 +197,8 @@ class Segment(ProgramTest):
         self.assertEqual(table["method"]["name"], "salient")
         self.assertLessEqual(table["method"]["target"]["reached"], 100)
         self.assertEqual(table["request"], {"field": "mean-curvature", "method": "salient:iterations=2",
-                                            "by": "descending", "repair": False, "target": 100, "persistence": "1%"})
+                                            "by": "descending", "repair": False, "target": 100,
+                                            "persistence": "1%"})
 
     def test_two_runs_differ_in_timings_only(self):
         tables = []
@@ -204,12 +211,14 @@ class Segment(ProgramTest):
         self.assertEqual(tables[0], tables[2])
 
     def test_the_table_can_go_to_standard_output(self):
-        result = self.morsel("segment", self.file("o.off", OCTAHEDRON), "--field", "height", "-o", "o.ply", "--json", "-")
+        result = self.morsel("segment", self.file("o.off", OCTAHEDRON), "--field", "height", "-o", "o.ply",
+                             "--json", "-")
         self.assertEqual(json.loads(result.stdout)["count"], 1)
 
     def test_the_schema_refuses_what_it_should(self):
         schema = json.loads(SEGMENTS_SCHEMA.read_text())
-        for spoil in (lambda t: t.pop("merging"), lambda t: t["segments"][0].pop("area"), lambda t: t.update(segments=[]),
+        for spoil in (lambda t: t.pop("merging"), lambda t: t["segments"][0].pop("area"),
+                      lambda t: t.update(segments=[]),
                       lambda t: t["request"].update(by="both"), lambda t: t.update(more=1),
                       lambda t: t["request"].update(segments=1, persistence="1%"),
                       lambda t: t["segments"][0]["critical_points"][0].update(type="cap")):
@@ -224,9 +233,11 @@ class Segment(ProgramTest):
                                        ([], 2, ["--output"]),
                                        (["-o", "x.ply", "--by", "both"], 2, ["both", "morse-smale"]),
                                        (["-o", "x.ply", "--segments", "0"], 2, ["segments"]),
-                                       (["-o", "x.ply", "--segments", "3", "--persistence", "1%"], 2, ["one of them"]),
+                                       (["-o", "x.ply", "--segments", "3", "--persistence", "1%"], 2,
+                                        ["one of them"]),
                                        (["-o", "x.ply", "--persistence", "-1%"], 2, ["--persistence", "-1%"]),
-                                       (["-o", "x.ply", "--persistence", "much"], 2, ["--persistence", "much"]),
+                                       (["-o", "x.ply", "--persistence", "much"], 2,
+                                        ["--persistence", "much"]),
                                        (["-o", "no/x.ply"], 4, ["no/x.ply"]),
                                        (["-o", "x.ply", "--json", "no/t.json"], 4, ["no/t.json"])):
             result = self.morsel("segment", mesh, *arguments, code=code)

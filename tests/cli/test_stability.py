@@ -64,7 +64,8 @@ class Results(Stability):
         for outcome in document["outcomes"]:
             clean = outcome["clean"]["points"]
             for perturbed in outcome["perturbations"]:
-                self.assertEqual(len(perturbed["runs"]), 1 if perturbed["perturbation"] == "subdivision" else 2)
+                self.assertEqual(len(perturbed["runs"]), 1
+                                 if perturbed["perturbation"] == "subdivision" else 2)
                 for run in perturbed["runs"]:
                     self.assertEqual(run["found"], run["minima"] + run["saddles"] + run["maxima"])
                     self.assertAlmostEqual(run["recall"], run["matched"] / clean)
@@ -75,7 +76,8 @@ class Results(Stability):
                     self.assertAlmostEqual(perturbed[what]["mean"], mean)
 
     def test_fields_side_by_side_with_one_reference(self):
-        document = self.stability(SMALL, "--field", "mean-curvature", "--field", "height", "--method", "conventional",
+        document = self.stability(SMALL, "--field", "mean-curvature", "--field", "height", "--method",
+                                  "conventional",
                                   "--noise", "0.1", "--trials", "1", "--points", "extrema")
         curvature, height = document["outcomes"]
         self.assertEqual(curvature["agreement"]["share"], 1)
@@ -94,7 +96,8 @@ class Results(Stability):
         self.assertEqual(len(row.split()), 10)
 
     def test_a_mesh_that_had_to_be_mended(self):
-        document = self.stability(self.file("d.off", DAMAGED), "--repair", "--field", "height", "--noise", "0.1",
+        document = self.stability(self.file("d.off", DAMAGED), "--repair", "--field", "height", "--noise",
+                                  "0.1",
                                   "--subdivide", "3", "--trials", "1")
         self.assertEqual([r["action"] for r in document["mesh"]["repairs"]],
                          ["removed_degenerate_faces", "removed_unreferenced_vertices"])
@@ -106,14 +109,16 @@ class Files(Stability):
         mesh = self.file("o.off", OCTAHEDRON)
         for arguments in ([mesh, "--field", "height"], [SMALL, *ALL, "--kind", "isotropic"],
                           [mesh, "--method", "tps:count=9+gaussian:iterations=2,sigma=0.5", "--trials", "1"],
-                          [self.file("d.off", DAMAGED), "--repair", "--radius", "4eps", "--points", "extrema"]):
+                          [self.file("d.off", DAMAGED), "--repair", "--radius", "4eps", "--points",
+                           "extrema"]):
             jsonschema.validate(self.stability(*arguments), schema)
 
     def test_the_schema_refuses_what_it_should(self):
         schema = json.loads(STABILITY_SCHEMA.read_text())
         mesh = self.file("o.off", OCTAHEDRON)
         for spoil in (lambda d: d.update(schema="morsel.stability/2"), lambda d: d.pop("matching"),
-                      lambda d: d["outcomes"][0].pop("target"), lambda d: d["outcomes"][0]["agreement"].update(share=2),
+                      lambda d: d["outcomes"][0].pop("target"),
+                      lambda d: d["outcomes"][0]["agreement"].update(share=2),
                       lambda d: d["outcomes"][0]["perturbations"][0].update(perturbation="heat"),
                       lambda d: d["outcomes"][0]["perturbations"][0]["runs"][0].pop("chance")):
             document = self.stability(mesh, "--field", "height", "--trials", "1")
@@ -157,13 +162,15 @@ class Files(Stability):
             self.assertEqual(each[0], each[2])
 
     def test_standard_output(self):
-        result = self.morsel("stability", self.file("o.off", OCTAHEDRON), "--field", "height", "--trials", "1",
+        result = self.morsel("stability", self.file("o.off", OCTAHEDRON), "--field", "height", "--trials",
+                             "1",
                              "-o", "-")
         self.assertEqual(json.loads(result.stdout)["schema"], "morsel.stability/1")
 
 
 class Interruption(Stability):
-    ARGUMENTS = (SMALL, "--method", "salient:iterations=200", "--noise", "0.1,0.3", "--trials", "12", "--threads", "2")
+    ARGUMENTS = (SMALL, "--method", "salient:iterations=200", "--noise", "0.1,0.3", "--trials", "12",
+                 "--threads", "2")
 
     def test_a_run_that_is_ended_in_any_way_goes_on_where_it_was(self):
         whole = self.stability(*self.ARGUMENTS)
@@ -204,7 +211,8 @@ class Refused(Stability):
         self.refuse("--method", "nonsense", naming=["nonsense", "salient"])
         self.refuse("--field", "nonsense", naming=["nonsense", "height"])
         self.refuse("--reference", "nonsense", naming=["nonsense"])
-        self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2", naming=["vertex-scalar", "--subdivide"])
+        self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2",
+                    naming=["vertex-scalar", "--subdivide"])
 
     def test_files(self):
         self.refuse("-o", "s.txt", naming=["s.txt", ".json", ".csv"])
@@ -214,7 +222,8 @@ class Refused(Stability):
 
     def test_a_trial_that_fails(self):
         mesh = self.file("o.off", OCTAHEDRON)
-        result = self.morsel("stability", mesh, "--field", "height", "--decimate", "0.1", "-o", "s.json", code=3)
+        result = self.morsel("stability", mesh, "--field", "height", "--decimate", "0.1", "-o", "s.json",
+                             code=3)
         self.assertIn("decimation 0.1, trial 1: ", result.stderr)
         self.assertEqual(os.listdir(self.folder), ["o.off"])
 

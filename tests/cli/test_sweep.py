@@ -66,11 +66,13 @@ class Files(Sweep):
         values = self.file("values.txt", "1\n2\n3\n4\n5\n6\n")
         for arguments in ([mesh, "--field", "height", "--vary", "axis=x,y,z", "--method", "conventional"],
                           [mesh, "--field", "vertex-scalar", "--method", "tps", "--vary", f"file={values}"],
-                          [self.file("d.off", DAMAGED), "--repair", "--method", "gaussian+laplacian", "--field",
+                          [self.file("d.off", DAMAGED), "--repair", "--method", "gaussian+laplacian",
+                           "--field",
                            "height", "--vary", "2.iterations=1,2"]):
             jsonschema.validate(self.sweep(*arguments), schema)
         for spoil in (lambda d: d.update(schema="morsel.sweep/2"), lambda d: d.pop("mesh"),
-                      lambda d: d["rows"][0].pop("values"), lambda d: d["rows"][0]["critical_points"].pop("total"),
+                      lambda d: d["rows"][0].pop("values"),
+                      lambda d: d["rows"][0]["critical_points"].pop("total"),
                       lambda d: d["timings"]["rows"][0].update(field=-1)):
             document = self.sweep(mesh, "--field", "height", "--vary", "iterations=1")
             spoil(document)
@@ -118,16 +120,19 @@ class Files(Sweep):
             self.assertEqual(each[0], each[2])
 
     def test_plots(self):
-        self.morsel("sweep", SMALL, *GRID, "--vary", "range=local,literal", "--vary", "support=2", "--figures", "plots")
+        self.morsel("sweep", SMALL, *GRID, "--vary", "range=local,literal", "--vary", "support=2",
+                    "--figures", "plots")
         self.assertEqual([path.name for path in made_in(self.folder / "plots")],
-                         [f"{key}.{kind}" for key in ("iterations", "range", "sigma") for kind in ("png", "svg")])
+                         [f"{key}.{kind}" for key in ("iterations", "range", "sigma")
+                          for kind in ("png", "svg")])
         drawing = (self.folder / "plots/iterations.svg").read_text()
         for text in ("critical points", "iterations", "sigma=8eps, range=literal"):
             self.assertIn(text, drawing)
         self.assertIn(">literal<", (self.folder / "plots/range.svg").read_text())
 
     def test_standard_output(self):
-        result = self.morsel("sweep", self.file("o.off", OCTAHEDRON), "--field", "height", "--vary", "iterations=1..3",
+        result = self.morsel("sweep", self.file("o.off", OCTAHEDRON), "--field", "height", "--vary",
+                             "iterations=1..3",
                              "-o", "-")
         self.assertEqual(len(json.loads(result.stdout)["rows"]), 3)
 
@@ -161,7 +166,8 @@ class Interruption(Sweep):
         result = self.morsel("sweep", SMALL, *self.ARGUMENTS[1:], "-o", "s.json")
         self.assertNotIn("going on", result.stderr)
         journal.write_bytes(kept)
-        result = self.morsel("sweep", LION, "--method", "salient:iterations=100", "--vary", "sigma=8eps,9eps", "-o",
+        result = self.morsel("sweep", LION, "--method", "salient:iterations=100", "--vary", "sigma=8eps,9eps",
+                             "-o",
                              "s.json")
         self.assertIn("going on with 2 of 2", result.stderr)
 
@@ -193,7 +199,8 @@ class Refused(Sweep):
         self.assertEqual(os.listdir(self.folder), ["plots"])  # no half-written document, no journal
 
     def test_a_combination_that_fails(self):
-        result = self.morsel("sweep", self.file("o.off", OCTAHEDRON), "--field", "vertex-scalar", "--method", "tps",
+        result = self.morsel("sweep", self.file("o.off", OCTAHEDRON), "--field", "vertex-scalar", "--method",
+                             "tps",
                              "--vary", "file=absent.txt,other.txt", "-o", "s.json", code=3)
         self.assertIn("vertex-scalar:file=absent.txt, tps: ", result.stderr)
         self.assertEqual(os.listdir(self.folder), ["o.off"])

@@ -38,7 +38,8 @@ class WorkflowTest(ProgramTest):
         self.out = self.folder / "out"
 
     def command(self, *settings, options=QUICK, snakemake=(), collection="meshes"):
-        return [SNAKEMAKE, "--snakefile", WORKFLOW / "Snakefile", "--profile", WORKFLOW / "profiles" / "local", "--cores", "2",
+        return [SNAKEMAKE, "--snakefile", WORKFLOW / "Snakefile", "--profile",
+                WORKFLOW / "profiles" / "local", "--cores", "2",
                 *snakemake, "--config", f"collection={collection}", "out=out", f"options={' '.join(options)}",
                 f"morsel={PROGRAM}", f"memory_limit={LIMITS[-1]}", *settings]
 
@@ -60,11 +61,13 @@ class WorkflowTest(ProgramTest):
         (self.folder / "plain").mkdir()
         for name in ("meshes", "list"):
             (self.folder / "plain" / name).symlink_to(self.folder / name)
-        subprocess.run([PROGRAM, "batch", collection, "--out", "out", "--quiet", *options, *LIMITS, *arguments],
+        subprocess.run([PROGRAM, "batch", collection, "--out", "out", "--quiet", *options, *LIMITS,
+                        *arguments],
                        cwd=self.folder / "plain", capture_output=True, timeout=240, check=False)
 
     def assert_same_as_plain(self):
-        result = subprocess.run([WORKFLOW / "same-results", self.out, self.folder / "plain/out"], capture_output=True, text=True,
+        result = subprocess.run([WORKFLOW / "same-results", self.out, self.folder / "plain/out"],
+                                capture_output=True, text=True,
                                 check=False)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
@@ -90,10 +93,12 @@ class Results(WorkflowTest):
         (self.out / "reports/sphere.off.json").unlink()
         self.assertEqual(self.parts(self.workflow("meshes_per_job=1", "retry=true")), 2)
         now = self.times()
-        self.assertEqual({name for name in now if now[name] != before.get(name)}, {"a new one.off.json", "sphere.off.json"})
+        self.assertEqual({name for name in now if now[name] != before.get(name)},
+                         {"a new one.off.json", "sphere.off.json"})
         self.plain()
         self.assert_same_as_plain()
-        self.assertEqual({path.name for path in self.folder.iterdir()}, {"meshes", "out", "plain", ".snakemake"})
+        self.assertEqual({path.name for path in self.folder.iterdir()},
+                         {"meshes", "out", "plain", ".snakemake"})
 
     def test_a_mesh_that_fails_stops_nobody_else(self):
         self.file("meshes/damaged.off", "OFF\n3 1 0\nnothing\n")
@@ -111,8 +116,10 @@ class Results(WorkflowTest):
         self.file("list", "# two\nmeshes/sphere.off\nmeshes/octahedron.off\n")
         self.file("values=a,b.txt", "".join(f"{i}\n" for i in range(6)))
         options = ("--field", "height:axis=x", "--method", "conventional", "--no-thumbnails")
-        self.file("settings.yaml", "options: [--field, 'height:axis=x', --method=conventional, --no-thumbnails]\n")
-        command = [word for word in self.command(collection="list", snakemake=("--configfile", "settings.yaml"))
+        self.file("settings.yaml",
+                  "options: [--field, 'height:axis=x', --method=conventional, --no-thumbnails]\n")
+        command = [word for word in self.command(collection="list",
+                                                 snakemake=("--configfile", "settings.yaml"))
                    if not str(word).startswith("options=")]
         subprocess.run(command, cwd=self.folder, check=True, capture_output=True, timeout=240)
         self.plain(options=options, collection="list")
@@ -126,7 +133,8 @@ class Interruptions(WorkflowTest):
     def is_worker(self, pid):
         """Whether a process of the program is at work in our folder."""
         try:
-            return (pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")[1:2] in ([b"batch"], [b"compare"])
+            words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
+            return (words[1:2] in ([b"batch"], [b"compare"])
                     and os.readlink(f"/proc/{pid}/cwd") == str(self.folder.resolve())
                     and ") Z " not in pathlib.Path(f"/proc/{pid}/stat").read_text())
         except OSError:
@@ -136,8 +144,10 @@ class Interruptions(WorkflowTest):
         self.plain(options=SLOW)
         for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             shutil.rmtree(self.out, ignore_errors=True)
-            with subprocess.Popen(self.command(options=SLOW, snakemake=("--cores", "1")), cwd=self.folder, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True) as process:
+            with subprocess.Popen(self.command(options=SLOW, snakemake=("--cores", "1")), cwd=self.folder,
+                                  text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  start_new_session=True) as process:
                 until(lambda: (self.out / "state/deeper/an anchor.off.json").exists() and self.workers())
                 if how == signal.SIGINT:
                     os.killpg(process.pid, how)  # as Ctrl-C does
@@ -158,7 +168,8 @@ class Interruptions(WorkflowTest):
         with subprocess.Popen(self.command(options=LONG), cwd=self.folder, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, start_new_session=True) as process:
             until(self.workers)
-            self.assertIn("another run of this workflow is at work on out", self.workflow(options=LONG, code=1))
+            self.assertIn("another run of this workflow is at work on out",
+                          self.workflow(options=LONG, code=1))
             os.killpg(process.pid, signal.SIGINT)
             process.communicate(timeout=60)
         until(lambda: not self.workers(), 10)
@@ -168,7 +179,8 @@ class WrongInput(WorkflowTest):
     def test_what_cannot_be_begun_is_told_in_one_sentence(self):
         (self.folder / "empty").mkdir()
         for wrong, said in (("collection=absent", "absent"),
-                            ("collection=empty", "there is no mesh (.off, .obj, .ply, .stl) in the folder empty"),
+                            ("collection=empty",
+                             "there is no mesh (.off, .obj, .ply, .stl) in the folder empty"),
                             ("morsel=/bin/false", "/bin/false ended with 1"),
                             ("morsel=absent", 'there is no program "absent"'),
                             ("options=--method nonsense", "nonsense"),
@@ -182,7 +194,8 @@ class WrongInput(WorkflowTest):
     def test_settings_are_checked(self):
         right = {"collection": "meshes", "out": "out", "morsel": PROGRAM}
         planning.Settings(right)
-        for wrong, said in (({"colection": "x"}, 'there is no setting "colection"; there are collection, out, '),
+        for wrong, said in (({"colection": "x"},
+                             'there is no setting "colection"; there are collection, out, '),
                             ({"out": None}, 'the setting "out" is missing'),
                             ({"options": "'"}, '"options" must be words'),
                             ({"options": {"a": "b"}}, '"options" must be words'),
@@ -201,7 +214,8 @@ class WrongInput(WorkflowTest):
 class Pieces(ProgramTest):
     def test_meshes_are_dealt_out_evenly(self):
         meshes = {f"{i:03}.off": (i * 7919) % 1000 for i in range(230)}
-        for most, slots, count in ((50, 1, 5), (50, 4, 5), (50, 8, 8), (1, 8, 230), (1000, 0, 1), (50, 1000, 230)):
+        for most, slots, count in ((50, 1, 5), (50, 4, 5), (50, 8, 8), (1, 8, 230), (1000, 0, 1),
+                                   (50, 1000, 230)):
             parts = planning.deal(meshes, most, slots)
             self.assertEqual(len(parts), count)
             self.assertEqual(sorted(name for part in parts for name in part), sorted(meshes))
@@ -211,29 +225,38 @@ class Pieces(ProgramTest):
                 self.assertLess(max(sizes) - min(sizes), 1100)
 
     def test_a_part_that_slurm_has_in_its_queue_is_not_submitted_twice(self):
-        for queued, said in (("", "sbatch --parsable --job-name=morsel-deal-x-0007 --mem=5 script\n"), ("12", "12\n")):
-            self.file("squeue", f"#!/bin/sh\n[ \"$3\" = --name=morsel-deal-x-0007 ] && printf '{queued}'\n").chmod(0o755)
+        for queued, said in (("", "sbatch --parsable --job-name=morsel-deal-x-0007 --mem=5 script\n"),
+                             ("12", "12\n")):
+            self.file("squeue",
+                      f"#!/bin/sh\n[ \"$3\" = --name=morsel-deal-x-0007 ] && printf '{queued}'\n").chmod(0o755)
             self.file("sbatch", "#!/bin/sh\necho sbatch \"$@\"\n").chmod(0o755)
-            result = subprocess.run([WORKFLOW / "profiles/slurm/slurm-submit", "work/deal-x/0007", "--mem=5", "script"],
+            result = subprocess.run([WORKFLOW / "profiles/slurm/slurm-submit", "work/deal-x/0007", "--mem=5",
+                                     "script"],
                                     capture_output=True, text=True, check=True,
                                     env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
             self.assertEqual(result.stdout, said)
 
     def test_the_status_of_a_job_of_slurm(self):
-        """With stand-ins for Slurm's programs: a controller that knows the job, does not know it or does not answer; a database or none."""
+        """With stand-ins for Slurm's programs: a controller that knows the job, does not know it or does not
+        answer; a database or none."""
         def status(controller, database="exit 1"):
             for name, script in (("scontrol", controller), ("sacct", database)):
                 self.file(name, f"#!/bin/sh\n{script}\n").chmod(0o755)
-            result = subprocess.run([WORKFLOW / "profiles/slurm/slurm-status", "7;cluster"], capture_output=True, text=True, check=False,
+            result = subprocess.run([WORKFLOW / "profiles/slurm/slurm-status", "7;cluster"],
+                                    capture_output=True, text=True, check=False,
                                     env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
             self.assertEqual(result.returncode, 0)
             return result.stdout
         forgotten = "echo slurm_load_jobs error: Invalid job id specified >&2; exit 1"
-        for state, said in (("COMPLETED", "success"), ("PENDING", "running"), ("RUNNING", "running"), ("COMPLETING", "running"),
-                            ("FAILED", "failed"), ("NODE_FAIL", "failed"), ("CANCELLED", "failed"), ("TIMEOUT", "failed"),
+        for state, said in (("COMPLETED", "success"), ("PENDING", "running"), ("RUNNING", "running"),
+                            ("COMPLETING", "running"),
+                            ("FAILED", "failed"), ("NODE_FAIL", "failed"), ("CANCELLED", "failed"),
+                            ("TIMEOUT", "failed"),
                             ("OUT_OF_MEMORY", "failed")):
-            self.assertEqual(status(f"[ \"$4\" = 7 ] && echo JobId=7 JobName=x JobState={state} Reason=None"), f"{said}\n")
-        self.assertEqual(status("echo slurm_load_jobs error: Unable to contact slurm controller >&2; exit 1"), "running\n")
+            self.assertEqual(status(f"[ \"$4\" = 7 ] && echo JobId=7 JobName=x JobState={state} Reason=None"),
+                             f"{said}\n")
+        self.assertEqual(status("echo slurm_load_jobs error: Unable to contact slurm controller >&2; exit 1"),
+                         "running\n")
         self.assertEqual(status(forgotten), "failed\n")
         self.assertEqual(status(forgotten, "echo 'COMPLETED'"), "success\n")
         self.assertEqual(status(forgotten, "echo 'CANCELLED by 1000'"), "failed\n")

@@ -3,10 +3,10 @@
 
     check_compiler.py COMPILER COMMANDS WORK [--jobs N] [--folders FOLDER…]
 
-COMMANDS is the compile_commands.json of a build, with whatever compiler; what it compiles in the folders (by default
-those of the modules and of the program) is read by COMPILER with the same options, -fsyntax-only and -Werror. Ninja
-does the work in WORK and reads a source again only if it, or a header of it, has changed. Where many sources share their
-options, the headers that most of them need are read once for all of them.
+COMMANDS is the compile_commands.json of a build, with whatever compiler; what it compiles in the folders (by
+default those of the modules and of the program) is read by COMPILER with the same options, -fsyntax-only and
+-Werror. Ninja does the work in WORK and reads a source again only if it, or a header of it, has changed.
+Where many sources share their options, the headers that most of them need are read once for all of them.
 """
 
 import argparse
@@ -19,9 +19,12 @@ import sys
 
 FOLDERS = ("core", "morse", "persistence", "mscomplex", "tools")
 SHARED_FROM = 8  # sources with the same options that make a precompiled header pay
-SHARED = ("algorithm", "array", "atomic", "bit", "cmath", "functional", "limits", "map", "memory", "numeric", "optional", "queue",
-          "set", "span", "string", "string_view", "thread", "unordered_map", "utility", "variant", "vector", "Eigen/Core",
-          "Eigen/Geometry", "Eigen/SparseCore", "tbb/blocked_range.h", "tbb/parallel_for.h", "tbb/partitioner.h",
+SHARED = ("algorithm", "array", "atomic", "bit", "cmath", "functional", "limits", "map", "memory", "numeric",
+          "optional", "queue",
+          "set", "span", "string", "string_view", "thread", "unordered_map", "utility", "variant", "vector",
+          "Eigen/Core",
+          "Eigen/Geometry", "Eigen/SparseCore", "tbb/blocked_range.h", "tbb/parallel_for.h",
+          "tbb/partitioner.h",
           "tbb/task_arena.h")
 # Options of g++ alone, and those about the precompiled headers that it made.
 DROPPED = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-stringop-overread",
@@ -29,7 +32,8 @@ DROPPED = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-stringop-overread",
 
 
 def options_of(command):
-    """The options of a command of the build: without the compiler, the source, the output and precompiled headers."""
+    """The options of a command of the build: without the compiler, the source, the output and precompiled
+    headers."""
     words = collections.deque(command)
     while not words[0].startswith("-"):  # a launcher such as ccache, the compiler
         words.popleft()
@@ -66,7 +70,8 @@ def ninja_file(compiler, checks, work, root):
     run = f"cd $in_folder && {shlex.quote(compiler)} $options -Werror -MD -MF $out.d -MT $out"
     lines = ["rule read", f"  command = {run} -fsyntax-only $source && touch $out", "  description = $shown",
              "  depfile = $out.d", "  deps = gcc",
-             "rule share", f"  command = {run} -fpch-instantiate-templates -x c++-header $source -o $out", "  description = the headers that many need",
+             "rule share", f"  command = {run} -fpch-instantiate-templates -x c++-header $source -o $out",
+             "  description = the headers that many need",
              "  depfile = $out.d", "  deps = gcc"]
     headers = {}
     for number, ((directory, options), sources) in enumerate(sorted(by_options.items())):
@@ -85,7 +90,8 @@ def ninja_file(compiler, checks, work, root):
             after = f" | {escaped(shared)}" if shared else ""
             own = f"{used} -include-pch {shlex.quote(shared)}" if shared else used
             lines += [f"build {escaped(stamp)}: read {escaped(source)}{after}", *settings,
-                      f"  options = {own}".replace("$", "$$"), f"  source = {shlex.quote(str(source))}", f"  shown = {name}"]
+                      f"  options = {own}".replace("$", "$$"), f"  source = {shlex.quote(str(source))}",
+                      f"  shown = {name}"]
             stamp.parent.mkdir(parents=True, exist_ok=True)
     return {work / "build.ninja": "\n".join(lines) + "\n", **headers}
 
@@ -102,7 +108,8 @@ def main():
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     root = arguments.root.resolve()
-    sources = list(checks(json.loads(arguments.commands.read_text(encoding="utf-8")), root, arguments.folders))
+    sources = list(checks(json.loads(arguments.commands.read_text(encoding="utf-8")), root,
+                          arguments.folders))
     if not sources:
         sys.exit(f"{arguments.commands} compiles nothing in {', '.join(arguments.folders)}")
     work.mkdir(parents=True, exist_ok=True)
@@ -110,7 +117,8 @@ def main():
         if not path.exists() or path.read_text(encoding="utf-8") != text:  # else all would be read again
             path.write_text(text, encoding="utf-8")
     print(f"{arguments.compiler}: {len(sources)} sources in {', '.join(arguments.folders)}", flush=True)
-    return subprocess.run([arguments.ninja, "-C", work, "-j", str(arguments.jobs), "-k", "0", "--quiet"]).returncode
+    return subprocess.run([arguments.ninja, "-C", work, "-j", str(arguments.jobs), "-k", "0",
+                           "--quiet"]).returncode
 
 
 if __name__ == "__main__":

@@ -31,13 +31,15 @@ class CheckCompiler(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
         if name.endswith(".cpp"):
-            words = ["/usr/bin/ccache", "/usr/bin/c++", *options, "-Wno-restrict", "-DQUOTED=\"a b\"", "-o", "x.o", "-c", str(path)]
+            words = ["/usr/bin/ccache", "/usr/bin/c++", *options, "-Wno-restrict", "-DQUOTED=\"a b\"", "-o",
+                     "x.o", "-c", str(path)]
             self.entries.append({"directory": str(self.root), "file": str(path), "arguments": words})
 
     def check(self):
         commands = self.root / "compile_commands.json"
         commands.write_text(json.dumps(self.entries), encoding="utf-8")
-        run = subprocess.run([sys.executable, "-B", CHECK, COMPILER, commands, self.root / "work", "--root", self.root,
+        run = subprocess.run([sys.executable, "-B", CHECK, COMPILER, commands, self.root / "work", "--root",
+                              self.root,
                               "--ninja", NINJA, "--folders", "core"], capture_output=True, text=True)
         return run.returncode, run.stdout + run.stderr
 
@@ -66,9 +68,11 @@ class CheckCompiler(unittest.TestCase):
 
     def test_many_sources_share_a_header(self):
         for i in range(10):
-            self.source(f"core/many{i}.cpp", f"#include <vector>\nint f{i}(const std::vector<int>& v) {{ return v[{i}]; }}\n",
+            self.source(f"core/many{i}.cpp",
+                        f"#include <vector>\nint f{i}(const std::vector<int>& v) {{ return v[{i}]; }}\n",
                         ("-Wall", "-std=c++20", "-isystem", "/usr/include/eigen3"))
-        self.source("core/many_warns.cpp", "#include <vector>\nint g() { std::vector<int> v; int unused; return 1; }\n",
+        self.source("core/many_warns.cpp",
+                    "#include <vector>\nint g() { std::vector<int> v; int unused; return 1; }\n",
                     ("-Wall", "-std=c++20", "-isystem", "/usr/include/eigen3"))
         code, text = self.check()
         self.assertNotEqual(code, 0)

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Runs commands while the system fails at a chosen call, and checks what is promised of every end of the program.
+"""Runs commands while the system fails at a chosen call, and checks what is promised of every end of the
+program.
 
     run.py [RUNS] [--seed S] [--seconds T]     RUNS faults drawn at random (default 300), at most T seconds
-    run.py --one SCENARIO SCOPE KIND AT ALL CODE NAMED    one of them, as a violation names it, and what came of it
+    run.py --one SCENARIO SCOPE KIND AT ALL CODE NAMED    one of them, as a violation names it, and what came
+    of it
 
-The environment names the program (MORSEL_PROGRAM) and the library that makes calls fail (MORSEL_FAULTS, inject.c).
-Promised are, whatever fails: a documented exit code, that of what failed; one sentence on standard error; files that
-were there are as they were or complete new ones; nothing else is left; and the next run succeeds with equal results.
-Ends with 1 if there was a violation.
+The environment names the program (MORSEL_PROGRAM) and the library that makes calls fail (MORSEL_FAULTS,
+inject.c). Promised are, whatever fails: a documented exit code, that of what failed; one sentence on standard
+error; files that were there are as they were or complete new ones; nothing else is left; and the next run
+succeeds with equal results. Ends with 1 if there was a violation.
 """
 
 import argparse
@@ -28,7 +30,8 @@ import time
 
 from scenarios import Prepared, differences, left_over, library_path, program_path, scenarios
 
-# Kinds of calls (inject.c): how often they are drawn, the errors that they fail with, the exit codes that may come of it.
+# Kinds of calls (inject.c): how often they are drawn, the errors that they fail with, the exit codes that may
+# come of it.
 KINDS = {
     "memory": (8, (errno.ENOMEM,), (5,)),
     "map": (2, (errno.ENOMEM,), (5,)),
@@ -42,8 +45,8 @@ KINDS = {
     "status": (1, (errno.ENOMEM, errno.EIO), (3, 4, 5)),
     "thread": (2, (errno.EAGAIN,), (5,)),
     "process": (1, (errno.EAGAIN, errno.EMFILE, errno.ENOMEM), (5,)),
-    "signal": (6, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, signal.SIGUSR1, signal.SIGXCPU,
-                   signal.SIGKILL, signal.SIGXFSZ), ()),
+    "signal": (6, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, signal.SIGUSR1,
+                   signal.SIGXCPU, signal.SIGKILL, signal.SIGXFSZ), ()),
 }
 WITH_CODES = (signal.SIGINT, signal.SIGTERM)  # once main() has begun; others end the process as signals
 TIME_LIMIT = 60
@@ -90,16 +93,21 @@ def allowed_codes(fault):
     elif fault.code == signal.SIGXFSZ:  # ignored from the beginning of main() on
         codes = (-fault.code,)
     else:
-        codes = (-fault.code, *((128 + fault.code,) if fault.code in WITH_CODES else ())) if fault.scope == "p" else ()
+        ends = (-fault.code, *((128 + fault.code,) if fault.code in WITH_CODES else ()))
+        codes = ends if fault.scope == "p" else ()
     return (0, *codes, *((1,) if fault.scenario.startswith("batch") else ()))
 
 
 def wrong_words(fault, code, errors):
     """What is wrong with standard error."""
     lines = errors.splitlines()
-    sentences = [line for line in lines if line.startswith("morsel: ") and not line.startswith("morsel: warning: ")]
+    sentences = [line for line in lines if line.startswith("morsel: ")
+                 and not line.startswith("morsel: warning: ")]
     others = [line for line in lines if not line.startswith("morsel: ")]
-    expected = (1,) if code in (2, 3, 4, 5) else (0, 1) if code in (130, 143) or code < 0 else (0,)  # 0: of signals before main()
+    if code in (2, 3, 4, 5):
+        expected = (1,)
+    else:
+        expected = (0, 1) if code in (130, 143) or code < 0 else (0,)  # 0: of signals before main()
     wrong = []
     if len(sentences) not in expected:
         wrong.append(f"{len(sentences)} sentences")
@@ -134,9 +142,11 @@ def run(fault, prepared, folder, tell=None):
     place = ready.copy(folder / "place")
     mark = folder / "mark"
     mark.unlink(missing_ok=True)
-    environment = {**os.environ, **fault.environment(), "LD_PRELOAD": library_path(), "MORSEL_FAULT_MARK": str(mark)}
+    environment = {**os.environ, **fault.environment(), "LD_PRELOAD": library_path(),
+                   "MORSEL_FAULT_MARK": str(mark)}
     try:
-        result = subprocess.run(ready.scenario.command(ready.program), cwd=place, env=environment, capture_output=True,
+        result = subprocess.run(ready.scenario.command(ready.program), cwd=place, env=environment,
+                                capture_output=True,
                                 timeout=TIME_LIMIT, check=False)
     except subprocess.TimeoutExpired:
         return True, [f"no end in {TIME_LIMIT} s"]
@@ -153,12 +163,14 @@ def run(fault, prepared, folder, tell=None):
     if fault.scenario.startswith("batch"):
         wrong += wrong_children(fault, place)
     # Names are swept by the next run where they could not be removed or nobody was left to do it.
-    swept = (r"\.morsel-[0-9]+-[0-9]+\.tmp$",) if fault.kind == "remove" or fault.code == signal.SIGKILL else ()
+    swept = (r"\.morsel-[0-9]+-[0-9]+\.tmp$",
+             ) if fault.kind == "remove" or fault.code == signal.SIGKILL else ()
     if result.returncode == 0 and fault.kind != "remove":
         wrong += differences(ready, place)
     else:
         wrong += left_over(ready, place, swept)
-    again = subprocess.run(ready.scenario.command(ready.program), cwd=place, capture_output=True, timeout=TIME_LIMIT, check=False)
+    again = subprocess.run(ready.scenario.command(ready.program), cwd=place, capture_output=True,
+                           timeout=TIME_LIMIT, check=False)
     if again.returncode != 0:
         wrong.append(f"the next run ends with {again.returncode}: {again.stderr.decode(errors='replace')}")
     wrong += [f"after the next run {what}" for what in differences(ready, place)]
@@ -172,7 +184,8 @@ def prepare(folder):
     for i, scenario in enumerate(scenarios()):
         ready = prepared[scenario.name] = Prepared(scenario, program_path(), folder / f"scenario{i}")
         for scope in "pc" if scenario.name.startswith("batch") else "p":
-            counts[scenario.name, scope] = ready.counts(library_path(), folder / f"scenario{i}" / "counted", scope)
+            counts[scenario.name, scope] = ready.counts(library_path(), folder / f"scenario{i}" / "counted",
+                                                        scope)
     return prepared, counts
 
 

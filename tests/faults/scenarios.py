@@ -53,9 +53,11 @@ class Scenario:
 
 def scenarios():
     compare = ("compare", "mesh.off", *METHODS, "--quiet", "--threads", "2", "-o", "report.json")
-    everything = ("--html", "page.html", "--figures", "figures", "--export", "files", "--thumbnails", "small", "--size", "32x32",
+    everything = ("--html", "page.html", "--figures", "figures", "--export", "files", "--thumbnails", "small",
+                  "--size", "32x32",
                   "--view", "0/0")
-    sweep = ("sweep", "mesh.off", "--vary", "iterations=1,2", "--method", "salient", "--quiet", "--threads", "2", "--field")
+    sweep = ("sweep", "mesh.off", "--vary", "iterations=1,2", "--method", "salient", "--quiet", "--threads",
+             "2", "--field")
     batch = ("batch", "meshes", "--out", "out", *METHODS, "--quiet")
     segment = ("segment", "mesh.off", "--quiet", "--threads", "2", "--field")
     cut = ("cut", "mesh.off", "--quiet", "--threads", "2", "--field")
@@ -63,9 +65,11 @@ def scenarios():
     both = ("meshes/a.off", "meshes/b.off")
     work = (r"out/work(/.*)?", r"out/state", r"out/\.[^/]*")
     return [
-        Scenario("report", (*compare,), before=("compare", "mesh.off", *axis, "--quiet", "-o", "report.json")),
+        Scenario("report", (*compare,), before=("compare", "mesh.off", *axis, "--quiet", "-o",
+                                                "report.json")),
         Scenario("compare", (*compare, *everything),
-                 before=("compare", "mesh.off", *axis, *METHODS[2:], "--quiet", *everything, "-o", "report.json")),
+                 before=("compare", "mesh.off", *axis, *METHODS[2:], "--quiet", *everything, "-o",
+                         "report.json")),
         Scenario("sweep", (*sweep, "height", "-o", "sweep.csv", "--figures", "plots"),
                  before=(*sweep, "height:axis=x", "-o", "sweep.csv"),
                  working=(r"sweep\.csv\.journal",)),
@@ -118,9 +122,10 @@ def without_times(value):
 
 
 def tree(folder):
-    """Every entry of a folder: of files their contents, of folders None. Not the lists of folders of results, which name files
-    before they appear, in the order of the run."""
-    return {str(path.relative_to(folder)): plain(path) if path.is_file() else None for path in folder.rglob("*")
+    """Every entry of a folder: of files their contents, of folders None. Not the lists of folders of results,
+    which name files before they appear, in the order of the run."""
+    return {str(path.relative_to(folder)): plain(path) if path.is_file() else None
+            for path in folder.rglob("*")
             if path.name != ".morsel-results"}
 
 
@@ -134,7 +139,8 @@ class Prepared:
         self.start.mkdir(parents=True)
         scenario.make_inputs(self.start)
         if scenario.before:
-            subprocess.run(scenario.command(program, before=True), cwd=self.start, check=True, capture_output=True)
+            subprocess.run(scenario.command(program, before=True), cwd=self.start, check=True,
+                           capture_output=True)
         self.old = tree(self.start)
         done = self.copy(folder / "done")
         subprocess.run(scenario.command(program), cwd=done, check=True, capture_output=True)
@@ -172,7 +178,8 @@ def left_over(prepared, folder, ignored=()):
             wrong.append(f"{name} is neither the old file nor the new one")
         elif name not in prepared.new and contents != prepared.old[name]:
             wrong.append(f"{name} has changed")
-    wrong += [f"{name} is gone" for name in prepared.old if name not in now and not is_working(prepared.scenario, name)]
+    wrong += [f"{name} is gone" for name in prepared.old if name not in now
+              and not is_working(prepared.scenario, name)]
     return wrong
 
 

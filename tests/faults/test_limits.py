@@ -1,5 +1,5 @@
-"""The program within limits of the system: memory, file size, descriptors, threads, a full disk, closed and full outputs,
-signals, what killed runs left."""
+"""The program within limits of the system: memory, file size, descriptors, threads, a full disk, closed and
+full outputs, signals, what killed runs left."""
 
 import errno
 import fcntl
@@ -29,7 +29,8 @@ class LimitTest(unittest.TestCase):
         return Prepared(SCENARIOS[name], program_path(), self.folder / name)
 
     def run_in(self, folder, arguments, **options):
-        return subprocess.run([program_path(), *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=120,
+        return subprocess.run([program_path(), *map(str, arguments)], cwd=folder, capture_output=True,
+                              text=True, timeout=120,
                               check=False, **options)
 
     def check_end(self, ready, folder, result, codes):
@@ -64,7 +65,9 @@ class LimitTest(unittest.TestCase):
 class Limits(LimitTest):
     def test_memory(self):
         for name in ("report", "compare"):
-            seen = self.within(name, resource.RLIMIT_AS, [size << 20 for size in (60, 120, 150, 180, 200, 230, 260, 300, 400, 2000)],
+            seen = self.within(name, resource.RLIMIT_AS, [size << 20
+                                                          for size in (60, 120, 150, 180, 200, 230, 260, 300,
+                                                                       400, 2000)],
                                (0, 5))
             self.assertIn(5, seen)
             self.assertIn(0, seen)
@@ -102,7 +105,8 @@ class Limits(LimitTest):
                         os.chown(path, user, user)
 
                     def confine():
-                        resource.setrlimit(resource.RLIMIT_NPROC, (limit, limit))  # pylint: disable=cell-var-from-loop
+                        resource.setrlimit(resource.RLIMIT_NPROC,
+                                           (limit, limit))  # pylint: disable=cell-var-from-loop
                         os.setgroups([])
                         os.setgid(user)
                         os.setuid(user)
@@ -116,8 +120,10 @@ class Limits(LimitTest):
         ready = self.prepared("report")
         folder = ready.copy(self.folder / "place")
         loud = [word for word in ready.scenario.arguments if word != "--quiet"]
-        environment = {**os.environ, "LD_PRELOAD": library_path(), "MORSEL_FAULT_KIND": "thread", "MORSEL_FAULT_ALL": "1",
-                       "MORSEL_FAULT_AT": str(1 + self.threads_of_libraries()), "MORSEL_FAULT_CODE": str(errno.EAGAIN),
+        environment = {**os.environ, "LD_PRELOAD": library_path(), "MORSEL_FAULT_KIND": "thread",
+                       "MORSEL_FAULT_ALL": "1",
+                       "MORSEL_FAULT_AT": str(1 + self.threads_of_libraries()),
+                       "MORSEL_FAULT_CODE": str(errno.EAGAIN),
                        "MORSEL_FAULT_SCOPE": "p"}
         result = self.run_in(folder, loud, env=environment)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -126,7 +132,8 @@ class Limits(LimitTest):
     def test_a_full_disk(self):
         disk = self.folder / "disk"
         disk.mkdir()
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", disk], capture_output=True, check=False)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", disk],
+                                 capture_output=True, check=False)
         if mounted.returncode != 0:
             self.skipTest("no file system can be mounted: " + mounted.stderr.decode())
         self.addCleanup(subprocess.run, ["umount", "-l", disk], check=False)
@@ -149,30 +156,36 @@ class Limits(LimitTest):
 class Outputs(LimitTest):
     def test_what_prints_fails_if_it_cannot_be_printed(self):
         (self.folder / "mesh.off").write_text(OCTAHEDRON)
-        for arguments in (["--help"], ["--version"], ["compare", "--help"], ["info", "mesh.off"], ["info", "mesh.off", "--json"],
+        for arguments in (["--help"], ["--version"], ["compare", "--help"], ["info", "mesh.off"],
+                          ["info", "mesh.off", "--json"],
                           ["compare", "mesh.off", *METHODS], ["compare", "mesh.off", *METHODS, "-o", "-"],
-                          ["hierarchy", "mesh.off", "--field", "height"], ["sweep", "mesh.off", "--vary", "iterations=1,2"]):
+                          ["hierarchy", "mesh.off", "--field", "height"],
+                          ["sweep", "mesh.off", "--vary", "iterations=1,2"]):
             with self.subTest(arguments=arguments):
                 command = [program_path(), *arguments]
                 with open("/dev/full", "w", encoding="ascii") as full:
-                    result = subprocess.run(command, cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                    result = subprocess.run(command, cwd=self.folder, stdout=full, stderr=subprocess.PIPE,
+                                            text=True, check=False)
                 self.assertEqual(result.returncode, 4)
                 self.assertEqual(result.stderr, "morsel: cannot write to standard output\n")
                 reading, writing = os.pipe()
                 os.close(reading)
-                result = subprocess.run(command, cwd=self.folder, stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+                result = subprocess.run(command, cwd=self.folder, stdout=writing, stderr=subprocess.PIPE,
+                                        text=True, check=False)
                 os.close(writing)
                 self.assertEqual((result.returncode, result.stderr), (-signal.SIGPIPE, ""))
                 self.assertEqual(os.listdir(self.folder), ["mesh.off"])
 
 
 class Signals(LimitTest):
-    LONG = ("compare", "mesh.off", "--field", "height", "--method", "salient:iterations=1000000", *(20 * ("--method", "salient:iterations=1000000")), "-o", "report.json", "--html",
+    LONG = ("compare", "mesh.off", "--field", "height", "--method", "salient:iterations=1000000",
+            *(20 * ("--method", "salient:iterations=1000000")), "-o", "report.json", "--html",
             "page.html")
 
     def begun(self, **options):
         (self.folder / "mesh.off").write_text(OCTAHEDRON)
-        process = subprocess.Popen([program_path(), *self.LONG], cwd=self.folder, stderr=subprocess.PIPE, text=True, **options)
+        process = subprocess.Popen([program_path(), *self.LONG], cwd=self.folder, stderr=subprocess.PIPE,
+                                   text=True, **options)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
@@ -193,8 +206,10 @@ class Signals(LimitTest):
             return []
 
     def test_every_signal_ends_the_run_and_leaves_nothing(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, signal.SIGUSR1, signal.SIGUSR2, signal.SIGALRM,
-                       signal.SIGXCPU, signal.SIGQUIT, signal.SIGABRT, signal.SIGSEGV, signal.SIGKILL, signal.SIGRTMIN):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE, signal.SIGUSR1,
+                       signal.SIGUSR2, signal.SIGALRM,
+                       signal.SIGXCPU, signal.SIGQUIT, signal.SIGABRT, signal.SIGSEGV, signal.SIGKILL,
+                       signal.SIGRTMIN):
             for named in ("0", "1"):
                 with self.subTest(signal=number, named=named):
                     environment = {**os.environ, "LD_PRELOAD": library_path(), "MORSEL_FAULT_NAMED": named,
@@ -207,7 +222,8 @@ class Signals(LimitTest):
                     left = sorted(os.listdir(self.folder))
                     if named == "1" and number in (signal.SIGKILL, signal.SIGRTMIN):
                         self.assertRegex(" ".join(left), r"\A(\.morsel-\d+-\d+\.tmp ?){2}mesh\.off\Z")
-                        subprocess.run([program_path(), "compare", "mesh.off", *METHODS, "-o", "report.json"], cwd=self.folder,
+                        subprocess.run([program_path(), "compare", "mesh.off", *METHODS, "-o", "report.json"],
+                                       cwd=self.folder,
                                        capture_output=True, check=True)
                         (self.folder / "report.json").unlink()
                         left = os.listdir(self.folder)
@@ -226,7 +242,8 @@ class Sweeping(LimitTest):
     def test_only_what_is_nobodys_goes(self):
         mesh = self.folder / "mesh.off"
         mesh.write_text(OCTAHEDRON)
-        keep = [".morsel-1-x.tmp", ".morsel-1-2.tmp.bak", "morsel-1-2.tmp", ".morsel--2.tmp", ".morsel-12.tmp"]
+        keep = [".morsel-1-x.tmp", ".morsel-1-2.tmp.bak", "morsel-1-2.tmp", ".morsel--2.tmp",
+                ".morsel-12.tmp"]
         for name in keep:
             (self.folder / name).write_text("mine")
         (self.folder / ".morsel-5-5.tmp").mkdir()
@@ -237,7 +254,8 @@ class Sweeping(LimitTest):
             result = self.run_in(self.folder, ["field", "mesh.off", "--field", "height", "-o", "field.txt"])
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)),
-                         sorted([*keep, "mesh.off", "field.txt", ".morsel-5-5.tmp", ".morsel-6-6.tmp", ".morsel-8-8.tmp"]))
+                         sorted([*keep, "mesh.off", "field.txt", ".morsel-5-5.tmp", ".morsel-6-6.tmp",
+                                 ".morsel-8-8.tmp"]))
         self.assertEqual(mesh.read_text(), OCTAHEDRON)
 
 

@@ -3,8 +3,8 @@
 
     check_layers.py ROOT
 
-Each module may include itself and what MAY_INCLUDE lists; third-party headers are free, but for those of tests, reports
-and the command line. A library module throws and returns; only the program prints and exits.
+Each module may include itself and what MAY_INCLUDE lists; third-party headers are free, but for those of
+tests, reports and the command line. A library module throws and returns; only the program prints and exits.
 """
 
 import pathlib
@@ -20,7 +20,8 @@ MAY_INCLUDE = {
     "tools": {*LIBRARY, "tools"},
 }
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
-NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h", "ft2build")  # what only sources include, a user of the installed library need not have
+NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
+                  "ft2build")  # what only sources include, a user of the installed library need not have
 NOT_IN_TOOLS = ("catch2/", "phat/", "vtk")
 PRINTS_OR_EXITS = re.compile(
     r"(?<![\w.])(?:cout|cerr|clog|stdout|stderr|STDOUT_FILENO|STDERR_FILENO)\b"
@@ -48,7 +49,8 @@ def line_of(text, position):
 
 
 def check_source(module, text, is_header, own_header=None):
-    """Yields (line, complaint) for one header or source of `module`; `own_header` is the header of its name."""
+    """Yields (line, complaint) for one header or source of `module`; `own_header` is the header of its
+    name."""
     code = without(text, ("//", "/*", "R"))
     foreign = NOT_IN_TOOLS if module == "tools" else NOT_IN_LIBRARY
     for match in INCLUDE.finditer(code):
@@ -72,11 +74,13 @@ def check_source(module, text, is_header, own_header=None):
             yield line_of(code, first.start()) if first else 1, f'the first include is to be "{own_header}"'
     if module in LIBRARY:
         for match in PRINTS_OR_EXITS.finditer(without(text, ("//", "/*", "R", '"', "'"))):
-            yield line_of(text, match.start()), f'{module} may not print nor exit: "{match.group().strip("( ")}"'
+            yield line_of(text,
+                          match.start()), f'{module} may not print nor exit: "{match.group().strip("( ")}"'
 
 
 def check_cmake(module, text):
-    """Yields (line, complaint) for one CMakeLists.txt of `module`: it may be linked with what it may include."""
+    """Yields (line, complaint) for one CMakeLists.txt of `module`: it may be linked with what it may
+    include."""
     code = re.sub(r"#[^\n]*", "", text)
     for match in LINKS.finditer(code):
         if match.group(1) not in MAY_INCLUDE[module]:
@@ -84,7 +88,8 @@ def check_cmake(module, text):
 
 
 def check(root):
-    """The complaints about the tree at `root`, as "file:line: text", and the number of files that were read."""
+    """The complaints about the tree at `root`, as "file:line: text", and the number of files that were
+    read."""
     complaints, files = [], 0
     for module in MAY_INCLUDE:
         for path in sorted((root / module).rglob("*")):

@@ -37,7 +37,8 @@ class CheckLayers(unittest.TestCase):
         for code in ("// std::cout << exit(1)\n", "/* #include \"morsel/morse/x.h\"\n abort() */\n",
                      'const char* text = "exit(1) // std::cerr";\n', "auto c = '\"'; auto n = 1'000'000;\n",
                      'auto r = R"(printf("x"))";\n', "std::snprintf(buffer, 8, format);\n", "loop.exit();\n",
-                     "#  include <algorithm>\n", "#include <nanoflann.hpp>\n", "int on_exit(int);\n", "std::size_t inputs (0);\n"):
+                     "#  include <algorithm>\n", "#include <nanoflann.hpp>\n", "int on_exit(int);\n",
+                     "std::size_t inputs (0);\n"):
             with self.subTest(code=code):
                 self.assertEqual(complaints({"core/b.cpp": code}), [])
 
@@ -65,7 +66,8 @@ class CheckLayers(unittest.TestCase):
 
     def test_headers_stand_alone(self):
         for changes, where in (({"core/b.h": "#include <vector>\n"}, "core/b.h:1: "),
-                               ({"core/a.cpp": "#include <vector>\n#include \"morsel/core/a.h\"\n"}, "core/a.cpp:1: "),
+                               ({"core/a.cpp": "#include <vector>\n#include \"morsel/core/a.h\"\n"},
+                                "core/a.cpp:1: "),
                                ({"core/a.cpp": "int x;\n"}, "core/a.cpp:1: ")):
             with self.subTest(changes=changes):
                 found = complaints(changes)
@@ -73,7 +75,8 @@ class CheckLayers(unittest.TestCase):
                 self.assertTrue(found[0].startswith(where), found)
 
     def test_printing_and_exiting(self):
-        for code in ("std::cout << 1;", "std::cerr << 1;", 'printf("x");', 'std::printf ("x");', "std::exit(1);",
+        for code in ("std::cout << 1;", "std::cerr << 1;", 'printf("x");', 'std::printf ("x");',
+                     "std::exit(1);",
                      "exit(1);", "std::abort();", "std::terminate();", 'fprintf(stderr, "x");', 'puts("x");',
                      "if (bad) quick_exit(3);", "auto n = 1'000; abort();"):
             with self.subTest(code=code):

@@ -28,7 +28,8 @@ def row(name, covered, count):
 
 
 def lines_of(files, root):
-    """{source: (lines that run, lines)}; a header that programs found in several places counts once, by its best."""
+    """{source: (lines that run, lines)}; a header that programs found in several places counts once, by its
+    best."""
     lines = {}
     for file in files:
         name = name_in(root, file["filename"])
@@ -39,7 +40,8 @@ def lines_of(files, root):
 
 
 def functions_of(functions, root):
-    """{(source, first line): [times entered, lines, mangled name]}; all instances of a template are one function."""
+    """{(source, first line): [times entered, lines, mangled name]}; all instances of a template are one
+    function."""
     found = {}
     for function in functions:
         name = name_in(root, function["filenames"][0])
@@ -52,7 +54,8 @@ def functions_of(functions, root):
 
 
 def demangled(names):
-    plain = [name.split(":")[-1] for name in names]  # those of internal linkage have their source's name before them
+    plain = [name.split(":")[-1]
+             for name in names]  # those of internal linkage have their source's name before them
     run = subprocess.run(["c++filt"], input="\n".join(plain), capture_output=True, text=True, check=True)
     return run.stdout.splitlines()
 
@@ -82,7 +85,8 @@ def main():
             print(row(name, *lines[name]))
 
     unentered = sorted(((size, name, first, mangled)
-                        for (name, first), (count, size, mangled) in functions_of(data["functions"], root).items()
+                        for (name, first), (count, size, mangled) in functions_of(data["functions"],
+                                                                                  root).items()
                         if count == 0), reverse=True)
     print(f"\n{len(unentered)} functions that no test enters; the largest:")
     largest = unentered[:arguments.functions]

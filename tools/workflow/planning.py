@@ -1,8 +1,9 @@
-"""What the Snakefile does before its jobs: reads the settings and deals the meshes that are to be done out to parts.
+"""What the Snakefile does before its jobs: reads the settings and deals the meshes that are to be done out to
+parts.
 
-A part is a file with a command, a zero byte after each word, that does up to so many meshes. Parts are kept until the run ends by
-itself; those that a killed run left behind are taken up as they are, so that jobs that a cluster goes on with are not
-submitted twice.
+A part is a file with a command, a zero byte after each word, that does up to so many meshes. Parts are kept
+until the run ends by itself; those that a killed run left behind are taken up as they are, so that jobs that
+a cluster goes on with are not submitted twice.
 """
 
 import fcntl
@@ -85,10 +86,12 @@ class Settings:
 
     def command(self, *more):
         """The words that run the whole collection in one call, and `more`."""
-        return [self.program, "batch", self.collection, f"--out={self.out}", *self.options, *self.limits, *more]
+        return [self.program, "batch", self.collection, f"--out={self.out}", *self.options, *self.limits,
+                *more]
 
     def part(self, names):
-        return self.command(f"--threads={self.threads}", f"--jobs={self.cpus // self.threads}", "--no-summary", "--quiet",
+        return self.command(f"--threads={self.threads}", f"--jobs={self.cpus // self.threads}",
+                            "--no-summary", "--quiet",
                             *self.retry, *(f"--only={name}" for name in names))
 
     def find_program(self):
@@ -100,22 +103,26 @@ class Settings:
 
     def open_meshes(self):
         """The names of the meshes that are to be done, with the sizes of their files."""
-        told = subprocess.run(self.command("--plan", "--quiet", *self.retry), capture_output=True, check=False)
+        told = subprocess.run(self.command("--plan", "--quiet", *self.retry), capture_output=True,
+                              check=False)
         if told.returncode != 0:
-            raise WorkflowError(os.fsdecode(told.stderr).strip() or f"{self.program} ended with {told.returncode}")
+            raise WorkflowError(os.fsdecode(told.stderr).strip()
+                                or f"{self.program} ended with {told.returncode}")
         rows = (line.split("\t", 1) for line in lines(told.stdout))
         return {planned_name(name): int(size) for size, name in rows}
 
 
 def deal(meshes, most, slots):
-    """Names with sizes as lists of names, each of at most `most`, of like number and size; at least `slots` if there are as many."""
+    """Names with sizes as lists of names, each of at most `most`, of like number and size; at least `slots`
+    if there are as many."""
     count = max(math.ceil(len(meshes) / most), min(slots, len(meshes)))
     names = sorted(meshes, key=lambda name: (-meshes[name], name))
     return [names[i::count] for i in range(count)]
 
 
 class Plan:
-    """The parts of one run, in a folder beside Snakemake's own files: DEAL/parts/NUMBER, of which DEAL/done/NUMBER tells that it is done."""
+    """The parts of one run, in a folder beside Snakemake's own files: DEAL/parts/NUMBER, of which
+    DEAL/done/NUMBER tells that it is done."""
 
     def __init__(self, settings, slots):
         self.settings = settings
@@ -161,7 +168,8 @@ class Plan:
     def is_open(self, part, meshes):
         """Whether a killed run left this part to be done, and it is what would be done now."""
         names = self.names(part)
-        return (not (part.parent.parent / "done" / part.name).exists() and any(name in meshes for name in names)
+        return (not (part.parent.parent / "done" / part.name).exists()
+                and any(name in meshes for name in names)
                 and words(part) == self.settings.part(names))
 
     def write(self, shares):
