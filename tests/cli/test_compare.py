@@ -1,10 +1,13 @@
 """morsel compare: the table, the report, its schema and its numbers."""
 
 import json
+import os
+import pty
+import subprocess
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import DAMAGED, OCTAHEDRON, PROGRAM, SAMPLES, SCHEMA, ProgramTest
 
 
 class Compare(ProgramTest):
@@ -179,6 +182,24 @@ class Compare(ProgramTest):
         for name in ("conventional", "salient", "tps"):
             self.assertIn(name, result.stdout)
         self.assertNotIn("\r", result.stderr)
+
+    def test_a_terminal_is_told_which_method_runs_and_what_remains(self):
+        terminal, end = pty.openpty()
+        with subprocess.Popen([PROGRAM, "compare", SAMPLES / "bunny00.off", "--method", "conventional",
+                               "--method",
+                               "salient:iterations=300", "--threads", "1"], stdout=subprocess.DEVNULL,
+                              stderr=end) as process:
+            os.close(end)
+            shown = b""
+            try:
+                while chunk := os.read(terminal, 65536):
+                    shown += chunk
+            except OSError:  # how a terminal ends
+                pass
+        os.close(terminal)
+        self.assertEqual(process.returncode, 0)
+        self.assertIn(b"salient (2 of 2): ", shown)
+        self.assertRegex(shown, rb"salient \(2 of 2\): .*, about \d+ (s|min) left")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // morsel compare: the main job.
 
 #include <algorithm>
+#include <cstddef>
 #include <deque>
 #include <iostream>
 #include <memory>
@@ -46,13 +47,17 @@ struct Options {
 /// Shows on the console which method is running.
 class Announcer : public ComparisonSink {
  public:
-  explicit Announcer(Console& console) : console_(console) {}
-  void begin_method(const std::string& name) override { console_.enter(name); }
+  Announcer(Console& console, std::size_t methods) : console_(console), methods_(methods) {}
+  void begin_method(const std::string& name) override {
+    console_.enter(name + " (" + std::to_string(++begun_) + " of " + std::to_string(methods_) + ")");
+  }
   void field(const FieldOutcome&) override {}
   void method(const MethodOutcome&) override {}
 
  private:
   Console& console_;
+  std::size_t methods_;
+  std::size_t begun_ = 0;
 };
 
 /// Lets several sinks work at the same time.
@@ -203,7 +208,7 @@ int compare(const Options& options, const CommonOptions& common, Console& consol
 
   const Stopwatch load_watch;
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
-  Announcer announcer(console);
+  Announcer announcer(console, comparison.chains.size());
   ComparisonTable table;
   outputs.run(comparison, input, load_watch.seconds(), {&announcer, &table}, console.progress());
 

@@ -3,11 +3,29 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "morsel/core/printable.h"
 
 namespace morsel::tools {
+
+namespace {
+
+/// What a step that has run for some seconds will still take if it goes on as it did; "" if that cannot be
+/// told.
+std::string remaining_time(std::chrono::steady_clock::duration so_far, double fraction) {
+  constexpr double kPatience = 2;
+  constexpr double kLeast = 0.02;
+  const double seconds = std::chrono::duration<double>(so_far).count();
+  if (seconds < kPatience || fraction < kLeast || fraction >= 1) return "";
+  const double left = seconds * (1 - fraction) / fraction;
+  constexpr double kMinute = 60;
+  return left < 2 * kMinute ? ", about " + std::to_string(std::lround(left)) + " s left"
+                            : ", about " + std::to_string(std::lround(left / kMinute)) + " min left";
+}
+
+}  // namespace
 
 Console::Console(bool quiet, std::stop_token stop)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), stop_(std::move(stop)) {}
@@ -36,12 +54,15 @@ void Console::draw(std::string_view step, double fraction) {
   if (drawn_ && now - last_ < kInterval) return;
   last_ = now;
   drawn_ = true;
+  if (step != step_ || fraction < reached_) begun_ = now;  // another step, or the same one again
+  step_ = step;
+  reached_ = fraction;
   constexpr int kWidth = 30;
   const int filled = std::clamp(static_cast<int>(fraction * kWidth), 0, kWidth);
   std::cerr << "\r\033[K[" << std::string(static_cast<std::size_t>(filled), '#')
             << std::string(static_cast<std::size_t>(kWidth - filled), ' ') << "] "
             << static_cast<int>(100 * fraction) << " % " << (context_.empty() ? "" : context_ + ": ") << step
-            << std::flush;
+            << remaining_time(now - begun_, fraction) << std::flush;
 }
 
 void Console::clear() {

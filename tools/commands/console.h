@@ -10,7 +10,8 @@
 
 namespace morsel::tools {
 
-/// Progress as a bar (on a terminal only) and messages, both on standard error and both silenced by `quiet`.
+/// Progress as a bar (on a terminal only), after some seconds with what the step will still take, and
+/// messages, both on standard error and both silenced by `quiet`.
 class Console {
  public:
   Console(bool quiet, std::stop_token stop);
@@ -39,6 +40,9 @@ class Console {
   std::stop_token stop_;
   std::string context_;
   std::chrono::steady_clock::time_point last_;
+  std::string step_;                             // that is drawn
+  double reached_ = 0;                           // of it
+  std::chrono::steady_clock::time_point begun_;  // when it began
 };
 
 }  // namespace morsel::tools

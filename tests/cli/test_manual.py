@@ -1,0 +1,84 @@
+"""Man pages and completions: every command and option is in them, and the programs that read them take
+them."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+from support import ProgramTest
+
+MANUAL = os.environ["MORSEL_MANUAL"]
+
+
+class ManualTest(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.made = pathlib.Path(MANUAL)
+
+    def commands(self):
+        """Each command with the names of its options."""
+        listed = self.morsel().stdout.split("Commands:")[1].split("Examples:")[0]
+        return {name: set(re.findall(r"(?:^  |, )(--?[a-z][a-z-]*)",
+                                     self.morsel(name, "--help").stdout.split("\nExamples:")[0],
+                                     re.MULTILINE))
+                for name in re.findall(r"^  (\w+) ", listed, re.MULTILINE) if name != "help"}
+
+    def test_every_command_has_a_page_with_its_options(self):
+        commands = self.commands()
+        self.assertEqual({path.name for path in (self.made / "man1").iterdir()},
+                         {"morsel.1", *(f"morsel-{name}.1" for name in commands)})
+        for name, options in commands.items():
+            page = (self.made / "man1" / f"morsel-{name}.1").read_text().replace("\\-", "-")
+            for option in options:
+                self.assertIn(f"\\fB{option}\\fR", page, name)
+
+    def test_pages_are_shown_without_a_warning(self):
+        if not shutil.which("groff"):
+            self.skipTest("groff is not installed")
+        for page in sorted((self.made / "man1").iterdir()):
+            result = subprocess.run(["groff", "-man", "-ww", "-K", "utf-8", "-T", "utf8", page],
+                                    capture_output=True,
+                                    text=True, check=False)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), page)
+            self.assertIn("EXIT STATUS", re.sub(r"\x1b\[[0-9;]*m", "", result.stdout))
+
+    def complete(self, *words):
+        """What bash offers for the last of the words."""
+        script = ('source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _morsel; '
+                  "printf '%s\\n' \"${COMPREPLY[@]}\"")
+        result = subprocess.run(["bash", "-uc", script, "bash", self.made / "bash/morsel", *words],
+                                capture_output=True,
+                                text=True, check=True, cwd=self.folder)
+        self.assertEqual(result.stderr, "")
+        return set(result.stdout.split())
+
+    def test_bash_completes(self):
+        self.file("scan.off", "")
+        self.assertEqual(self.complete("morsel", "co"), {"compare"})
+        self.assertIn("scan.off", self.complete("morsel", "sc"))
+        self.assertEqual(self.complete("morsel", "help", "quad"), {"quads"})
+        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--fi"), {"--field", "--figures"})
+        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--method", "tp"), {"tps"})
+        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--up", ""), {"x", "y", "z"})
+        self.assertEqual(self.complete("morsel", "field", "scan.off", "-o", "s"), {"scan.off"})
+        self.assertEqual(self.complete("morsel", "methods", "sali"), {"salient", "saliency"})
+        for name, options in self.commands().items():
+            self.assertLessEqual(options, self.complete("morsel", name, "-") | {"-o"}, name)
+
+    def test_zsh_and_fish_read_theirs(self):
+        for shell, file in (("zsh", "zsh/_morsel"), ("fish", "fish/morsel.fish")):
+            with self.subTest(shell):
+                text = (self.made / file).read_text()
+                for name, options in self.commands().items():
+                    for option in options - {"-o", "-h"}:
+                        self.assertIn(option if shell == "zsh" else f"-l {option[2:]}", text, name)
+                if shutil.which(shell):
+                    subprocess.run([shell, "-n", self.made / file], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
