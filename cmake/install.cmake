@@ -31,8 +31,9 @@ install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/mor
               ${CMAKE_CURRENT_LIST_DIR}/FindCairo.cmake ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
         DESTINATION ${package_folder} COMPONENT development)
 
-# pkg-config, of the modules of the library: morsel-core, morsel-morse, … Their headers need those of Eigen, oneTBB and
-# Boost, of which the last has no file of its own.
+# pkg-config, of the modules of the library: morsel-core, morsel-morse, … The files may be moved with what they name.
+file(RELATIVE_PATH prefix_from_here /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" prefix_from_here "${prefix_from_here}")
 foreach(module core persistence morse mscomplex)
   get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
   set(requires "")
@@ -50,7 +51,8 @@ foreach(module core persistence morse mscomplex)
   install(FILES ${PROJECT_BINARY_DIR}/morsel-${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endforeach()
 
-foreach(component runtime development)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/$<IF:$<STREQUAL:${component},runtime>,morsel,libmorsel-dev> COMPONENT ${component})
-endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
+              ${PROJECT_SOURCE_DIR}/LICENSE
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmorsel-dev COMPONENT development)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/nearest_name.h"
 
 namespace morsel::core {
 namespace {
@@ -174,10 +175,10 @@ void ParameterReader::finish() const {
     const std::string& key = specification_.given[i].first;
     const auto declares = [&](const ParameterInfo& info) { return info.key == key; };
     if (std::none_of(declared_.begin(), declared_.end(), declares)) {
-      std::string valid;
-      for (const ParameterInfo& info : declared_) valid += (valid.empty() ? "" : ", ") + info.key;
+      std::vector<std::string> valid;
+      for (const ParameterInfo& info : declared_) valid.push_back(info.key);
       throw InvalidArgument(owner() + " has no parameter " + in_quotes(key) +
-                            (valid.empty() ? "; it takes none" : "; it takes: " + valid));
+                            (valid.empty() ? "; it takes none" : nearest_of(key, valid, "it takes")));
     }
     for (std::size_t j = 0; j < i; ++j)
       if (specification_.given[j].first == key)

@@ -12,12 +12,12 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_extension.h"
+#include "morsel/core/nearest_name.h"
 #include "morsel/core/parallel.h"
 #include "morsel/core/stop.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/failure.h"
 #include "morsel/tools/commands/help.h"
-#include "morsel/tools/commands/nearest_name.h"
 #include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/commands/threads.h"
@@ -63,7 +63,7 @@ bool is_file(const std::string& word) {
 Command& chosen(std::deque<Command>& commands, const std::string& name) {
   if (Command* command = find(commands, name)) return *command;
   throw core::InvalidArgument("there is no command \"" + name + "\"" +
-                              nearest_hint(name, names_of(commands)) + " (morsel --help lists all)");
+                              core::nearest_hint(name, names_of(commands)) + " (morsel --help lists all)");
 }
 
 /// Throws what the streams' errors throw.

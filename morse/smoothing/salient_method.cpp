@@ -129,9 +129,8 @@ SalientResult run_salient(const core::ScalarField& input, SalientOptions options
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   const bool robust =
-      reader.choice(
-          "preset", kPaper.name, {kPaper.name, kRobust.name},
-          "what keys that are not given have: robust ones by measurement (README), for noisy surfaces") ==
+      reader.choice("preset", kPaper.name, {kPaper.name, kRobust.name},
+                    "what keys that are not given have: robust ones by measurement, for noisy surfaces") ==
       kRobust.name;
   const Preset& preset = robust ? kRobust : kPaper;
   SalientOptions options;

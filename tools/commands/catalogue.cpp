@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/nearest_name.h"
 #include "morsel/tools/commands/commands.h"
-#include "morsel/tools/commands/nearest_name.h"
 #include "morsel/tools/registry/registry.h"
 
 namespace morsel::tools {
@@ -22,7 +22,7 @@ int list(const Entries& entries, const std::string& name, const char* kind,
     for (const auto& entry : entries) names.emplace_back(entry.name);
     if (std::ranges::find(names, name) == names.end())
       throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"" +
-                                  nearest_hint(name, names));
+                                  core::nearest_hint(name, names));
     std::cout << describe(name);
     return kDone;
   }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/commands/nearest_name.h"
+#include "morsel/core/nearest_name.h"
 
 namespace morsel::tools {
 namespace {
@@ -64,7 +64,7 @@ std::vector<std::string> option_names(const Command& command) {
   if (!word.starts_with('-') || word.size() == 1)
     refuse(command, "\"" + word + "\" is one argument too many");
   const std::string name = word.substr(0, word.find('='));
-  refuse(command, "there is no option " + name + nearest_hint(name, option_names(command)));
+  refuse(command, "there is no option " + name + core::nearest_hint(name, option_names(command)));
 }
 
 /// What CLI11 has against the option that its message begins with.
@@ -107,7 +107,7 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
     for (const std::string& word : row.given->results())
       if (std::ranges::find(option.choices, word) == option.choices.end())
         refuse(command, name + " must be " + names_text(option.choices) + ", not \"" + word + "\"" +
-                            nearest_hint(word, option.choices));
+                            core::nearest_hint(word, option.choices));
   }
 }
 

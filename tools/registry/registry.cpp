@@ -4,6 +4,7 @@
 #include <array>
 
 #include "morsel/core/error.h"
+#include "morsel/core/nearest_name.h"
 #include "morsel/morse/functions/atomic_density.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/curvature_functions.h"
@@ -69,9 +70,10 @@ const auto& find_entry(const Entries& entries, const std::string& name, std::str
   const auto entry =
       std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == name; });
   if (entry != entries.end()) return *entry;
-  std::string valid;
-  for (const auto& e : entries) valid += (valid.empty() ? "" : ", ") + std::string(e.name);
-  throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"; there are: " + valid);
+  std::vector<std::string> names;
+  for (const auto& e : entries) names.emplace_back(e.name);
+  throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"" +
+                              core::nearest_of(name, names, "there are"));
 }
 
 /// Makes the entry and refuses keys that it did not ask for.

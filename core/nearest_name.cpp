@@ -1,4 +1,4 @@
-#include "morsel/tools/commands/nearest_name.h"
+#include "morsel/core/nearest_name.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace morsel::tools {
+namespace morsel::core {
 namespace {
 
 std::size_t distance(std::string_view a, std::string_view b) {
@@ -46,4 +46,13 @@ std::string nearest_hint(std::string_view word, std::span<const std::string> can
   return name.empty() ? "" : "; did you mean " + name + "?";
 }
 
-}  // namespace morsel::tools
+std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string listed) {
+  std::string hint = nearest_hint(word, candidates);
+  if (!hint.empty() && !listed.empty() && listed[0] >= 'a' && listed[0] <= 'z')
+    listed[0] = static_cast<char>(listed[0] - 'a' + 'A');
+  hint += (hint.empty() ? "; " : " ") + listed + ": ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) hint += (i == 0 ? "" : ", ") + candidates[i];
+  return hint;
+}
+
+}  // namespace morsel::core

@@ -5,13 +5,17 @@
 #include <string>
 #include <string_view>
 
-namespace morsel::tools {
+namespace morsel::core {
 
 /// The candidate with the fewest letters added, left out, replaced or swapped with their neighbour (optimal
 /// string alignment distance), the first of several; "" if that is more than a third of them.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 
-/// `; did you mean NAME?`, or "" if there is none.
+/// "; did you mean NAME?", or "" if there is none.
 std::string nearest_hint(std::string_view word, std::span<const std::string> candidates);
 
-}  // namespace morsel::tools
+/// The same with all candidates: "; did you mean NAME? There are: A, B", or "; there are: A, B", where
+/// `listed` is "there are".
+std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string listed);
+
+}  // namespace morsel::core
