@@ -116,8 +116,9 @@ TEST_CASE("saddles come from the nearest saddle within reach") {
 }
 
 TEST_CASE("origins are critical points of the input of the same type at any number of threads") {
-  for (const auto& [name, mesh] : mesh_zoo()) {
+  for (const auto& [name, zoo_mesh] : mesh_zoo()) {
     INFO(name);
+    const auto& mesh = zoo_mesh;  // which lambdas can capture
     const ScalarField input(mesh, random_values(mesh.vertex_count(), 8));
     const morse::ExplicitDiffusion diffusion(mesh, morse::EdgeWeights::uniform, 0.5);
     const auto follow = [&] {
