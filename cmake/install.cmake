@@ -11,8 +11,6 @@ set(needs "")
 foreach(module IN LISTS modules)
   install(TARGETS morsel_${module} EXPORT morselTargets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel
-          COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE PATTERN "manual" EXCLUDE)  # those of the program, not of a library
   get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
   set(packages ${linked})
   list(FILTER packages EXCLUDE REGEX "^morsel::")

@@ -5,22 +5,27 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND MORSEL_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
 endif()
 
-# morsel_add_module(NAME SOURCES … DEPENDS … PRIVATE_DEPENDS …): the library target morsel_NAME, alias morsel::NAME,
-# whose headers are included as "morsel/NAME/….h" in the build tree and after installation alike.
+# morsel_add_module(NAME [WITHIN FOLDER] SOURCES … DEPENDS … PRIVATE_DEPENDS … PRECOMPILED …): the library target
+# morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as "morsel/FOLDER/NAME/….h" if it is
+# a room of that folder, in the build tree and after installation alike.
 #   DEPENDS          what its headers include or what it is linked with: consumers of the installed package get these too
 #   PRIVATE_DEPENDS  what only its sources include; of these, consumers need those that are more than headers
 #   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it shares. Sources
 #                    include what they use all the same: tools/lint compiles them without precompiled headers.
 function(morsel_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "WITHIN" "SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
   set(target morsel_${name})
+  set(outer ${name})
+  if(arg_WITHIN)
+    set(outer ${arg_WITHIN})
+  endif()
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(morsel::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
 
   # A link per module, not one to the whole tree, which would contain the build folder again.
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include/morsel)
-  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${name} ${PROJECT_BINARY_DIR}/include/morsel/${name} SYMBOLIC)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${outer} ${PROJECT_BINARY_DIR}/include/morsel/${outer} SYMBOLIC)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -43,6 +48,13 @@ function(morsel_add_module name)
   elseif(arg_PRECOMPILED)
     target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILED})
   endif()
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${arg_WITHIN}/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel/${arg_WITHIN}
+          COMPONENT development FILES_MATCHING PATTERN "*.h")
+  morsel_export(${name} ${linked})
+endfunction()
+
+# morsel_export(NAME LINKED…): the target morsel_NAME is installed, and part of the package, with what it is linked with.
+function(morsel_export name)
   set_property(GLOBAL APPEND PROPERTY MORSEL_MODULES ${name})
-  set_property(GLOBAL PROPERTY MORSEL_LINKED_${name} ${linked})
+  set_property(GLOBAL PROPERTY MORSEL_LINKED_${name} ${ARGN})
 endfunction()

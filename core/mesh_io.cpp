@@ -1,5 +1,8 @@
 #include "morsel/core/mesh_io.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "morsel/core/file_bytes.h"
@@ -8,15 +11,41 @@
 #include "morsel/core/text_scanner.h"
 
 namespace morsel::core {
+namespace {
+
+struct Format {
+  std::string_view extension;
+  MeshFormat format;
+};
+constexpr std::array<Format, 4> kFormats = {{{".off", MeshFormat::off},
+                                             {".obj", MeshFormat::obj},
+                                             {".ply", MeshFormat::ply},
+                                             {".stl", MeshFormat::stl}}};
+
+const Format* find_format(const std::filesystem::path& path) {
+  const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);
+  return found == kFormats.end() ? nullptr : found;
+}
+
+}  // namespace
+
+bool has_mesh_extension(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+
+std::string mesh_extensions(std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < kFormats.size(); ++i) {
+    if (i > 0) text += i + 1 == kFormats.size() ? last : ", ";
+    text += kFormats[i].extension;
+  }
+  return text;
+}
+
 MeshFormat mesh_format(const std::filesystem::path& path) {
+  if (const Format* found = find_format(path)) return found->format;
   const std::string extension = file_extension(path);
-  if (extension == ".off") return MeshFormat::off;
-  if (extension == ".obj") return MeshFormat::obj;
-  if (extension == ".ply") return MeshFormat::ply;
-  if (extension == ".stl") return MeshFormat::stl;
-  fail_reading(path.string(), extension.empty()
-                                  ? "its name has no extension: use .off, .obj, .ply or .stl"
-                                  : "meshes are read from .off, .obj, .ply and .stl files, not " + extension);
+  fail_reading(path.string(), extension.empty() ? "its name has no extension: use " + mesh_extensions()
+                                                : "meshes are read from " + mesh_extensions(" and ") +
+                                                      " files, not " + extension);
 }
 
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,

@@ -41,6 +41,10 @@ enum class MeshFormat { off, obj, ply, stl };
 
 /// By the file's extension, any case. Throws BadInput, listing what there is, if it is another one.
 MeshFormat mesh_format(const std::filesystem::path& path);
+/// Whether there is such a format.
+bool has_mesh_extension(const std::filesystem::path& path);
+/// The extensions as a sentence lists them: ".off, .obj, .ply or .stl".
+std::string mesh_extensions(std::string_view last = " or ");
 
 /// Reads the polygons of an .off, .obj, .ply or .stl file (by extension, any case) in double precision.
 /// Corners are checked to name vertices that exist; coordinates may be non-finite. Throws BadInput, naming

@@ -22,7 +22,7 @@
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/commands/threads.h"
 #include "morsel/tools/report/provenance.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/version.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::benchmark {
 

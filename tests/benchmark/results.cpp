@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 
 namespace morsel::benchmark {
 namespace {

@@ -292,7 +292,7 @@ TEST_CASE("properties that a PLY file cannot hold are refused before anything is
   CHECK_THROWS_AS(write_faces("vertex_indices", {1}), core::InvalidArgument);
   CHECK_THROWS_AS(write_faces("a", {1, 2}), core::InvalidArgument);
   CHECK(std::filesystem::is_empty(scratch.path()));
-  CHECK_THROWS_AS(core::write_off(scratch / "no" / "a.off", mesh), core::WriteFailed);
+  CHECK_THROWS_AS(core::write_off(scratch.file("no") / "a.off", mesh), core::WriteFailed);
 }
 
 TEST_CASE("quads written as OBJ read back to the same bits") {
@@ -305,7 +305,7 @@ TEST_CASE("quads written as OBJ read back to the same bits") {
   CHECK(loaded.soup.positions == positions);
   CHECK(loaded.soup.offsets == std::vector<std::size_t>{0, 4, 8});
   CHECK(loaded.soup.corners == std::vector<Index>{0, 1, 2, 3, 1, 4, 5, 2});
-  CHECK_THROWS_AS(core::write_obj(scratch / "no" / "a.obj", positions, quads), core::WriteFailed);
+  CHECK_THROWS_AS(core::write_obj(scratch.file("no") / "a.obj", positions, quads), core::WriteFailed);
 }
 
 TEST_CASE("comments stand at a file's head and are passed over") {

@@ -14,7 +14,7 @@ TEST_CASE("the nearest name is the one with the fewest letters changed, if it is
   CHECK(nearest_name("compar", names) == "compare");
   CHECK(nearest_name("ceck", names) == "check");
   CHECK(nearest_name("cat", names) == "cut");
-  CHECK(nearest_name("salienc", names) == "saliency");
+  CHECK(nearest_name("saliencx", names) == "saliency");
   CHECK(nearest_name("saliett", names) == "salient");
   CHECK(nearest_name("nonsense", names).empty());
   CHECK(nearest_name("", names).empty());

@@ -2,9 +2,9 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/registry/registry.h"
+#include "morsel/tools/study/registry.h"
 #include "morsel/tools/render/request_text.h"
-#include "morsel/tools/sweep/variation.h"
+#include "morsel/tools/study/variation.h"
 #include "target.h"
 
 namespace {

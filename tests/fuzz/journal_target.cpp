@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/report/journal.h"
+#include "morsel/tools/formats/journal.h"
 #include "morsel/tools/report/trial_journal.h"
 #include "support/scratch.h"
 #include "target.h"

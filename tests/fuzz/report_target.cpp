@@ -3,7 +3,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/tools/report/difference.h"
-#include "morsel/tools/report/json_reader.h"
+#include "morsel/tools/formats/json_reader.h"
 #include "morsel/tools/report/report_reader.h"
 #include "target.h"
 

@@ -19,6 +19,23 @@ MAY_INCLUDE = {
     "mscomplex": {"core", "mscomplex"},
     "tools": {*LIBRARY, "tools"},
 }
+# The rooms of tools, from the ground up.
+FLOORS = (
+    ("formats", "results", "drawing"),
+    ("study",),
+    ("molecule",),
+    ("report",),
+    ("sweep",),
+    ("export", "html"),
+    ("plot", "render"),
+    ("batch", "reproduce"),
+    ("commands",),
+    ("manual", "main.cpp"),
+)
+FLOOR_OF = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
+MAY_PRINT = ("commands", "manual", "main.cpp", "batch")  # batch: its children between fork and exec
+# What a study does without, so that Python and a browser can be built on it.
+NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build", "embree3/", "openvdb/", "CLI/")
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
 NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
                   "ft2build")  # what only sources include, a user of the installed library need not have
@@ -36,6 +53,9 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]', re.MULT
 LINKS = re.compile(r"\bmorsel(?:::|_)(core|morse|persistence|mscomplex|tools|test_support)\b")
 
 
+LINKS_ROOM = re.compile(r"\bmorsel(?:::|_)(%s)\b" % "|".join(room for room in FLOOR_OF if "." not in room))
+
+
 def without(text, drops):
     """`text` with the comments and literals that begin with one of `drops` emptied, line breaks kept."""
     def blank(match):
@@ -48,9 +68,14 @@ def line_of(text, position):
     return text.count("\n", 0, position) + 1
 
 
-def check_source(module, text, is_header, own_header=None):
-    """Yields (line, complaint) for one header or source of `module`; `own_header` is the header of its
-    name."""
+def may_use(room, other):
+    """Whether a room of tools may include another one, or be linked with it."""
+    return other == room or FLOOR_OF[other] < FLOOR_OF[room]
+
+
+def check_source(module, text, is_header, own_header=None, room=None):
+    """Yields (line, complaint) for one header or source of `module`, and of the `room` within tools;
+    `own_header` is the header of its name."""
     code = without(text, ("//", "/*", "R"))
     foreign = NOT_IN_TOOLS if module == "tools" else NOT_IN_LIBRARY
     for match in INCLUDE.finditer(code):
@@ -60,6 +85,13 @@ def check_source(module, text, is_header, own_header=None):
         if parts[0] == "morsel":
             if len(parts) < 3 or parts[1] not in MAY_INCLUDE[module]:
                 yield line, f'{module} may not include "{path}"'
+            elif room is not None and parts[1] == "tools":
+                if parts[2] not in FLOOR_OF:
+                    yield line, f'"{path}": no floor of tools has the room {parts[2]}'
+                elif not may_use(room, parts[2]):
+                    yield line, f'{room} may not include "{path}", which is not on a lower floor'
+        elif room == "study" and path.startswith(NOT_IN_STUDY):
+            yield line, f"{room} may not include <{path}>"
         elif quote == '"':
             yield line, f'"{path}": the headers of the project are included as "morsel/MODULE/…"'
         elif path.startswith(foreign):
@@ -72,16 +104,20 @@ def check_source(module, text, is_header, own_header=None):
         first = INCLUDE.search(code)
         if first is None or first.group(2) != own_header:
             yield line_of(code, first.start()) if first else 1, f'the first include is to be "{own_header}"'
-    if module in LIBRARY:
+    if module in LIBRARY or (room is not None and room not in MAY_PRINT):
         for match in PRINTS_OR_EXITS.finditer(without(text, ("//", "/*", "R", '"', "'"))):
             yield line_of(text,
-                          match.start()), f'{module} may not print nor exit: "{match.group().strip("( ")}"'
+                          match.start()), f'{room or module} may not print nor exit: "{match.group().strip("( ")}"'
 
 
-def check_cmake(module, text):
+def check_cmake(module, text, room=None):
     """Yields (line, complaint) for one CMakeLists.txt of `module`: it may be linked with what it may
     include."""
     code = re.sub(r"#[^\n]*", "", text)
+    if room in FLOOR_OF:
+        for match in LINKS_ROOM.finditer(code):
+            if not may_use(room, match.group(1)):
+                yield line_of(code, match.start()), f"{room} may not be linked with {match.group()}"
     for match in LINKS.finditer(code):
         if match.group(1) not in MAY_INCLUDE[module]:
             yield line_of(code, match.start()), f"{module} may not be linked with {match.group()}"
@@ -93,12 +129,17 @@ def check(root):
     complaints, files = [], 0
     for module in MAY_INCLUDE:
         for path in sorted((root / module).rglob("*")):
+            room = path.relative_to(root / module).parts[0] if module == "tools" else None
+            if room is not None and room not in FLOOR_OF:
+                if path.suffix in (".h", ".cpp"):
+                    complaints.append(f"{path.relative_to(root)}:1: no floor of tools has the room {room}")
+                room = None
             if path.suffix in (".h", ".hpp", ".cpp", ".inl"):
                 header = path.with_suffix(".h")
                 own = f"morsel/{header.relative_to(root)}" if path.suffix == ".cpp" and header.exists() else None
-                found = check_source(module, path.read_text(encoding="utf-8"), path.suffix != ".cpp", own)
+                found = check_source(module, path.read_text(encoding="utf-8"), path.suffix != ".cpp", own, room)
             elif path.name == "CMakeLists.txt":
-                found = check_cmake(module, path.read_text(encoding="utf-8"))
+                found = check_cmake(module, path.read_text(encoding="utf-8"), room)
             else:
                 continue
             files += 1

@@ -57,8 +57,8 @@ class CheckLayers(unittest.TestCase):
                            ("core/b.cpp", "#include <iostream>"),
                            ("core/b.h", "#include <nanoflann.hpp>"),
                            ("core/b.h", "#include <CGAL/IO/polygon_soup_io.h>"),
-                           ("tools/b.cpp", '#include "tests/support/meshes.h"'),
-                           ("tools/b.cpp", "#include <phat/boundary_matrix.h>")):
+                           ("tools/commands/b.cpp", '#include "tests/support/meshes.h"'),
+                           ("tools/commands/b.cpp", "#include <phat/boundary_matrix.h>")):
             with self.subTest(name=name, code=code):
                 found = complaints({name: f"#pragma once\n{code}\n"})
                 self.assertEqual(len(found), 1)
@@ -83,6 +83,26 @@ class CheckLayers(unittest.TestCase):
                 found = complaints({"morse/b.cpp": f"void f() {{\n  {code}\n}}\n"})
                 self.assertEqual(len(found), 1)
                 self.assertTrue(found[0].startswith("morse/b.cpp:2: "), found)
+
+    def test_rooms_of_tools(self):
+        """A room includes rooms of lower floors only: neither one above, nor a neighbour, nor one that has no floor."""
+        for name, code, said in (
+                ("tools/study/a.h", '#include "morsel/tools/report/b.h"', "study may not include"),
+                ("tools/html/a.h", '#include "morsel/tools/export/b.h"', "html may not include"),
+                ("tools/formats/a.cpp", '#include "morsel/tools/study/b.h"', "formats may not include"),
+                ("tools/batch/a.h", '#include "morsel/tools/commands/b.h"', "batch may not include"),
+                ("tools/study/a.cpp", "#include <nlohmann/json.hpp>", "study may not include"),
+                ("tools/study/a.cpp", '#include "morsel/tools/attic/b.h"', "the room attic"),
+                ("tools/attic/a.cpp", '#include "morsel/core/a.h"', "the room attic"),
+                ("tools/plot/a.cpp", "#include <cstdio>\nvoid f() { puts(\"x\"); }", "plot may not print"),
+                ("tools/export/CMakeLists.txt", "x(DEPENDS morsel::render)", "export may not be linked")):
+            with self.subTest(code=code):
+                text = ("#pragma once\n" if name.endswith(".h") else "") + code + "\n"
+                found = complaints({name: text})
+                self.assertEqual(len(found), 1, found)
+                self.assertIn(said, found[0])
+        self.assertEqual(complaints({"tools/batch/a.h": '#pragma once\n#include "morsel/tools/plot/b.h"\n',
+                                     "tools/plot/CMakeLists.txt": "x(DEPENDS morsel::sweep morsel::core)\n"}), [])
 
     def test_links(self):
         found = complaints({"morse/CMakeLists.txt": "# morsel::persistence\nx(\nDEPENDS morsel::core morsel::mscomplex)\n"})

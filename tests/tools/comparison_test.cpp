@@ -1,4 +1,4 @@
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 
 #include <catch2/catch.hpp>
 #include <set>

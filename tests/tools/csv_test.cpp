@@ -1,4 +1,4 @@
-#include "morsel/tools/report/csv.h"
+#include "morsel/tools/formats/csv.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/study/hierarchy.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -13,8 +13,8 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
-#include "morsel/tools/hierarchy/iteration_levels.h"
-#include "morsel/tools/hierarchy/persistence_levels.h"
+#include "morsel/tools/study/iteration_levels.h"
+#include "morsel/tools/study/persistence_levels.h"
 #include "support/fields.h"
 #include "support/made.h"
 #include "support/meshes.h"

@@ -1,4 +1,4 @@
-#include "morsel/tools/report/journal.h"
+#include "morsel/tools/formats/journal.h"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

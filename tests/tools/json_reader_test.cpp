@@ -1,4 +1,4 @@
-#include "morsel/tools/report/json_reader.h"
+#include "morsel/tools/formats/json_reader.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/report/json_view.h"
+#include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/report_reader.h"
 
 using namespace morsel;

@@ -1,4 +1,4 @@
-#include "morsel/tools/comparison/matching.h"
+#include "morsel/tools/study/matching.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

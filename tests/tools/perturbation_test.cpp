@@ -1,4 +1,4 @@
-#include "morsel/tools/stability/perturbation.h"
+#include "morsel/tools/study/perturbation.h"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 #include "morsel/core/length.h"
 #include "morsel/core/parallel.h"
 #include "morsel/morse/operators/normals.h"
-#include "morsel/tools/stability/random_stream.h"
-#include "morsel/tools/stability/statistics.h"
+#include "morsel/tools/study/random_stream.h"
+#include "morsel/tools/study/statistics.h"
 #include "support/meshes.h"
 
 using namespace morsel;

@@ -1,4 +1,4 @@
-#include "morsel/tools/stability/point_matching.h"
+#include "morsel/tools/study/point_matching.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/report/csv.h"
+#include "morsel/tools/formats/csv.h"
 
 using namespace morsel;
 using Catch::Contains;

@@ -1,4 +1,4 @@
-#include "morsel/tools/registry/registry.h"
+#include "morsel/tools/study/registry.h"
 
 #include <catch2/catch.hpp>
 #include <set>

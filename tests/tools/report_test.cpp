@@ -12,9 +12,9 @@
 #include "morsel/core/parallel.h"
 #include "morsel/tools/report/difference.h"
 #include "morsel/tools/report/hashed_mesh.h"
-#include "morsel/tools/report/json_stream.h"
-#include "morsel/tools/report/sha256.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/formats/text_table.h"
 
 using namespace morsel;
 using tools::Json;

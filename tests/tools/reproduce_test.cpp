@@ -10,7 +10,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/render/inset.h"
-#include "morsel/tools/report/base64.h"
+#include "morsel/tools/formats/base64.h"
 #include "morsel/tools/reproduce/region.h"
 #include "morsel/tools/reproduce/reproduction.h"
 #include "morsel/tools/reproduce/table.h"

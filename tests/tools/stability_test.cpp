@@ -1,4 +1,4 @@
-#include "morsel/tools/stability/stability.h"
+#include "morsel/tools/study/stability.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

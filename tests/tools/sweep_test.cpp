@@ -7,7 +7,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "support/meshes.h"

@@ -1,4 +1,4 @@
-#include "morsel/tools/comparison/target.h"
+#include "morsel/tools/study/target.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 #include "morsel/core/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/cancellation.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "support/fields.h"
 #include "support/shapes.h"
 

@@ -1,7 +1,6 @@
 #include "morsel/tools/batch/collection.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <optional>
 #include <set>
@@ -10,17 +9,12 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_bytes.h"
-#include "morsel/core/file_extension.h"
+#include "morsel/core/mesh_io.h"
 
 namespace morsel::tools::batch {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_mesh(const fs::path& path) {
-  constexpr std::array<std::string_view, 4> kExtensions = {".off", ".obj", ".ply", ".stl"};
-  return std::find(kExtensions.begin(), kExtensions.end(), core::file_extension(path)) != kExtensions.end();
-}
 
 /// What cannot be asked about is read as a list, which says why.
 bool is_folder(const fs::path& path) {
@@ -32,11 +26,13 @@ std::vector<CollectionMesh> of_folder(const fs::path& folder) {
   std::vector<CollectionMesh> meshes;
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (std::error_code unreadable; is_mesh(at->path()) && fs::is_regular_file(at->path(), unreadable))
+    if (std::error_code unreadable;
+        core::has_mesh_extension(at->path()) && fs::is_regular_file(at->path(), unreadable))
       meshes.push_back({mesh_name(at->path().lexically_relative(folder)), at->path()});
   if (error) throw core::BadInput("cannot read the folder " + folder.string() + ": " + error.message());
   if (meshes.empty())
-    throw core::BadInput("there is no mesh (.off, .obj, .ply, .stl) in the folder " + folder.string());
+    throw core::BadInput("there is no mesh (" + core::mesh_extensions(", ") + ") in the folder " +
+                         folder.string());
   std::sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return meshes;
 }
@@ -45,7 +41,8 @@ using Names = std::set<std::string, std::less<>>;
 
 /// The meshes of those lines that end in one of these file names; of all, if there are none.
 std::vector<CollectionMesh> of_list(const fs::path& list, const Names& files) {
-  if (is_mesh(list)) throw core::BadInput(list.string() + " is a mesh, not a list of meshes or a folder");
+  if (core::has_mesh_extension(list))
+    throw core::BadInput(list.string() + " is a mesh, not a list of meshes or a folder");
   const core::FileBytes bytes(list, list.string());
   std::vector<CollectionMesh> meshes;
   std::string_view rest = bytes.view();
@@ -68,7 +65,7 @@ std::vector<CollectionMesh> of_list(const fs::path& list, const Names& files) {
 /// The mesh of this name in a folder, if it is what of_folder() would find, which passes over folders that
 /// are links.
 std::optional<CollectionMesh> in_folder(const fs::path& folder, const std::string& name) {
-  if (name.empty() || mesh_name(name) != name || !is_mesh(name)) return std::nullopt;
+  if (name.empty() || mesh_name(name) != name || !core::has_mesh_extension(name)) return std::nullopt;
   fs::path path = folder;
   for (const fs::path& part : fs::path(name).parent_path()) {
     path /= part;

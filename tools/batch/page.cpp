@@ -6,11 +6,11 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/distributions.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/html/markup.h"
-#include "morsel/tools/report/command_line.h"
+#include "morsel/tools/formats/markup.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/report/provenance.h"
-#include "morsel/tools/report/text_table.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/formats/version.h"
 
 namespace morsel::tools::batch {
 namespace {

@@ -14,7 +14,7 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/report/json_view.h"
+#include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/report_reader.h"
 #include "morsel/tools/report/result_shapes.h"
 

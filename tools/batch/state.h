@@ -10,7 +10,7 @@
 
 #include "morsel/tools/batch/child.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools::batch {
 

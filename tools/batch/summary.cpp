@@ -5,8 +5,8 @@
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/batch/page.h"
-#include "morsel/tools/report/csv.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/csv.h"
+#include "morsel/tools/formats/version.h"
 
 namespace morsel::tools::batch {
 namespace {

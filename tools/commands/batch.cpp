@@ -17,7 +17,7 @@
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {

@@ -9,7 +9,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/nearest_name.h"
 #include "morsel/tools/commands/commands.h"
-#include "morsel/tools/registry/registry.h"
+#include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
 namespace {

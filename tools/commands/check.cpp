@@ -11,9 +11,9 @@
 #include "morsel/core/error.h"
 #include "morsel/core/printable.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/report_check.h"
 #include "morsel/tools/report/report_reader.h"
-#include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
 namespace {

@@ -133,7 +133,8 @@ Option& Command::choice(std::string names, Target& target, std::vector<std::pair
 template <class Number>
 Option& Command::number(std::string names, Number& target, std::string help) {
   Option row{std::move(names), std::move(help), "N"};
-  using Plain = typename std::conditional_t<std::is_arithmetic_v<Number>, std::optional<Number>, Number>::value_type;
+  using Plain =
+      typename std::conditional_t<std::is_arithmetic_v<Number>, std::optional<Number>, Number>::value_type;
   if constexpr (std::is_arithmetic_v<Number>) row.default_text = number_text(static_cast<double>(target));
   row.take = [&target](const Option& option, const std::vector<std::string>& words) {
     if constexpr (std::is_floating_point_v<Plain>)

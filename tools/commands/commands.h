@@ -12,9 +12,9 @@
 #include "morsel/core/parallel.h"
 #include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/render/request_text.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 
@@ -85,6 +85,6 @@ void add_sweep(Program& program);
 
 /// Texts that more than one command shows.
 extern const char* const kSpecificationNotes;
-inline constexpr const char* kMeshHelp = "Triangle mesh: .off, .obj, .ply or .stl";
+std::string mesh_help();
 
 }  // namespace morsel::tools

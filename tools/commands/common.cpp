@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 
 namespace morsel::tools {
@@ -46,7 +47,7 @@ void add_target_option(Command& command, std::optional<std::size_t>& target) {
 }
 
 void add_field_options(Command& command, std::string& mesh, FieldRequest& request) {
-  command.path("MESH", mesh, kMeshHelp).required();
+  command.path("MESH", mesh, mesh_help()).required();
   command.text("--field", request.field, "Morse function").value("F");
   command.text("--method", request.method, "A method or chain of methods").value("M");
   add_target_option(command, request.target);
@@ -93,6 +94,8 @@ void add_figure_options(Command& command, render::FigureText& figure) {
 void tell_target(const MadeField& made, Console& console) {
   if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
 }
+
+std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
 
 const char* const kSpecificationNotes =
     "F and M are written name or name:key=value,key=value; methods chain as M+M; a backslash keeps , : + = / "

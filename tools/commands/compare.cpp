@@ -16,17 +16,17 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"
-#include "morsel/tools/comparison/comparison.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
 #include "morsel/tools/render/thumbnail_sink.h"
-#include "morsel/tools/report/command_line.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 namespace {
@@ -223,7 +223,7 @@ void add_compare(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add(
       "compare", "Run methods on a field and compare their critical points, diagrams and complexes");
-  command.path("MESH", options->mesh, kMeshHelp).required();
+  command.path("MESH", options->mesh, mesh_help()).required();
   add_comparison_options(command, options->request);
   command.path("-o,--output", options->report, "Write the JSON report here; - is standard output")
       .value("REPORT.json");

@@ -9,12 +9,12 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"
-#include "morsel/tools/comparison/made_field.h"
-#include "morsel/tools/cutting/cutting.h"
 #include "morsel/tools/export/cut_files.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/cut_writer.h"
 #include "morsel/tools/report/hashed_mesh.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/study/cutting.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 

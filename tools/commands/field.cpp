@@ -6,10 +6,10 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
-#include "morsel/tools/comparison/made_field.h"
 #include "morsel/tools/export/field_file.h"
 #include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 namespace {

@@ -9,11 +9,11 @@
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/export/hierarchy_export.h"
-#include "morsel/tools/hierarchy/hierarchy.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/hierarchy_table.h"
 #include "morsel/tools/report/hierarchy_writer.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/hierarchy.h"
 
 namespace morsel::tools {
 namespace {

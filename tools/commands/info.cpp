@@ -5,16 +5,15 @@
 #include <optional>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/parameters.h"
 #include "morsel/core/printable.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/provenance.h"
-#include "morsel/tools/report/sha256.h"
-#include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
 namespace {
@@ -150,18 +149,14 @@ Json provenance_of(const std::string& path, bool is_mesh, Console& console) {
   }
 }
 
-bool is_mesh(const std::string& path) {
-  const std::string extension = core::file_extension(path);
-  return extension == ".off" || extension == ".obj" || extension == ".ply" || extension == ".stl";
-}
-
 int inform(const Options& options, const CommonOptions& common, Console& console) {
   std::optional<Findings> findings;
-  if (is_mesh(options.file)) findings = inspect(options.file, common.repair, console.progress());
+  if (core::has_mesh_extension(options.file))
+    findings = inspect(options.file, common.repair, console.progress());
   const Json provenance = provenance_of(options.file, findings.has_value(), console);
   if (!findings && provenance.is_null())
-    throw core::BadInput("\"" + options.file +
-                         "\" is no mesh (.off, .obj, .ply or .stl) and does not tell where it comes from");
+    throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
+                         ") and does not tell where it comes from");
   if (options.json) {
     Json document = findings ? as_json(options.file, *findings) : head_section();
     if (!provenance.is_null()) document["provenance"] = provenance;
@@ -183,8 +178,9 @@ void add_info(Program& program) {
       "What a mesh is: counts, topology, components, defects; and where a file that morsel wrote comes from");
   command
       .path("FILE", options->file,
-            "A triangle mesh (.off, .obj, .ply or .stl), or any file that morsel wrote but JSON, which "
-            "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
+            "A triangle mesh (" + core::mesh_extensions() +
+                "), or any file that morsel wrote but JSON, which "
+                "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
       .required();
   command.flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, program.common);

@@ -16,10 +16,10 @@
 #include "morsel/core/molecule.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/molecule/surface.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/provenance.h"
-#include "morsel/tools/report/text_table.h"
 
 namespace morsel::tools {
 namespace {

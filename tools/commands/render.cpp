@@ -10,14 +10,14 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
-#include "morsel/tools/comparison/made_field.h"
-#include "morsel/tools/drawing/png_comment.h"
+#include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/colormap.h"
 #include "morsel/tools/render/picture.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 namespace {

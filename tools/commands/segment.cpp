@@ -12,10 +12,10 @@
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/export/label_file.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/segments_writer.h"
-#include "morsel/tools/report/text_table.h"
-#include "morsel/tools/segmentation/made_segments.h"
+#include "morsel/tools/study/made_segments.h"
 
 namespace morsel::tools {
 namespace {

@@ -92,7 +92,7 @@ void add_stability(Program& program) {
   Command& command = program.add(
       "stability",
       "How well critical points repeat on perturbed surfaces: with noise, with fewer vertices, with more");
-  command.path("MESH", options->mesh, kMeshHelp).required();
+  command.path("MESH", options->mesh, mesh_help()).required();
   command.texts("--field", request.fields, "Morse function; may be given several times").value("F");
   add_methods_option(command, request.methods);
   add_perturbation_options(command, request);

@@ -15,9 +15,9 @@
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/input_files.h"
-#include "morsel/tools/report/row_journal.h"
-#include "morsel/tools/report/sweep_writer.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/sweep/row_journal.h"
+#include "morsel/tools/sweep/sweep_writer.h"
 
 namespace morsel::tools {
 namespace {
@@ -93,7 +93,7 @@ void add_sweep(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add(
       "sweep", "How the numbers of critical points depend on parameters: every combination of their values");
-  command.path("MESH", options->mesh, kMeshHelp).required();
+  command.path("MESH", options->mesh, mesh_help()).required();
   command.text("--field", options->request.field, "Morse function").value("F");
   command.text("--method", options->request.method, "A method or chain of methods").value("M");
   command

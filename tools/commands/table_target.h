@@ -8,8 +8,8 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/tools/commands/output_check.h"
-#include "morsel/tools/report/journal.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/journal.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 

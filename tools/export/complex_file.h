@@ -6,7 +6,7 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/mscomplex/complex.h"
-#include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/formats/vtp_writer.h"
 #include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {

@@ -7,7 +7,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/mesh_writer.h"
-#include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include "morsel/core/stop.h"
 #include "morsel/tools/export/complex_file.h"
 #include "morsel/tools/export/surface_file.h"
-#include "morsel/tools/report/csv.h"
+#include "morsel/tools/formats/csv.h"
 
 namespace morsel::tools {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/export/folder.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/results/result_folder.h"
 

@@ -4,7 +4,7 @@
 #include "morsel/core/file_writer.h"
 #include "morsel/core/mesh_writer.h"
 #include "morsel/tools/export/input_numbers.h"
-#include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
 namespace {

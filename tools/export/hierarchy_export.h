@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/study/hierarchy.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/results/result_folder.h"
 

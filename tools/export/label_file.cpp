@@ -8,7 +8,7 @@
 #include "morsel/core/mesh_writer.h"
 #include "morsel/core/parallel.h"
 #include "morsel/tools/export/input_numbers.h"
-#include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
 namespace {

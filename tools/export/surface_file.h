@@ -10,7 +10,7 @@
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/scalar_field.h"
 #include "morsel/mscomplex/segmentation.h"
-#include "morsel/tools/export/vtp_writer.h"
+#include "morsel/tools/formats/vtp_writer.h"
 #include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {

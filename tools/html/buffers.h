@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/tools/html/packed_stream.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools::html {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/report_writer.h"
 

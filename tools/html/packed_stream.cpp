@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "morsel/core/stop.h"
-#include "morsel/tools/report/base64.h"
+#include "morsel/tools/formats/base64.h"
 
 namespace morsel::tools::html {
 namespace {

@@ -11,5 +11,5 @@ morsel_embed(
   OUTPUT ${MORSEL_PAGE_SOURCE}
   HEADER morsel/tools/html/page_sources.h
   NAMESPACE morsel::tools::html
-  LITERALS kPage=html/page/page.html kThree=${MORSEL_THREE_JS}
+  LITERALS kPage=page/page.html kThree=${MORSEL_THREE_JS}
   DEPENDS ${page_sources})

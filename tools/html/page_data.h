@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/html/buffers.h"
 
 namespace morsel::tools::html {

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/tools/registry/registry.h"
+#include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "morsel/tools/commands/help.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/version.h"
 
 namespace morsel::tools {
 namespace {

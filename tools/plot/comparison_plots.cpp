@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "morsel/tools/plot/ticks.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools::plot {
 namespace {

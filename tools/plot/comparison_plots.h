@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/plot/plot.h"
 
 namespace morsel::tools::plot {

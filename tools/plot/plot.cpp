@@ -6,7 +6,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/drawing/png_comment.h"
+#include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/plot/layout.h"
 #include "morsel/tools/plot/pixel_canvas.h"
 #include "morsel/tools/plot/svg_canvas.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/export/folder.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/plot/comparison_plots.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/results/result_folder.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "morsel/tools/html/markup.h"
+#include "morsel/tools/formats/markup.h"
 
 namespace morsel::tools::plot {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools::plot {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "morsel/core/progress.h"
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/export/folder.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/render/sheet.h"
 #include "morsel/tools/report/provenance.h"

@@ -9,7 +9,7 @@
 
 #include "morsel/core/length.h"
 #include "morsel/core/progress.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/render/body.h"
 #include "morsel/tools/render/camera.h"
 #include "morsel/tools/render/image.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "morsel/core/file_writer.h"
-#include "morsel/tools/drawing/png_comment.h"
+#include "morsel/tools/formats/png_comment.h"
 
 namespace morsel::tools::render {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "morsel/core/progress.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/report/provenance.h"
 

@@ -2,7 +2,7 @@
 
 #include "morsel/core/parameters.h"
 #include "morsel/core/printable.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools {
 std::string field_line(const FieldOutcome& outcome) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

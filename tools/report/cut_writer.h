@@ -1,7 +1,7 @@
 #pragma once
 /// The JSON document of `morsel cut`: morsel.cut/1 (tools/report/cut.schema.json).
 
-#include "morsel/tools/cutting/cutting.h"
+#include "morsel/tools/study/cutting.h"
 #include "morsel/tools/report/field_document.h"
 
 namespace morsel::tools {

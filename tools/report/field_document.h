@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "morsel/core/mesh_io.h"
-#include "morsel/tools/comparison/made_field.h"
-#include "morsel/tools/report/json_stream.h"
-#include "morsel/tools/report/sha256.h"
+#include "morsel/tools/study/made_field.h"
+#include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/formats/sha256.h"
 
 namespace morsel::tools {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "morsel/core/parallel.h"
-#include "morsel/tools/report/sha256.h"
+#include "morsel/tools/formats/sha256.h"
 
 namespace morsel::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/study/hierarchy.h"
 
 namespace morsel::tools {
 

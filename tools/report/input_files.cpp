@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "morsel/core/specification.h"
-#include "morsel/tools/registry/registry.h"
+#include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
 

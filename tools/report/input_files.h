@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/tools/report/json_stream.h"
-#include "morsel/tools/report/sha256.h"
+#include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/formats/sha256.h"
 
 namespace morsel::tools {
 

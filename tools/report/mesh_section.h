@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "morsel/core/mesh_io.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 

@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/version.h"
 
 namespace morsel::tools {
 namespace {

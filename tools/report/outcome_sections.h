@@ -5,9 +5,9 @@
 
 #include "morsel/core/mesh_builder.h"
 #include "morsel/core/parameters.h"
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/comparison/made_field.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/made_field.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 

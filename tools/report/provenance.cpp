@@ -6,9 +6,9 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_bytes.h"
-#include "morsel/tools/report/command_line.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/report/input_files.h"
-#include "morsel/tools/report/json_view.h"
+#include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/result_shapes.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The JSON document of a quadrangulation.
 
-#include "morsel/tools/quads/quadrangulation.h"
+#include "morsel/tools/study/quadrangulation.h"
 #include "morsel/tools/report/field_document.h"
 
 namespace morsel::tools {

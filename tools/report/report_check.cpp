@@ -5,7 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/file_extension.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_reader.h"
 #include "morsel/tools/report/report_writer.h"

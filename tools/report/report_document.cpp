@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "morsel/tools/report/json_reader.h"
+#include "morsel/tools/formats/json_reader.h"
 
 namespace morsel::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 

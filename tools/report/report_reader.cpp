@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "morsel/core/exhaustion.h"
-#include "morsel/tools/report/json_view.h"
+#include "morsel/tools/formats/json_view.h"
 
 namespace morsel::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/report/report_document.h"
 
 namespace morsel::tools {

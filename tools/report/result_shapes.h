@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "morsel/tools/report/json_view.h"
+#include "morsel/tools/formats/json_view.h"
 
 namespace morsel::tools {
 

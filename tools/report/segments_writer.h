@@ -2,7 +2,7 @@
 /// The JSON table of a segmentation ("morsel.segments/1", see segments.schema.json).
 
 #include "morsel/tools/report/field_document.h"
-#include "morsel/tools/segmentation/made_segments.h"
+#include "morsel/tools/study/made_segments.h"
 
 namespace morsel::tools {
 

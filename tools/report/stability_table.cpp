@@ -4,7 +4,7 @@
 
 #include "morsel/core/parameters.h"
 #include "morsel/tools/report/comparison_table.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools {
 namespace {

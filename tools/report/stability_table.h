@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "morsel/tools/stability/stability.h"
+#include "morsel/tools/study/stability.h"
 
 namespace morsel::tools {
 

@@ -5,9 +5,9 @@
 #include <ostream>
 
 #include "morsel/core/mesh_io.h"
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/report/report_writer.h"
-#include "morsel/tools/stability/stability.h"
+#include "morsel/tools/study/stability.h"
 
 namespace morsel::tools {
 

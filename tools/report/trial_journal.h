@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "morsel/tools/report/journal.h"
-#include "morsel/tools/stability/stability.h"
+#include "morsel/tools/formats/journal.h"
+#include "morsel/tools/study/stability.h"
 
 namespace morsel::tools {
 

@@ -1,6 +1,6 @@
 #include "morsel/tools/reproduce/document.h"
 
-#include "morsel/tools/report/command_line.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/reproduce/table.h"

@@ -2,7 +2,7 @@
 /// The numbers of a reproduction as JSON: "morsel.reproduction/1", see tools/report/reproduction.schema.json;
 /// and what its files come from.
 
-#include "morsel/tools/report/json_stream.h"
+#include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/reproduce/reproduction.h"
 

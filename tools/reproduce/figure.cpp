@@ -7,11 +7,11 @@
 
 #include "morsel/core/file_writer.h"
 #include "morsel/core/parameters.h"
-#include "morsel/tools/drawing/png_comment.h"
-#include "morsel/tools/hierarchy/hierarchy.h"
+#include "morsel/tools/formats/png_comment.h"
+#include "morsel/tools/study/hierarchy.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/sheet.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/reproduce/region.h"
 
 namespace morsel::tools::reproduce {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "morsel/core/parameters.h"
-#include "morsel/tools/report/text_table.h"
+#include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools::reproduce {
 namespace {

@@ -1,19 +1,16 @@
 #include "morsel/tools/reproduce/meshes.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <system_error>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
+#include "morsel/core/mesh_io.h"
 
 namespace morsel::tools::reproduce {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::array<std::string_view, 4> kExtensions = {".off", ".obj", ".ply", ".stl"};
 
 std::string lower(std::string text) {
   for (char& c : text)
@@ -40,8 +37,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
   std::error_code error;
   fs::directory_iterator entries(folder, error);
   for (; !error && entries != fs::directory_iterator(); entries.increment(error))
-    if (std::ranges::find(kExtensions, core::file_extension(entries->path())) != kExtensions.end())
-      meshes.push_back(entries->path());
+    if (core::has_mesh_extension(entries->path())) meshes.push_back(entries->path());
   if (error) throw core::BadInput("cannot read the folder " + folder.string() + ": " + error.message());
   std::ranges::sort(meshes);
   return meshes;
@@ -101,8 +97,8 @@ std::vector<MeshFile> find_meshes(const fs::path& data, const fs::path& samples)
         std::string(model.sample) + " in " + samples.string() + ")");
   }
   if (!data.empty() && found == 0)
-    throw core::BadInput("no mesh in " + data.string() + " has " + listed(given, " or ") +
-                         " in its name (.off, .obj, .ply or .stl)");
+    throw core::BadInput("no mesh in " + data.string() + " has " + listed(given, " or ") + " in its name (" +
+                         core::mesh_extensions() + ")");
   if (!missing.empty())
     throw core::BadInput(
         "there is no mesh for " + listed(missing) +

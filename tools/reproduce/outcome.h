@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "morsel/core/progress.h"
-#include "morsel/tools/comparison/comparison.h"
-#include "morsel/tools/comparison/made_field.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/made_field.h"
 #include "morsel/tools/render/picture.h"
 #include "morsel/tools/reproduce/meshes.h"
 #include "morsel/tools/reproduce/recipe.h"

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "morsel/tools/html/markup.h"
-#include "morsel/tools/report/base64.h"
-#include "morsel/tools/report/command_line.h"
-#include "morsel/tools/report/text_table.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/markup.h"
+#include "morsel/tools/formats/base64.h"
+#include "morsel/tools/formats/command_line.h"
+#include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/formats/version.h"
 #include "morsel/tools/reproduce/document.h"
 
 namespace morsel::tools::reproduce {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "morsel/core/parameters.h"
-#include "morsel/tools/report/csv.h"
+#include "morsel/tools/formats/csv.h"
 #include "morsel/tools/report/outcome_sections.h"
-#include "morsel/tools/report/text_table.h"
-#include "morsel/tools/report/version.h"
+#include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/formats/version.h"
 
 namespace morsel::tools::reproduce {
 

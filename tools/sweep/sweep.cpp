@@ -12,8 +12,8 @@
 #include "morsel/core/rethrow.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
-#include "morsel/tools/comparison/chain.h"
-#include "morsel/tools/comparison/comparison.h"
+#include "morsel/tools/study/chain.h"
+#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {

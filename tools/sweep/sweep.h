@@ -7,8 +7,8 @@
 
 #include "morsel/core/mesh_io.h"
 #include "morsel/core/progress.h"
-#include "morsel/tools/report/json_stream.h"
-#include "morsel/tools/sweep/grid.h"
+#include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/study/grid.h"
 
 namespace morsel::tools {
 

@@ -1,0 +1,126 @@
+#include "morsel/tools/study/chain.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "morsel/persistence/cancellation.h"
+#include "morsel/persistence/pairing.h"
+
+namespace morsel::tools {
+namespace {
+
+bool is_same(const core::ScalarField& a, const core::ScalarField& b) {
+  return std::ranges::equal(a.values(), b.values()) && std::ranges::equal(a.ranks(), b.ranks());
+}
+
+/// Watches one step: shows its fields to the tracker and to the search for the wanted number.
+class StepWatcher {
+ public:
+  /// Either may be null.
+  StepWatcher(morse::CriticalPointTracker* tracker, TargetSearch* search)
+      : tracker_(tracker), search_(search) {}
+
+  bool wanted() const { return tracker_ != nullptr || search_ != nullptr; }
+
+  bool iteration(int number, const core::ScalarField& field) {
+    if (number <= last_) restart();
+    last_ = number;
+    return pass(field);
+  }
+
+  /// The step's result, unless its last iteration made it.
+  void finish(const core::ScalarField& field) {
+    if (!wanted() || ended_) return;
+    const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->reached();
+    const bool nothing_new = passed_ || search_ == nullptr;
+    if (!(nothing_new && is_same(last, field))) pass(field);
+  }
+
+ private:
+  void restart() {
+    ended_ = false;
+    passed_ = false;
+    if (tracker_ != nullptr && at_start_)
+      *tracker_ = *at_start_;
+    else if (tracker_ != nullptr)
+      at_start_ = *tracker_;
+    if (search_ != nullptr) search_->restart();
+  }
+
+  bool pass(const core::ScalarField& field) {
+    const int before = search_ == nullptr ? 0 : search_->iterations();
+    const bool go_on = search_ == nullptr || search_->offer(field);
+    const bool counts = search_ == nullptr || search_->iterations() > before;
+    if (tracker_ != nullptr && counts) tracker_->advance(field);
+    passed_ |= counts;
+    ended_ = !go_on;
+    return go_on;
+  }
+
+  morse::CriticalPointTracker* tracker_;
+  TargetSearch* search_;
+  std::optional<morse::CriticalPointTracker> at_start_;  // once the first iteration is seen
+  int last_ = std::numeric_limits<int>::max();           // the number told; a first one begins
+  bool passed_ = false;                                  // a field that counts
+  bool ended_ = false;
+};
+
+}  // namespace
+
+core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFunction& function,
+                                   const core::Progress& progress) {
+  core::MethodContext context;
+  context.progress = progress;
+  context.morse_function = [&, progress](const core::TriangleMesh& mesh) {
+    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
+  };
+  context.persistent_extrema = [&, progress](const core::ScalarField& field, std::size_t count) {
+    return persistence::persistent_extrema(persistence::pair_extrema(field, progress), count);
+  };
+  context.cancel = [&, progress](const core::ScalarField& field, double threshold) {
+    return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}, progress).field;
+  };
+  return context;
+}
+
+ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
+                         const NamedFunction& function, const core::ScalarField& field,
+                         const ChainOptions& options, const core::Progress& progress) {
+  core::MethodContext context = method_context(loaded, function, progress);
+  context.count_iterations = options.count_iterations;
+  ChainOutcome outcome{field, {}, {}};
+  for (const MethodStep& step : chain.steps) {
+    const bool is_last = &step == &chain.steps.back();
+    const bool told = is_last && options.on_iteration;
+    std::optional<TargetSearch> search;
+    if (options.target && is_last)
+      search.emplace(outcome.field, *options.target, step.role != MethodRole::cancels, progress);
+    StepWatcher watcher(options.tracker, search ? &*search : nullptr);
+    context.on_iteration = {};
+    if (watcher.wanted() || told)
+      context.on_iteration = [&](int number, const core::ScalarField& passed) {
+        const bool go_on = !watcher.wanted() || watcher.iteration(number, passed);
+        return !(told && !options.on_iteration(number, passed)) && go_on;
+      };
+    if (told) options.on_iteration(0, outcome.field);
+    core::MethodResult result = step.method->apply(outcome.field, context);
+    watcher.finish(result.field);
+    outcome.steps.push_back(
+        {step.name, std::move(result.parameters), std::move(result.details), std::move(result.iterations)});
+    if (!search) {
+      outcome.field = std::move(result.field);
+      continue;
+    }
+    TargetSearch::Result found = search->finish();
+    if (options.tracker != nullptr) {
+      options.tracker->advance(found.smoothed);
+      options.tracker->advance(found.field);
+    }
+    outcome.field = std::move(found.field);
+    outcome.target = std::move(found.outcome);
+  }
+  return outcome;
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,52 @@
+#pragma once
+/// Applying a chain of methods, watched: what each step told, where critical points came from, and a wanted
+/// number.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/core/method.h"
+#include "morsel/morse/tracking.h"
+#include "morsel/tools/study/target.h"
+#include "morsel/tools/study/registry.h"
+
+namespace morsel::tools {
+
+/// What methods need besides the field, from the other modules. Refers to all of it.
+core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFunction& function,
+                                   const core::Progress& progress = {});
+
+/// One step of a chain, as it came out on this mesh.
+struct StepOutcome {
+  std::string name;
+  core::Parameters parameters;
+  core::Parameters details;
+  std::vector<core::IterationRecord> iterations;  ///< if they were counted
+};
+
+struct ChainOptions {
+  std::optional<std::size_t> target =
+      {};                         ///< critical points to end with; the last step is what is adapted to it
+  bool count_iterations = false;  ///< of iterative methods
+  morse::CriticalPointTracker* tracker =
+      nullptr;  ///< made for the input; told every field that is passed through
+  /// As core::MethodContext's, of the last step alone; told its input first, as iteration 0.
+  std::function<bool(int iteration, const core::ScalarField& field)> on_iteration = {};
+};
+
+struct ChainOutcome {
+  core::ScalarField field;
+  std::vector<StepOutcome> steps;
+  std::optional<TargetOutcome> target;
+};
+
+/// The steps one after the other. Throws what functions and methods throw.
+ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
+                         const NamedFunction& function, const core::ScalarField& field,
+                         const ChainOptions& options = {}, const core::Progress& progress = {});
+
+}  // namespace morsel::tools

@@ -1,0 +1,114 @@
+#pragma once
+/// The main job: several methods on one field of one mesh, each measured by the same code.
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/core/method.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/mscomplex/complex.h"
+#include "morsel/mscomplex/segmentation.h"
+#include "morsel/persistence/pairing.h"
+#include "morsel/tools/study/chain.h"
+#include "morsel/tools/study/matching.h"
+#include "morsel/tools/study/registry.h"
+#include "morsel/tools/formats/sha256.h"
+
+namespace morsel::tools {
+
+/// What is to be compared, in the words of the command line.
+struct ComparisonRequest {
+  std::string field = "mean-curvature";
+  std::vector<std::string> methods = {"conventional", "salient", "tps"};
+  std::optional<std::size_t> target;  ///< every method is to end with so many critical points
+  bool snap = false;                  ///< critical points are reported where they came from
+};
+
+/// Seconds by step, in the order in which the steps ran.
+using Timings = std::vector<std::pair<std::string, double>>;
+
+/// Everything that is measured on one field. It never knows which method made the field.
+struct Measurement {
+  morse::CriticalPoints critical_points;
+  persistence::Diagram diagram;
+  mscomplex::MorseSmaleComplex complex;
+  mscomplex::Segmentation segmentation;
+};
+
+/// A method's field and its measurement.
+struct MethodOutcome {
+  std::string specification;  ///< as given
+  std::string name;
+  std::vector<StepOutcome> steps;
+  core::ScalarField field;
+  std::optional<TargetOutcome> target;
+  Measurement measurement;
+  /// For each critical point, the vertex of the one of the input field that it came from; kNone if the way
+  /// was lost.
+  std::vector<core::Index> origins;
+  /// For each critical point, the vertex at whose position it is reported: its own, or its origin's to snap.
+  std::vector<core::Index> places;
+  Matching compared_to_first;
+  Timings timings;
+};
+
+/// The field before any method.
+struct FieldOutcome {
+  std::string name;
+  core::ScalarField field;
+  core::Parameters parameters;  ///< KEY_sha256 beside a KEY that names a file
+  double seconds = 0;
+  std::vector<HashedFile> files = {};  ///< that it was read from, besides the mesh's
+};
+
+/// Takes a Morse function on a loaded mesh.
+FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
+                            const core::Progress& progress = {});
+
+/// Critical points, diagram, complex and segments of one field; each step's seconds are appended to
+/// `timings`.
+Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress = {});
+
+/// Receives a comparison as it is made, so that no more than one method's results need be in memory.
+class ComparisonSink {
+ public:
+  virtual ~ComparisonSink() = default;
+  virtual void begin_method(const std::string& name) { static_cast<void>(name); }
+  virtual void field(const FieldOutcome& outcome) = 0;
+  virtual void method(const MethodOutcome& outcome) = 0;
+};
+
+/// A comparison whose names have been looked up.
+struct PreparedComparison {
+  NamedFunction function;
+  std::vector<MethodChain> chains;
+  std::optional<std::size_t> target;
+  bool snap = false;
+};
+
+/// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
+PreparedComparison prepare(const ComparisonRequest& request);
+
+/// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods
+/// and sinks throw.
+void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
+                    const std::vector<ComparisonSink*>& sinks, const core::Progress& progress = {});
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace morsel::tools

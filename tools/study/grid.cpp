@@ -1,0 +1,154 @@
+#include "morsel/tools/study/grid.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/tools/study/registry.h"
+
+namespace morsel::tools {
+namespace {
+
+using core::InvalidArgument;
+
+/// Where a varied key stands: in the field (0) or in a step of the method (from 1 on).
+struct Place {
+  std::size_t link = 0;
+  std::string key;
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+/// The field followed by the steps, and the keys of each.
+class Links {
+ public:
+  explicit Links(const SweepRequest& request) {
+    links_ = {core::parse_specification(request.field, "--field")};
+    for (core::Specification& step : core::parse_chain(request.method, "--method"))
+      links_.push_back(std::move(step));
+    keys_ = {keys_of_function(links_.front().name)};
+    for (std::size_t i = 1; i < links_.size(); ++i) keys_.push_back(keys_of_method(links_[i].name));
+  }
+
+  Place place(const std::string& key) const {
+    const std::size_t dot = key.find('.');
+    Place found = dot == std::string::npos ? place_of(key)
+                                           : Place{link_of(key, key.substr(0, dot)), key.substr(dot + 1)};
+    if (std::ranges::count(keys_[found.link], found.key) == 0)
+      throw refused(key, links_[found.link].name + " has no key \"" + found.key +
+                             "\"; it has: " + listed(keys_[found.link]));
+    for (const auto& [given, value] : links_[found.link].given)
+      if (given == found.key)
+        throw refused(key, "it is given as " + value + " in \"" + to_string(links_[found.link]) +
+                               "\": leave it out there");
+    return found;
+  }
+
+  Combination combination(const std::vector<Place>& places, const std::vector<Variation>& variations,
+                          std::vector<std::size_t> choices) const {
+    std::vector<core::Specification> links = links_;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      links[places[i].link].given.emplace_back(places[i].key, variations[i].values[choices[i]]);
+    core::Specification field = std::move(links.front());
+    links.erase(links.begin());
+    return {std::move(choices), std::move(field), std::move(links)};
+  }
+
+ private:
+  static InvalidArgument refused(const std::string& key, const std::string& why) {
+    return InvalidArgument("--vary cannot vary \"" + key + "\": " + why);
+  }
+
+  static std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text.empty() ? "none" : text;
+  }
+
+  /// As a key's prefix names it: its name where that is its own, else its number.
+  std::string prefix(std::size_t link) const {
+    if (link == 0) return "field";
+    const bool alone = std::count_if(links_.begin() + 1, links_.end(),
+                                     [&](const auto& other) { return other.name == links_[link].name; }) == 1;
+    return alone ? links_[link].name : std::to_string(link);
+  }
+
+  Place place_of(const std::string& key) const {
+    std::vector<std::string> ways;
+    Place found;
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      if (std::ranges::count(keys_[i], key) > 0) {
+        ways.push_back(prefix(i) + "." + key);
+        found = {i, key};
+      }
+    if (ways.size() == 1) return found;
+    if (ways.size() > 1) throw refused(key, "it could be any of " + listed(ways) + "; write one of these");
+    std::string known;
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      known += (i == 0 ? "" : "; ") + links_[i].name + ": " + listed(keys_[i]);
+    throw refused(key, "neither the field nor the method has it; there are " + known);
+  }
+
+  std::size_t link_of(const std::string& key, const std::string& name) const {
+    if (name == "field") return 0;
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (error == std::errc() && end == name.data() + name.size()) {
+      if (number < 1 || number >= links_.size())
+        throw refused(key, "there is no step " + name + ": the method has " +
+                               std::to_string(links_.size() - 1) + (links_.size() == 2 ? " step" : " steps"));
+      return number;
+    }
+    std::vector<std::string> ways;
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      if (links_[i].name == name) {
+        ways.push_back(prefix(i) + key.substr(name.size()));
+        found = i;
+      }
+    if (ways.size() == 1) return found;
+    if (ways.empty()) throw refused(key, "neither the field nor a step of the method is called " + name);
+    throw refused(key, "it could be any of " + listed(ways) + "; write one of these");
+  }
+
+  std::vector<core::Specification> links_;
+  std::vector<std::vector<std::string>> keys_;
+};
+
+}  // namespace
+
+PreparedSweep prepare(const SweepRequest& request) {
+  if (request.vary.empty())
+    throw InvalidArgument(
+        "nothing varies: say what, as in --vary iterations=1..20 or --vary sigma=4eps,8eps,16eps");
+  const Links links(request);
+  PreparedSweep prepared;
+  std::vector<Place> places;
+  std::size_t count = 1;
+  for (const std::string& text : request.vary) {
+    prepared.variations.push_back(parse_variation(text));
+    const Variation& variation = prepared.variations.back();
+    Place place = links.place(variation.key);
+    if (std::ranges::count(places, place) > 0)
+      throw InvalidArgument("--vary varies \"" + variation.key + "\" twice: give all its values at once");
+    places.push_back(std::move(place));
+    count = std::min(count * variation.values.size(), kMostCombinations + 1);
+  }
+  if (count > kMostCombinations)
+    throw InvalidArgument("--vary makes more than " + std::to_string(kMostCombinations) +
+                          " combinations; sweep in parts");
+  std::vector<std::size_t> choices(places.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    prepared.combinations.push_back(links.combination(places, prepared.variations, choices));
+    make_function(to_string(prepared.combinations.back().field));
+    make_method(to_string(prepared.combinations.back().steps));
+    for (std::size_t k = places.size(); k-- > 0;) {
+      if (++choices[k] < prepared.variations[k].values.size()) break;
+      choices[k] = 0;
+    }
+  }
+  return prepared;
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,88 @@
+#pragma once
+/// A level of a hierarchy: a field's critical points, complex and cells, and their links to the levels beside
+/// it.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morsel/core/scalar_field.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/mscomplex/complex.h"
+#include "morsel/mscomplex/overlap.h"
+#include "morsel/mscomplex/segmentation.h"
+#include "morsel/tools/study/comparison.h"
+
+namespace morsel::tools {
+
+/// How far cancellation went to a level by persistence.
+struct CancelledLevel {
+  core::Index cancellations = 0;
+  double largest = 0;                     ///< the largest persistence among them
+  std::optional<double> threshold = {};   ///< that was asked for, in the field's unit
+  std::optional<std::size_t> count = {};  ///< of critical cells that was asked for
+};
+
+/// What makes a level.
+struct LevelName {
+  std::string asked;  ///< "5", "0.1%", "150"
+  std::optional<int> iteration = {};
+  std::optional<CancelledLevel> cancelled = {};
+  std::string note = {};  ///< why it is not what was asked for; empty if it is
+};
+
+/// The segments of a level: by maximum, by minimum, by both.
+enum class CellKind : std::uint8_t { descending, ascending, morse_smale };
+inline constexpr std::array kCellKinds = {CellKind::descending, CellKind::ascending, CellKind::morse_smale};
+/// "descending", "ascending", "morse_smale".
+std::string_view to_string(CellKind kind);
+
+/// The cells of one kind, by label, with the cells of the level before (finer) and after (coarser) that they
+/// share the largest area with; of equally large ones that of smallest label. kNone where there is no such
+/// level, and for the cell of a cap that no triangle belongs to.
+struct CellLinks {
+  std::vector<double> areas;
+  std::vector<mscomplex::Overlap> parents;
+  std::vector<mscomplex::Overlap> merges_into;
+};
+
+/// How a critical point came to be.
+enum class PointStatus : std::uint8_t {
+  first,  ///< of the finest level: nothing is known of where it came from
+  kept,   ///< its parent is at the same vertex
+  moved,  ///< its parent is at another one
+  fresh   ///< it has no parent: it is new
+};
+/// "first", "kept", "moved", "new".
+std::string_view to_string(PointStatus status);
+
+struct Level {
+  std::size_t place = 0;  ///< 0 is the finest
+  LevelName name;
+  std::shared_ptr<const core::ScalarField> field;
+  morse::CriticalPoints points;      ///< the nodes of the complex but for caps, by vertex
+  std::vector<double> persistence;   ///< per point; kInfinite where it never dies
+  std::vector<core::Index> parents;  ///< per point, the vertex of a point of the level before; kNone
+  mscomplex::MorseSmaleComplex complex;
+  mscomplex::Segmentation segmentation;
+  std::array<CellLinks, kCellKinds.size()> links;
+  Timings timings;
+
+  const mscomplex::SegmentLabels& cells(CellKind kind) const;
+  const CellLinks& cell_links(CellKind kind) const { return links[static_cast<std::size_t>(kind)]; }
+  /// Labels are below this; those that no triangle carries are counted here, and in cells().count they are
+  /// not.
+  core::Index label_count(CellKind kind) const;
+  /// The labels that triangles carry, ascending; as many as cells().count. O(n).
+  std::vector<core::Index> labels(CellKind kind) const;
+
+  PointStatus status(std::size_t point) const;
+  std::size_t count(PointStatus status) const;
+};
+
+}  // namespace morsel::tools

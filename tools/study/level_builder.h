@@ -1,0 +1,29 @@
+#pragma once
+/// From what is known of each level to the levels with their complexes and links.
+
+#include <functional>
+#include <vector>
+
+#include "morsel/core/progress.h"
+#include "morsel/tools/study/level.h"
+
+namespace morsel::tools {
+
+/// A level before its complex is made.
+struct LevelSeed {
+  LevelName name;
+  std::shared_ptr<const core::ScalarField> field;
+  morse::CriticalPoints points;
+  std::vector<double> persistence;   ///< per point
+  std::vector<core::Index> parents;  ///< per point
+  std::function<mscomplex::DiscreteGradient()>
+      gradient;  ///< of the level, on the field's mesh; called when it is its turn
+};
+
+/// Makes the levels, the finest first, and links the cells of each with those of the levels beside it. Each
+/// is handed to `take` as soon as its links are complete, so that no more than two complexes stand in memory.
+/// Parallel, the same for every number of threads but for timings.
+void build_levels(std::vector<LevelSeed> seeds, const std::function<void(const Level&)>& take,
+                  const core::Progress& progress = {});
+
+}  // namespace morsel::tools

@@ -1,0 +1,21 @@
+#include "morsel/tools/study/made_field.h"
+
+#include <utility>
+
+namespace morsel::tools {
+
+FieldRecipe prepare(const FieldRequest& request) {
+  check_target(request.target);
+  return {make_function(request.field), make_method(request.method), request.target};
+}
+
+MadeField make_field(const FieldRecipe& recipe, const core::LoadedMesh& loaded,
+                     const core::Progress& progress) {
+  FieldOutcome input = evaluate_field(loaded, recipe.function, progress);
+  const Stopwatch watch;
+  ChainOutcome outcome =
+      apply_chain(recipe.chain, loaded, recipe.function, input.field, {.target = recipe.target}, progress);
+  return {std::move(input), std::move(outcome), watch.seconds()};
+}
+
+}  // namespace morsel::tools

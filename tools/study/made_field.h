@@ -1,0 +1,44 @@
+#pragma once
+/// One field of one mesh, made as the command line names it: what everything that is built on a single field
+/// begins with.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/study/comparison.h"
+
+namespace morsel::tools {
+
+/// In the words of the command line.
+struct FieldRequest {
+  std::string field = "mean-curvature";
+  std::string method = "conventional";  ///< or a chain
+  std::optional<std::size_t> target;    ///< critical points that the method is to end with
+};
+
+/// A request whose names have been looked up.
+struct FieldRecipe {
+  NamedFunction function;
+  MethodChain chain;
+  std::optional<std::size_t> target;
+};
+
+/// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
+FieldRecipe prepare(const FieldRequest& request);
+
+/// The field before the method and after it.
+struct MadeField {
+  FieldOutcome input;
+  ChainOutcome outcome;
+  double method_seconds = 0;
+
+  const core::ScalarField& field() const { return outcome.field; }
+};
+
+/// Takes the function and applies the chain. Throws what functions and methods throw.
+MadeField make_field(const FieldRecipe& recipe, const core::LoadedMesh& loaded,
+                     const core::Progress& progress = {});
+
+}  // namespace morsel::tools

@@ -1,0 +1,329 @@
+#include "morsel/tools/study/stability.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <exception>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/core/length.h"
+#include "morsel/core/parallel.h"
+#include "morsel/core/rethrow.h"
+#include "morsel/tools/study/point_matching.h"
+#include "morsel/tools/study/random_stream.h"
+
+namespace morsel::tools {
+namespace {
+
+using core::Index;
+using core::Point;
+using morse::CriticalType;
+
+constexpr std::array kTypes = {CriticalType::minimum, CriticalType::saddle, CriticalType::maximum};
+
+/// The compared points of a field by type.
+using PointsByType = std::array<std::vector<Point>, kTypes.size()>;
+
+bool is_compared(CriticalType type, PointChoice choice) {
+  return choice == PointChoice::all || type != CriticalType::saddle;
+}
+
+PointsByType by_type(const morse::CriticalPoints& points, PointChoice choice, std::span<const Point> places) {
+  PointsByType result;
+  for (std::size_t k = 0; k < kTypes.size(); ++k)
+    for (const morse::CriticalPoint& point : points.points)
+      if (point.type == kTypes[k] && is_compared(kTypes[k], choice))
+        result[k].push_back(places[point.vertex]);
+  return result;
+}
+
+/// The clean points of one outcome, to be matched with others.
+class CleanPoints {
+ public:
+  CleanPoints(const PointsByType& points, double radius)
+      : matchers_{PointMatcher(points[0], radius), PointMatcher(points[1], radius),
+                  PointMatcher(points[2], radius)} {}
+
+  Agreement match(const PointsByType& found) const {
+    Agreement agreement;
+    for (std::size_t k = 0; k < kTypes.size(); ++k) {
+      agreement.reference += matchers_[k].size();
+      agreement.found += found[k].size();
+      for (const PointPair& pair : matchers_[k].match(found[k])) {
+        ++agreement.matched;
+        agreement.distances += pair.distance;
+      }
+    }
+    return agreement;
+  }
+
+ private:
+  std::array<PointMatcher, kTypes.size()> matchers_;
+};
+
+/// How many of as many points of each type as were found match, on average over random vertices of their
+/// surface.
+double matches_by_chance(const CleanPoints& clean, const PointsByType& found, std::span<const Point> places,
+                         RandomStream random) {
+  std::vector<Index> vertices(places.size());
+  std::iota(vertices.begin(), vertices.end(), Index{0});
+  double sum = 0;
+  for (std::size_t placement = 0; placement < kPlacements; ++placement) {
+    PointsByType placed;
+    std::size_t used = 0;
+    for (std::size_t k = 0; k < kTypes.size(); ++k)
+      for (std::size_t i = 0; i < found[k].size(); ++i, ++used) {
+        std::swap(vertices[used], vertices[used + random.below(vertices.size() - used)]);
+        placed[k].push_back(places[vertices[used]]);
+      }
+    sum += static_cast<double>(clean.match(placed).matched);
+  }
+  return sum / kPlacements;
+}
+
+double ratio(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The trials of one run, all perturbations' in a row.
+class Trials {
+ public:
+  Trials(const core::LoadedMesh& clean, const PreparedStability& prepared, StabilityResult& result,
+         std::vector<CleanPoints> points, TrialStore* store)
+      : clean_(clean), prepared_(prepared), result_(result), points_(std::move(points)), store_(store) {
+    for (std::size_t p = 0; p < prepared.perturbations.size(); ++p)
+      for (std::size_t t = 0; t < prepared.trials_of(prepared.perturbations[p]); ++t)
+        trials_.emplace_back(p, t);
+    for (StabilityOutcome& outcome : result.outcomes)
+      for (const Perturbation& perturbation : prepared.perturbations)
+        outcome.perturbations.push_back({perturbation, std::vector<Trial>(prepared.trials_of(perturbation))});
+  }
+
+  /// Of several errors the first trial's is thrown: trials before one that failed are always run.
+  void run(const core::Progress& progress) {
+    const std::thread::id caller = std::this_thread::get_id();
+    // What runs in a trial stops with the others, but only the caller's thread may report.
+    const core::Progress silent([&](std::string_view, double) { progress.throw_if_cancelled(); });
+    std::vector<std::exception_ptr> errors(trials_.size());
+    std::atomic<std::size_t> first_error = trials_.size();
+    std::atomic<std::size_t> done = 0;
+    progress.update("trials", 0);
+    core::parallel_for(0, trials_.size(), 1, [&](std::size_t i, std::size_t) {
+      if (i > first_error) return;
+      try {
+        run_trial(trials_[i].first, trials_[i].second, silent);
+      } catch (...) {
+        errors[i] = std::current_exception();
+        for (std::size_t seen = first_error; i < seen && !first_error.compare_exchange_weak(seen, i);) {
+        }
+      }
+      const std::size_t count = ++done;
+      if (std::this_thread::get_id() == caller && first_error == trials_.size())
+        progress.update("trials", ratio(count, trials_.size()));
+    });
+    if (first_error < trials_.size()) std::rethrow_exception(errors[first_error]);
+  }
+
+ private:
+  void run_trial(std::size_t p, std::size_t t, const core::Progress& progress) {
+    const Perturbation& perturbation = prepared_.perturbations[p];
+    if (const std::optional<std::vector<Trial>> known =
+            store_ == nullptr ? std::nullopt : store_->find(perturbation, t)) {
+      take(p, t, *known);
+      return;
+    }
+    std::vector<Trial> trials(result_.outcomes.size());
+    std::string where = to_string(perturbation);
+    if (perturbation.is_random()) where += ", trial " + std::to_string(t + 1);
+    try {
+      progress.throw_if_cancelled();
+      const PerturbedMesh mesh = perturb(clean_, perturbation, prepared_.seed, t);
+      for (std::size_t f = 0; f < prepared_.functions.size(); ++f) {
+        const NamedFunction& function = prepared_.functions[f];
+        where += ", " + function.specification;
+        const core::ScalarField field = evaluate_field(mesh.loaded, function, progress).field;
+        for (std::size_t i = 0; i < result_.outcomes.size(); ++i) {
+          const StabilityOutcome& outcome = result_.outcomes[i];
+          if (outcome.field != f) continue;
+          const MethodChain& chain = prepared_.chains[outcome.method];
+          const std::size_t length = where.size();
+          where += ", " + chain.specification;
+          trials[i] = measured(mesh, function, field, outcome, points_[i], perturbation, t, progress);
+          where.resize(length);
+        }
+        where.resize(where.size() - function.specification.size() - 2);
+      }
+    } catch (const core::Cancelled&) {
+      throw;
+    } catch (const core::Error& error) {
+      core::rethrow_at(error, where);
+    }
+    take(p, t, trials);
+    if (store_ != nullptr) store_->add(perturbation, t, trials);
+  }
+
+  void take(std::size_t p, std::size_t t, const std::vector<Trial>& trials) {
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      result_.outcomes[i].perturbations[p].trials[t] = trials[i];
+  }
+
+  Trial measured(const PerturbedMesh& mesh, const NamedFunction& function, const core::ScalarField& field,
+                 const StabilityOutcome& outcome, const CleanPoints& clean, const Perturbation& perturbation,
+                 std::size_t t, const core::Progress& progress) const {
+    const ChainOutcome made = apply_chain(prepared_.chains[outcome.method], mesh.loaded, function, field,
+                                          {.target = outcome.target}, progress);
+    Trial trial;
+    trial.points = morse::classify(made.field, progress);
+    const PointsByType found = by_type(trial.points, prepared_.points, mesh.places);
+    trial.points.points = {};
+    trial.agreement = clean.match(found);
+    const RandomStream random(
+        prepared_.seed, RandomUse::placement,
+        {std::uint64_t(perturbation.kind), std::bit_cast<std::uint64_t>(perturbation.amount), t});
+    trial.chance = 2 * matches_by_chance(clean, found, mesh.places, random) /
+                   static_cast<double>(trial.agreement.reference + trial.agreement.found);
+    return trial;
+  }
+
+  const core::LoadedMesh& clean_;
+  const PreparedStability& prepared_;
+  StabilityResult& result_;
+  std::vector<CleanPoints> points_;  // by outcome
+  TrialStore* store_;                // or null
+  std::vector<std::pair<std::size_t, std::size_t>> trials_;
+};
+
+/// All outcomes on the clean surface, and their points to be matched with.
+std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const PreparedStability& prepared,
+                                   StabilityResult& result, const core::Progress& progress) {
+  for (const NamedFunction& function : prepared.functions)
+    result.fields.push_back(evaluate_field(clean, function, progress));
+  const core::ScalarField reference_input =
+      evaluate_field(clean, prepared.reference_function, progress).field;
+  std::vector<CleanPoints> points;
+  for (const std::optional<std::size_t>& target : prepared.targets)
+    for (std::size_t f = 0; f < prepared.functions.size(); ++f)
+      for (std::size_t m = 0; m < prepared.chains.size(); ++m) {
+        ChainOutcome made = apply_chain(prepared.chains[m], clean, prepared.functions[f],
+                                        result.fields[f].field, {.target = target}, progress);
+        morse::CriticalPoints critical = morse::classify(made.field, progress);
+        const PointsByType compared = by_type(critical, prepared.points, clean.mesh.positions());
+        const morse::CriticalPoints reference =
+            morse::classify(apply_chain(prepared.reference, clean, prepared.reference_function,
+                                        reference_input, {.target = critical.total()}, progress)
+                                .field);
+        const CleanPoints of_reference(by_type(reference, prepared.points, clean.mesh.positions()),
+                                       result.radius);
+        points.emplace_back(compared, result.radius);
+        const Agreement agreement = of_reference.match(compared);
+        const double chance = matches_by_chance(of_reference, compared, clean.mesh.positions(),
+                                                {prepared.seed, RandomUse::placement, {}}) /
+                              static_cast<double>(agreement.found);
+        result.outcomes.push_back(
+            {f, m, target, std::move(made), std::move(critical), agreement, chance, {}});
+      }
+  return points;
+}
+
+MatchingRadius parse_radius(const std::string& text) {
+  constexpr const char* kWhat = "--radius";
+  if (!text.ends_with('%')) return {core::parse_length(text, kWhat), {}};
+  return {{}, core::parse_number(text.substr(0, text.size() - 1), kWhat) / 100};
+}
+
+}  // namespace
+
+std::string_view to_string(PointChoice points) { return points == PointChoice::all ? "all" : "extrema"; }
+
+double Agreement::recall() const { return ratio(matched, reference); }
+double Agreement::precision() const { return ratio(matched, found); }
+double Agreement::f_score() const { return ratio(2 * matched, reference + found); }
+std::optional<double> Agreement::drift() const {
+  if (matched == 0) return {};
+  return distances / static_cast<double>(matched);
+}
+
+Estimate PerturbationOutcome::recall() const {
+  return over_trials([](const Trial& t) { return std::optional(t.agreement.recall()); });
+}
+Estimate PerturbationOutcome::precision() const {
+  return over_trials([](const Trial& t) { return std::optional(t.agreement.precision()); });
+}
+Estimate PerturbationOutcome::f_score() const {
+  return over_trials([](const Trial& t) { return std::optional(t.agreement.f_score()); });
+}
+Estimate PerturbationOutcome::chance() const {
+  return over_trials([](const Trial& t) { return std::optional(t.chance); });
+}
+Estimate PerturbationOutcome::drift() const {
+  return over_trials([](const Trial& t) { return t.agreement.drift(); });
+}
+Estimate PerturbationOutcome::found() const {
+  return over_trials([](const Trial& t) { return std::optional(static_cast<double>(t.agreement.found)); });
+}
+
+StabilityRequest with_defaults(StabilityRequest request) {
+  if (request.noise.empty() && request.decimate.empty() && request.subdivide.empty())
+    request.noise = {0.05, 0.15, 0.3, 0.5};
+  if (request.reference_field.empty() && !request.fields.empty())
+    request.reference_field = request.fields.front();
+  return request;
+}
+
+PreparedStability prepare(const StabilityRequest& given) {
+  const StabilityRequest request = with_defaults(given);
+  check_target(request.target);
+  if (request.trials < 1) throw core::InvalidArgument("there must be at least one trial");
+  if (request.fields.empty() || request.methods.empty())
+    throw core::InvalidArgument("a field and a method are needed");
+  PreparedStability prepared{{},
+                             {},
+                             {},
+                             {std::nullopt},
+                             request.trials,
+                             request.seed,
+                             parse_radius(request.radius),
+                             request.points,
+                             make_function(request.reference_field),
+                             make_method(request.reference)};
+  const MatchingRadius& radius = prepared.radius;
+  if (!(radius.share.value_or(radius.length.value) >= 0))
+    throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
+  if (request.target) prepared.targets.push_back(request.target);
+  for (const std::string& field : request.fields) prepared.functions.push_back(make_function(field));
+  for (const std::string& method : request.methods) prepared.chains.push_back(make_method(method));
+  for (const double amount : request.noise)
+    prepared.perturbations.push_back({PerturbationKind::noise, amount, request.noise_kind});
+  for (const double amount : request.decimate)
+    prepared.perturbations.push_back({PerturbationKind::decimation, amount, NoiseKind::normal});
+  for (const double amount : request.subdivide)
+    prepared.perturbations.push_back({PerturbationKind::subdivision, amount, NoiseKind::normal});
+  for (const Perturbation& perturbation : prepared.perturbations) check(perturbation);
+  for (const NamedFunction& function : prepared.functions)
+    if (!request.subdivide.empty() && function.name == "vertex-scalar")
+      throw core::InvalidArgument("vertex-scalar has no values for the vertices that --subdivide adds");
+  return prepared;
+}
+
+StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
+                              const core::Progress& progress, TrialStore* store) {
+  StabilityResult result;
+  result.radius = prepared.radius.on(clean.mesh);
+  result.mean_edge_length = core::mean_edge_length(clean.mesh);
+  if (!(result.mean_edge_length > 0))
+    throw core::BadInput("there is no noise in units of the mean edge length: all vertices coincide");
+  const Stopwatch clean_watch;
+  std::vector<CleanPoints> points = run_clean(clean, prepared, result, progress);
+  result.clean_seconds = clean_watch.seconds();
+  const Stopwatch trial_watch;
+  Trials(clean, prepared, result, std::move(points), store).run(progress);
+  result.trial_seconds = trial_watch.seconds();
+  return result;
+}
+
+}  // namespace morsel::tools

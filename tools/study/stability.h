@@ -1,0 +1,168 @@
+#pragma once
+/// How well critical points repeat on surfaces that are nearly the same.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/perturbation.h"
+#include "morsel/tools/study/statistics.h"
+
+namespace morsel::tools {
+
+/// Which critical points are held against each other.
+enum class PointChoice : std::uint8_t { all, extrema };
+/// "all", "extrema".
+std::string_view to_string(PointChoice points);
+
+/// In the words of the command line.
+struct StabilityRequest {
+  std::vector<std::string> fields = {"mean-curvature"};
+  std::vector<std::string> methods = {"conventional", "salient", "tps"};
+  std::vector<double> noise;  ///< standard deviations in mean edge lengths
+  NoiseKind noise_kind = NoiseKind::normal;
+  std::vector<double> decimate;       ///< shares of the vertices that are left
+  std::vector<double> subdivide;      ///< pieces that edges are cut into
+  std::size_t trials = 10;            ///< of each perturbation that is random
+  std::uint64_t seed = 1;             ///< of all trials
+  std::optional<std::size_t> target;  ///< critical points of each field, besides each method's own count
+  std::string radius = "2%";          ///< of matching: a length or a percentage of the clean box's diagonal
+  PointChoice points = PointChoice::all;
+  std::string reference_field;  ///< the first of `fields` if empty
+  std::string reference = "conventional";
+};
+
+/// Puts in the perturbations that a request leaves to us: if there are none, noise of 0.05, 0.15, 0.3 and
+/// 0.5; and the reference field.
+StabilityRequest with_defaults(StabilityRequest request);
+
+/// A length or a share of the bounding box's diagonal.
+struct MatchingRadius {
+  core::Length length;
+  std::optional<double> share;  ///< in place of the length
+  double on(const core::TriangleMesh& mesh) const {
+    return share ? *share * mesh.bounding_box().diagonal() : length.on(mesh);
+  }
+};
+
+/// A request whose names and numbers have been looked up.
+struct PreparedStability {
+  std::vector<NamedFunction> functions;
+  std::vector<MethodChain> chains;
+  std::vector<Perturbation> perturbations;
+  std::vector<std::optional<std::size_t>> targets;  ///< none: the method's own count
+  std::size_t trials = 1;
+  std::uint64_t seed = 1;
+  MatchingRadius radius;
+  PointChoice points = PointChoice::all;
+  NamedFunction reference_function;
+  MethodChain reference;
+
+  /// Those of a perturbation: one where nothing is random.
+  std::size_t trials_of(const Perturbation& perturbation) const {
+    return perturbation.is_random() ? trials : 1;
+  }
+};
+
+/// Throws InvalidArgument on unknown names and keys, bad values and what cannot go together. Touches no file.
+PreparedStability prepare(const StabilityRequest& request);
+
+/// What the clean surface's points (the reference) and those found on another one have in common.
+struct Agreement {
+  std::size_t reference = 0;
+  std::size_t found = 0;
+  std::size_t matched = 0;
+  double distances = 0;  ///< of matched points, their sum
+
+  double recall() const;                ///< matched / reference: the repeatability
+  double precision() const;             ///< matched / found
+  double f_score() const;               ///< 2 matched / (reference + found): the harmonic mean of both
+  std::optional<double> drift() const;  ///< the mean distance of matched points, in the mesh's unit
+};
+
+/// One perturbed surface.
+struct Trial {
+  morse::CriticalPoints points;  ///< counts only
+  Agreement agreement;
+  double chance = 0;  ///< expected F-score of as many points of the same types at random vertices
+};
+
+struct PerturbationOutcome {
+  Perturbation perturbation;
+  std::vector<Trial> trials;
+
+  /// Of a quantity over the trials that have it.
+  template <class Quantity>
+  Estimate over_trials(const Quantity& quantity) const {
+    std::vector<double> values;
+    for (const Trial& trial : trials)
+      if (const std::optional<double> value = quantity(trial)) values.push_back(*value);
+    return estimate(values);
+  }
+  Estimate recall() const;
+  Estimate precision() const;
+  Estimate f_score() const;
+  Estimate chance() const;
+  Estimate drift() const;
+  Estimate found() const;  ///< points that are held against the clean ones
+};
+
+/// What a method did with a field, at its own count or at the wanted one.
+struct StabilityOutcome {
+  std::size_t field = 0;  ///< which of the request's
+  std::size_t method = 0;
+  std::optional<std::size_t> target;
+  ChainOutcome clean;
+  morse::CriticalPoints points;  ///< on the clean surface
+  Agreement with_reference;  ///< `found`: the method's clean points; those of the reference at the same count
+  double chance = 0;         ///< expected agreement of as many points of the same types at random vertices
+  std::vector<PerturbationOutcome> perturbations;
+
+  /// Share of the clean points that the reference has too.
+  double agreement() const { return with_reference.precision(); }
+};
+
+struct StabilityResult {
+  double radius = 0;                       ///< in the mesh's unit
+  double mean_edge_length = 0;             ///< likewise
+  std::vector<FieldOutcome> fields;        ///< on the clean surface
+  std::vector<StabilityOutcome> outcomes;  ///< by target, field and method
+  double clean_seconds = 0;
+  double trial_seconds = 0;
+};
+
+/// Random placements that each chance level is the mean of.
+inline constexpr std::size_t kPlacements = 10;
+
+/// Trials that are known, and who hears of those that are made: what an interrupted run goes on from.
+class TrialStore {
+ public:
+  virtual ~TrialStore() = default;
+  /// A trial for each outcome, in their order, or nothing if it is not known. May be called from several
+  /// threads at once, as add().
+  virtual std::optional<std::vector<Trial>> find(const Perturbation& perturbation,
+                                                 std::size_t number) const = 0;
+  virtual void add(const Perturbation& perturbation, std::size_t number,
+                   const std::vector<Trial>& trials) = 0;
+};
+
+/// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their
+/// critical points with the clean ones (PointMatcher, type by type) by where they lie on the clean surface
+/// (PerturbedMesh::places): a point that stays at its vertex has not moved. Points of a subdivided surface
+/// lie where they lie.
+///
+/// The chance level is the mean F-score of kPlacements sets of as many points of each type at vertices of the
+/// perturbed surface, all equally likely and no two of a set the same.
+///
+/// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it
+/// is the same whatever else runs and at any number of threads. Throws what functions and methods throw; an
+/// error in a trial names the perturbation, trial, field and method, and of several it is that of the first.
+/// What the `store`, if there is one, has of trials is taken from it.
+StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
+                              const core::Progress& progress = {}, TrialStore* store = nullptr);
+
+}  // namespace morsel::tools

@@ -1,0 +1,44 @@
+#pragma once
+/// What came of a sweep, as a JSON document ("morsel.sweep/1", see sweep.schema.json), as CSV and as a table
+/// for people.
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "morsel/core/mesh_io.h"
+#include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/sweep/sweep.h"
+
+namespace morsel::tools {
+
+/// A sweep; refers to all of it.
+struct SweepReport {
+  const core::LoadedMesh& loaded;
+  const ReportInput& input;
+  const SweepRequest& request;
+  const PreparedSweep& prepared;
+  const std::vector<SweepRow>& rows;
+};
+
+/// What was asked for, and with which ranges.
+Json request_section(const SweepRequest& request, const PreparedSweep& prepared, bool repair);
+
+/// What rows follow from, besides their combination: the key of their journal. `files` are those that fields
+/// read.
+Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files);
+
+/// Of its members only "timings" differs when it is run again.
+void write_sweep(JsonSink& json, const SweepReport& report);
+
+/// A row for each combination: version, mesh and its hash, field and method as they can be given to other
+/// commands, the varied values, a column each, counts, pairs, all resolved parameters, and last the seconds,
+/// the only column that differs when it is run again.
+void write_sweep_csv(std::ostream& out, const SweepReport& report);
+
+/// Varied values, counts, pairs and seconds.
+std::string sweep_table(const SweepReport& report);
+
+}  // namespace morsel::tools
