@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/link_changes.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link_changes.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/link.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {
 

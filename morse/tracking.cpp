@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/critical_points.h"
 
 namespace morsel::morse {

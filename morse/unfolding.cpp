@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/link.h"
+#include "morsel/core/field/link.h"
 #include "morsel/morse/critical_points.h"
 
 namespace morsel::morse {

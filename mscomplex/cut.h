@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/complex.h"
 
 namespace morsel::mscomplex {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::mscomplex {
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <span>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/core/types.h"
 
 namespace morsel::mscomplex {

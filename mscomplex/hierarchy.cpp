@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/parallel/union_find.h"
 #include "morsel/core/require.h"
-#include "morsel/core/union_find.h"
 
 namespace morsel::mscomplex {
 

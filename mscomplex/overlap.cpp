@@ -7,9 +7,9 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/core/flat_array.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/radix_sort.h"
+#include "morsel/core/parallel/flat_array.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/radix_sort.h"
 
 namespace morsel::mscomplex {
 namespace {

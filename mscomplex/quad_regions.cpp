@@ -1,6 +1,6 @@
 #include "morsel/mscomplex/quad_regions.h"
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::mscomplex {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 #include "morsel/mscomplex/complex.h"
 
 namespace morsel::mscomplex {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/complex.h"
 
 namespace morsel::mscomplex {

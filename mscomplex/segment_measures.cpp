@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "morsel/core/parallel.h"
-#include "morsel/core/partition.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/partition.h"
 
 namespace morsel::mscomplex {
 

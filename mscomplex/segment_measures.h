@@ -1,7 +1,7 @@
 #pragma once
 /// Sizes and borders of segments. For the module's own use.
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 #include "morsel/mscomplex/segments.h"
 
 namespace morsel::mscomplex {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/follow.h"
 
 namespace morsel::mscomplex {

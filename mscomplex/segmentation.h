@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/discrete_gradient.h"
 
 namespace morsel::mscomplex {

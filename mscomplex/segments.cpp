@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/parallel_sort.h"
-#include "morsel/core/partition.h"
-#include "morsel/core/union_find.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/parallel_sort.h"
+#include "morsel/core/parallel/partition.h"
+#include "morsel/core/parallel/union_find.h"
 #include "morsel/mscomplex/quad_regions.h"
 #include "morsel/mscomplex/segment_measures.h"
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/flat_array.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/flat_array.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/segmentation.h"
 

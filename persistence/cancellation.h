@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/method.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/persistence/diagram.h"
 #include "morsel/persistence/threshold.h"
 

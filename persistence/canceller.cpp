@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/persistence/link_ends.h"
 #include "morsel/persistence/plateaus.h"
 

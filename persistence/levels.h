@@ -1,7 +1,7 @@
 #pragma once
 /// Vertices of equal value. For the module's own use.
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 
 namespace morsel::persistence::detail {
 

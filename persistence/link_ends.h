@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/link_changes.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/link_changes.h"
+#include "morsel/core/field/scalar_field.h"
 #include "morsel/persistence/paths.h"
 
 namespace morsel::persistence::detail {

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "morsel/core/parallel.h"
-#include "morsel/core/radix_sort.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/radix_sort.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence {

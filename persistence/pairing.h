@@ -1,8 +1,8 @@
 #pragma once
 /// Extremum-saddle pairing.
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/persistence/diagram.h"
 
 namespace morsel::persistence {

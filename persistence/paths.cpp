@@ -1,7 +1,7 @@
 #include "morsel/persistence/paths.h"
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::persistence::detail {
 namespace {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/radix_sort.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/radix_sort.h"
 #include "morsel/persistence/st_numbering.h"
 
 namespace morsel::persistence::detail {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 #include "morsel/persistence/reconstruction.h"
 
 namespace morsel::persistence::detail {

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/radix_sort.h"
-#include "morsel/core/union_find.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/radix_sort.h"
+#include "morsel/core/parallel/union_find.h"
 
 namespace morsel::persistence::detail {
 namespace {

@@ -4,9 +4,9 @@
 #include <span>
 #include <utility>
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/union_find.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/union_find.h"
 
 namespace morsel::persistence::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/persistence/diagram.h"
 #include "morsel/persistence/link_ends.h"
 #include "morsel/persistence/paths.h"

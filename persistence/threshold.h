@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 
 namespace morsel::persistence {
 

@@ -11,18 +11,18 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/core/nearest_name.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
+#include "morsel/core/text/nearest_name.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/failure.h"
 #include "morsel/tools/commands/help.h"
 #include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/commands/threads.h"
-#include "morsel/tools/report/provenance.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/neighbors.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <span>
 
-#include "morsel/core/method.h"
-#include "morsel/core/molecule.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/io/molecule.h"
 
 namespace morsel::morse {
 

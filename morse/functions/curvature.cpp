@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/normals.h"
 
 namespace morsel::morse {

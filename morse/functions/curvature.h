@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {
 

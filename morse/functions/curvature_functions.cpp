@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/length.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/diffused_curvature.h"
 #include "morsel/morse/functions/discrete_curvature.h"
 #include "morsel/morse/functions/quadric_curvature.h"

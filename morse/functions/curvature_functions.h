@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
 #include "morsel/morse/functions/curvature.h"
 
 namespace morsel::morse {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/operators/cholesky.h"
 #include "morsel/morse/operators/intrinsic_triangles.h"
 #include "morsel/morse/operators/normals.h"

@@ -1,8 +1,8 @@
 #pragma once
 /// Mean curvature at a scale along the surface, which neither noise nor the triangulation changes much.
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/edge_paths.h"
 #include "morsel/morse/operators/laplacian.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/method.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
 #include "morsel/morse/operators/heat_distance.h"
 
 namespace morsel::morse {

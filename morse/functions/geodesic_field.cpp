@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/functions/geodesic.h"
 
 namespace morsel::morse {

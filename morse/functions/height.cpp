@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 namespace {

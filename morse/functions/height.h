@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "morsel/core/method.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
 
 namespace morsel::morse {
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/operators/connected_ball.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/unit_size.h"

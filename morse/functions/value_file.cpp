@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/exhaustion.h"
-#include "morsel/core/text_scanner.h"
+#include "morsel/core/parallel/exhaustion.h"
+#include "morsel/core/text/text_scanner.h"
 
 namespace morsel::morse {
 namespace {

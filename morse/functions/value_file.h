@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/text_scanner.h"
+#include "morsel/core/text/text_scanner.h"
 #include "morsel/morse/functions/value_file.h"
 
 namespace morsel::morse {

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/method.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::morse {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/operators/laplacian.h"
 
 namespace morsel::morse {

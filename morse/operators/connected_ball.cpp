@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/largest_square.h"
 #include "morsel/morse/operators/unit_size.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::morse {
 

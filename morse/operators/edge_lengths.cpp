@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::morse {
 

@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "morsel/core/link.h"
+#include "morsel/core/field/link.h"
 #include "morsel/morse/operators/laplacian.h"
 
 namespace morsel::morse {

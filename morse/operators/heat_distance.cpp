@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/neighbors.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/operators/cholesky.h"
 #include "morsel/morse/operators/edge_lengths.h"
 #include "morsel/morse/operators/intrinsic_triangles.h"

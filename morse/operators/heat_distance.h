@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {
 

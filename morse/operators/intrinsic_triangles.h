@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 #include "morsel/morse/operators/edge_lengths.h"
 #include "morsel/morse/operators/laplacian.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/edge_lengths.h"
 
 namespace morsel::morse {

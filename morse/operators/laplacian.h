@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::morse {
 

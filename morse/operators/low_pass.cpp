@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/unit_size.h"
 
 namespace morsel::morse {

@@ -2,10 +2,10 @@
 /// Surfaces at a scale: smoothed by a low-pass filter, so that what is computed on them sees features, not
 /// noise.
 
-#include "morsel/core/length.h"
-#include "morsel/core/mesh.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/parallel/progress.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::morse {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/operators/laplacian.h"
 
 namespace morsel::morse::detail {

@@ -1,7 +1,7 @@
 #pragma once
 /// Surfaces in a unit of about their own size, so that products of lengths stay in range.
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::morse {
 

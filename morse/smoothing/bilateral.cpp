@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/smoothing/aligned.h"
 #include "morsel/morse/smoothing/ball_pairs.h"
 #include "morsel/morse/smoothing/bilateral_engine.h"

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/core/types.h"
 #include "morsel/morse/smoothing/instruction_set.h"
 

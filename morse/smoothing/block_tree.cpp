@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/smoothing/block_tree.h"
 
 namespace morsel::morse {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
 
 namespace morsel::morse {
 

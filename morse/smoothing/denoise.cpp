@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/link.h"
-#include "morsel/core/neighbors.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/connected_ball.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/unit_size.h"

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "morsel/core/length.h"
-#include "morsel/core/method.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/operators/laplacian.h"
 
 namespace morsel::morse {

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/unit_size.h"
 #include "morsel/morse/smoothing/denoise.h"
 #include "morsel/morse/smoothing/iteration.h"

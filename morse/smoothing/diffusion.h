@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/length.h"
-#include "morsel/core/method.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/operators/cholesky.h"
 #include "morsel/morse/operators/laplacian.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/vertex_order.h"
+#include "morsel/core/field/vertex_order.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/operators/cholesky.h"
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
 #include "morsel/morse/operators/laplacian.h"
 
 namespace morsel::morse {

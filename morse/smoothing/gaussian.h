@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "morsel/core/method.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/smoothing/salient.h"
 
 namespace morsel::morse {

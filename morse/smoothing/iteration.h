@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/method.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::morse {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/vertex_order.h"
+#include "morsel/core/field/vertex_order.h"
 
 namespace morsel::morse {
 

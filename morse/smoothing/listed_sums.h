@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "morsel/core/neighbors.h"
+#include "morsel/core/mesh/neighbors.h"
 #include "morsel/morse/operators/connected_ball.h"
 #include "morsel/morse/smoothing/bilateral_engine.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/link.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/field/link.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/smoothing/keep_order.h"
 #include "morsel/morse/smoothing/salient_method.h"
 

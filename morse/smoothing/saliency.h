@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "morsel/core/method.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/smoothing/gaussian.h"
 
 namespace morsel::morse {

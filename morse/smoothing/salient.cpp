@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/laplacian.h"
 #include "morsel/morse/operators/unit_size.h"
 #include "morsel/morse/smoothing/keep_order.h"

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "morsel/core/length.h"
-#include "morsel/core/method.h"
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/smoothing/bilateral.h"
 #include "morsel/morse/smoothing/value_range.h"
 

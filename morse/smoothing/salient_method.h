@@ -1,8 +1,8 @@
 #pragma once
 /// What the methods that run salient smoothing have in common.
 
-#include "morsel/core/parameters.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/smoothing/iteration.h"
 #include "morsel/morse/smoothing/salient.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/morse/smoothing/aligned.h"
 #include "morsel/morse/smoothing/block_tree.h"
 #include "morsel/morse/smoothing/cell_pairs.h"

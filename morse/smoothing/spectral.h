@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
 
 namespace morsel::morse {
 

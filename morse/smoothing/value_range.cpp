@@ -1,7 +1,7 @@
 #include "morsel/morse/smoothing/value_range.h"
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::morse {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/cutting/cut_edges.h"
 
 namespace morsel::mscomplex {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/quads/disc_embedding.h"
 
 namespace morsel::mscomplex {

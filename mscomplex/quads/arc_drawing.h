@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/quads/capped_surface.h"
 #include "morsel/mscomplex/quads/spokes.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::mscomplex {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/quads.h"
 #include "morsel/mscomplex/quads/triangle_search.h"
 

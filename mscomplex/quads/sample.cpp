@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/quads.h"
 #include "morsel/mscomplex/quads/patch.h"
 #include "morsel/mscomplex/quads/polygon_grid.h"

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "benchmark/adversarial.h"
-#include "morsel/core/atom_records.h"
-#include "morsel/core/mesh_builder.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/specification.h"
+#include "morsel/core/io/atom_records.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/mesh/mesh_builder.h"
+#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/specification.h"
 #include "support/adversarial.h"
 
 namespace morsel::benchmark {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmark/measure.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/smoothing/instruction_set.h"
 
 namespace morsel::benchmark {

@@ -6,7 +6,7 @@
 #include "benchmark/stock.h"
 #include "benchmark/suites.h"
 #include "benchmark/workloads.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::benchmark {
 namespace {

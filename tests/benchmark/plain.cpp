@@ -4,7 +4,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "morsel/core/union_find.h"
+#include "morsel/core/parallel/union_find.h"
 
 namespace morsel::benchmark::plain {
 namespace {

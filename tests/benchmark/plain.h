@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 
 namespace morsel::benchmark::plain {
 

@@ -6,7 +6,7 @@
 
 #include "benchmark/suites.h"
 #include "benchmark/workloads.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "support/salient_reference.h"

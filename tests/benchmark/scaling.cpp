@@ -5,7 +5,7 @@
 #include "benchmark/steps.h"
 #include "benchmark/suites.h"
 #include "benchmark/workloads.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::benchmark {
 

@@ -6,7 +6,7 @@
 #include "benchmark/steps.h"
 #include "benchmark/suites.h"
 #include "benchmark/workloads.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"

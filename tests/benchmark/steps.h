@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 
 namespace morsel::benchmark {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "morsel/core/neighbors.h"
+#include "morsel/core/mesh/neighbors.h"
 
 namespace morsel::benchmark::stock {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::benchmark::stock {
 

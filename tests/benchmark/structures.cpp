@@ -2,7 +2,7 @@
 
 #include "benchmark/suites.h"
 #include "benchmark/workloads.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/hierarchy_cursor.h"
 #include "support/greedy_hierarchy.h"

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/mesh_writer.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/io/mesh_writer.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/height.h"
 #include "support/refinement.h"

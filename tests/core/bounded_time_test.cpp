@@ -9,15 +9,15 @@
 #include <stop_token>
 #include <string>
 
-#include "morsel/core/atom_records.h"
 #include "morsel/core/error.h"
-#include "morsel/core/hash_index.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/mesh_repair.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/polygon_triangulation.h"
-#include "morsel/core/stop.h"
-#include "morsel/core/text_chunks.h"
+#include "morsel/core/io/atom_records.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/mesh/mesh_repair.h"
+#include "morsel/core/mesh/polygon_triangulation.h"
+#include "morsel/core/parallel/hash_index.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
+#include "morsel/core/text/text_chunks.h"
 #include "support/adversarial.h"
 #include "support/molecules.h"
 

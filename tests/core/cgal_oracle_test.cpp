@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "support/corpus.h"
 #include "support/meshes.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "support/corpus.h"
 #include "support/scratch.h"
 

@@ -1,4 +1,4 @@
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/temporary_file.h"
+#include "morsel/core/io/temporary_file.h"
 #include "support/scratch.h"
 
 using namespace morsel;

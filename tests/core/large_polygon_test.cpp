@@ -8,11 +8,11 @@
 #include <set>
 #include <stop_token>
 
-#include "morsel/core/corner_tree.h"
 #include "morsel/core/error.h"
-#include "morsel/core/index_set.h"
-#include "morsel/core/mesh_builder.h"
-#include "morsel/core/polygon_triangulation.h"
+#include "morsel/core/mesh/corner_tree.h"
+#include "morsel/core/mesh/mesh_builder.h"
+#include "morsel/core/mesh/polygon_triangulation.h"
+#include "morsel/core/parallel/index_set.h"
 #include "support/adversarial.h"
 
 using namespace morsel;

@@ -1,12 +1,12 @@
 // The rules of a mesh: each way to break one is found, named and counted.
 
-#include "morsel/core/mesh_defects.h"
+#include "morsel/core/mesh/mesh_defects.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 #include "support/meshes.h"
 
 using namespace morsel;

@@ -1,4 +1,4 @@
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_writer.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/io/mesh_writer.h"
+#include "morsel/core/text/parameters.h"
 #include "support/corpus.h"
 #include "support/fields.h"
 #include "support/meshes.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_builder.h"
+#include "morsel/core/mesh/mesh_builder.h"
 #include "support/meshes.h"
 
 using namespace morsel;

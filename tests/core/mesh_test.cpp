@@ -1,4 +1,4 @@
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 #include <catch2/catch.hpp>
 

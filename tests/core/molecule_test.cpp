@@ -1,10 +1,10 @@
-#include "morsel/core/molecule.h"
+#include "morsel/core/io/molecule.h"
 
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "morsel/core/atom_records.h"
 #include "morsel/core/error.h"
+#include "morsel/core/io/atom_records.h"
 #include "support/molecules.h"
 #include "support/scratch.h"
 

@@ -1,4 +1,4 @@
-#include "morsel/core/nearest_name.h"
+#include "morsel/core/text/nearest_name.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

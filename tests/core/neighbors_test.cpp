@@ -1,4 +1,4 @@
-#include "morsel/core/neighbors.h"
+#include "morsel/core/mesh/neighbors.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/meshes.h"
 
 using namespace morsel;

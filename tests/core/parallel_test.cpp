@@ -1,4 +1,4 @@
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel_sort.h"
+#include "morsel/core/parallel/parallel_sort.h"
 
 using namespace morsel;
 using core::ThreadLimit;

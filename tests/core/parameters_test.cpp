@@ -1,4 +1,4 @@
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -90,7 +90,8 @@ TEST_CASE("unknown and doubled keys are refused with the known ones listed") {
   ParameterReader unknown = reader({{"sigma", "8eps"}, {"sgima", "1"}});
   unknown.length("sigma", Length::epsilons(8), core::kPositive, "");
   unknown.count("iterations", 10, 0, 100, "");
-  CHECK_THROWS_WITH(unknown.finish(), "salient has no parameter \"sgima\"; did you mean sigma? It takes: sigma, iterations");
+  CHECK_THROWS_WITH(unknown.finish(),
+                    "salient has no parameter \"sgima\"; did you mean sigma? It takes: sigma, iterations");
   CHECK_THROWS_WITH(reader({{"k", "1"}}).finish(), "salient has no parameter \"k\"; it takes none");
   ParameterReader twice = reader({{"k", "1"}, {"k", "2"}});
   twice.number("k", 0, {}, "");

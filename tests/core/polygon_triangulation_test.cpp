@@ -1,4 +1,4 @@
-#include "morsel/core/polygon_triangulation.h"
+#include "morsel/core/mesh/polygon_triangulation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "morsel/core/mesh_builder.h"
+#include "morsel/core/mesh/mesh_builder.h"
 #include "support/meshes.h"
 
 using namespace morsel;

@@ -1,4 +1,4 @@
-#include "morsel/core/printable.h"
+#include "morsel/core/text/printable.h"
 
 #include <catch2/catch.hpp>
 #include <string>

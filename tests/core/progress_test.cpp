@@ -1,11 +1,11 @@
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 #include <thread>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 using namespace morsel;
 using core::Cancelled;

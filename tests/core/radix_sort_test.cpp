@@ -1,4 +1,4 @@
-#include "morsel/core/radix_sort.h"
+#include "morsel/core/parallel/radix_sort.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

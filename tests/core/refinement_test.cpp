@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "morsel/core/error.h"
-#include "morsel/core/subdivision.h"
+#include "morsel/core/mesh/subdivision.h"
 
 using namespace morsel;
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "support/meshes.h"
 
 using namespace morsel;

@@ -1,4 +1,4 @@
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 #include <random>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/vertex_order.h"
+#include "morsel/core/field/vertex_order.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 

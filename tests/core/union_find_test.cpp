@@ -1,4 +1,4 @@
-#include "morsel/core/union_find.h"
+#include "morsel/core/parallel/union_find.h"
 
 #include <catch2/catch.hpp>
 #include <random>

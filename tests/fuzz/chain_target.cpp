@@ -2,8 +2,8 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/study/registry.h"
 #include "morsel/tools/render/request_text.h"
+#include "morsel/tools/study/registry.h"
 #include "morsel/tools/study/variation.h"
 #include "target.h"
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_builder.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/mesh/mesh_builder.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/parameters.h"
 #include "number.h"
 #include "target.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string_view>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::fuzz {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What the targets of the molecules' formats share.
 
-#include "morsel/core/atom_records.h"
+#include "morsel/core/io/atom_records.h"
 
 namespace morsel::fuzz {
 

@@ -1,5 +1,5 @@
 #include "mesh_checks.h"
-#include "morsel/core/mesh_formats.h"
+#include "morsel/core/io/mesh_formats.h"
 #include "target.h"
 
 void morsel::fuzz::off(std::string_view bytes) {

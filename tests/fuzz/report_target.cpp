@@ -2,8 +2,8 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/report/difference.h"
 #include "morsel/tools/formats/json_reader.h"
+#include "morsel/tools/report/difference.h"
 #include "morsel/tools/report/report_reader.h"
 #include "target.h"
 

@@ -1,10 +1,10 @@
-#include "morsel/core/specification.h"
+#include "morsel/core/text/specification.h"
 
 #include <string>
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 #include "number.h"
 #include "target.h"
 

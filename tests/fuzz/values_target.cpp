@@ -3,7 +3,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/functions/value_file.h"
 #include "number.h"
 #include "target.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/made.h"
 #include "support/meshes.h"
 #include "support/molecules.h"

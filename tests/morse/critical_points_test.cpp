@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/fields.h"
 #include "support/link_oracle.h"
 #include "support/meshes.h"

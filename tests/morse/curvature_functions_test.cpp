@@ -5,7 +5,7 @@
 #include <map>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/discrete_curvature.h"
 #include "morsel/morse/functions/quadric_curvature.h"

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 #include "support/shapes.h"

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/height.h"

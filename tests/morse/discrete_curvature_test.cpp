@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/shapes.h"
 
 using namespace morsel;

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/operators/edge_paths.h"
 #include "morsel/morse/operators/intrinsic_triangles.h"

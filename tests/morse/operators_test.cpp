@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/cholesky.h"
 #include "morsel/morse/operators/laplacian.h"
 #include "morsel/morse/operators/normals.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/fields.h"
 #include "support/shapes.h"
 

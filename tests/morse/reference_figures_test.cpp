@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/smoothing/salient.h"

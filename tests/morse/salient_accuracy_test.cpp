@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/smoothing/salient.h"
 #include "support/fields.h"

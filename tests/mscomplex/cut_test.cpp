@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/height.h"
 #include "support/adversarial.h"
 #include "support/fields.h"

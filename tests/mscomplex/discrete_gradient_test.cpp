@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "support/fields.h"
 #include "support/lower_star_oracle.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/mscomplex/hierarchy_cursor.h"
 #include "morsel/mscomplex/segmentation.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"

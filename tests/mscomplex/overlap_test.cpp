@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/segmentation.h"
 #include "support/fields.h"
 #include "support/meshes.h"

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/eigenfunctions.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/quads/triangle_search.h"

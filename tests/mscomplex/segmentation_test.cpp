@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/complex_oracle.h"
 #include "support/fields.h"
 #include "support/meshes.h"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/union_find.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/union_find.h"
 #include "morsel/mscomplex/quad_regions.h"
 #include "support/fields.h"
 #include "support/mean_curvature.h"

@@ -8,7 +8,7 @@
 
 #include "checks.h"
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
 #include "support/fields.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "morsel/core/link.h"
+#include "morsel/core/field/link.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
 #include "support/phat_oracle.h"

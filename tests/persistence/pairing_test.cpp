@@ -6,7 +6,7 @@
 #include <random>
 
 #include "checks.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/fields.h"
 #include "support/mean_curvature.h"
 #include "support/meshes.h"

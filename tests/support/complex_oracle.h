@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 #include "support/lower_star_oracle.h"
 
 namespace morsel::test {

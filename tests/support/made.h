@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
 
 namespace morsel::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/molecule.h"
+#include "morsel/core/io/molecule.h"
 
 namespace morsel::test {
 

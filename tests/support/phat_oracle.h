@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 
 namespace morsel::test {
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "morsel/core/mesh_defects.h"
+#include "morsel/core/mesh/mesh_defects.h"
 
 namespace morsel::test {
 namespace {

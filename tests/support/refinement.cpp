@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "morsel/core/subdivision.h"
+#include "morsel/core/mesh/subdivision.h"
 
 namespace morsel::test {
 

@@ -16,8 +16,8 @@
 #include "morsel/tools/batch/scheduler.h"
 #include "morsel/tools/batch/state.h"
 #include "morsel/tools/batch/summary.h"
-#include "morsel/tools/formats/markup.h"
 #include "morsel/tools/formats/csv.h"
+#include "morsel/tools/formats/markup.h"
 #include "morsel/tools/results/result_folder.h"
 #include "support/scratch.h"
 

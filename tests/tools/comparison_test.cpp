@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"

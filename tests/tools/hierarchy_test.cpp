@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/study/iteration_levels.h"
 #include "morsel/tools/study/persistence_levels.h"
 #include "support/fields.h"

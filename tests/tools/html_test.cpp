@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "morsel/mscomplex/hierarchy.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/html/arc_paths.h"
 #include "morsel/tools/html/arc_reach.h"
-#include "morsel/tools/formats/command_line.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 #include "support/random_surfaces.h"

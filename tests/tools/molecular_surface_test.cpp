@@ -9,7 +9,7 @@
 #include <stop_token>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/molecules.h"
 
 using namespace morsel;

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "morsel/core/error.h"
-#include "morsel/core/length.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/tools/study/random_stream.h"
 #include "morsel/tools/study/statistics.h"

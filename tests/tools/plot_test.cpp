@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/plot/comparison_plots.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "support/scratch.h"

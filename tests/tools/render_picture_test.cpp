@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/glyphs.h"

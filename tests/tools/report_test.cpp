@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/tools/report/difference.h"
-#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/report/difference.h"
+#include "morsel/tools/report/hashed_mesh.h"
 
 using namespace morsel;
 using tools::Json;

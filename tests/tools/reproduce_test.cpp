@@ -8,9 +8,9 @@
 #include <set>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/tools/render/inset.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/formats/base64.h"
+#include "morsel/tools/render/inset.h"
 #include "morsel/tools/reproduce/region.h"
 #include "morsel/tools/reproduce/reproduction.h"
 #include "morsel/tools/reproduce/table.h"

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/results/result_folder.h"
 #include "support/scratch.h"
 

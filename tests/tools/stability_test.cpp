@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 

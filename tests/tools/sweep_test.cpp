@@ -6,10 +6,10 @@
 #include <set>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
-#include "morsel/tools/study/comparison.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/study/comparison.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/cancellation.h"
 #include "morsel/tools/study/comparison.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/batch/out_folder.h"
 #include "morsel/tools/batch/scheduler.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/batch/collection.h"
 #include "morsel/tools/batch/request.h"
 #include "morsel/tools/batch/state.h"

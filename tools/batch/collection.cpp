@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_bytes.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools::batch {
 namespace {

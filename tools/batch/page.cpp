@@ -3,14 +3,14 @@
 #include <string_view>
 #include <utility>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/batch/distributions.h"
 #include "morsel/tools/batch/request.h"
-#include "morsel/tools/formats/markup.h"
 #include "morsel/tools/formats/command_line.h"
-#include "morsel/tools/report/provenance.h"
+#include "morsel/tools/formats/markup.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools::batch {
 namespace {

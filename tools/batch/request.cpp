@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "morsel/core/error.h"
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
-#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/results/file_list.h"
 
 namespace morsel::tools::batch {

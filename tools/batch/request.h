@@ -7,9 +7,9 @@
 
 #include "morsel/tools/batch/collection.h"
 #include "morsel/tools/batch/out_folder.h"
-#include "morsel/tools/study/comparison.h"
-#include "morsel/tools/render/request_text.h"
 #include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/render/request_text.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools::batch {
 

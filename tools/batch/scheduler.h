@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/batch/child.h"
 
 namespace morsel::tools::batch {

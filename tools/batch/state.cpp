@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_bytes.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/batch/request.h"
 #include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/report_reader.h"

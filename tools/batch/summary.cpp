@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/batch/page.h"
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/version.h"

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "morsel/core/printable.h"
+#include "morsel/core/text/printable.h"
 #include "morsel/tools/batch/batch.h"
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/commands/commands.h"

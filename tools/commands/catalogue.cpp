@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/nearest_name.h"
+#include "morsel/core/text/nearest_name.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/study/registry.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/printable.h"
+#include "morsel/core/text/printable.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/report_check.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
 #include "morsel/tools/render/request_text.h"

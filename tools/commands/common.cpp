@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 
 namespace morsel::tools {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/file_writer.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "morsel/core/printable.h"
+#include "morsel/core/text/printable.h"
 
 namespace morsel::tools {
 

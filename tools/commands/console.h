@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::tools {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {

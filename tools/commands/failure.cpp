@@ -19,8 +19,8 @@
 #include <system_error>
 
 #include "morsel/core/error.h"
-#include "morsel/core/printable.h"
-#include "morsel/core/temporary_file.h"
+#include "morsel/core/io/temporary_file.h"
+#include "morsel/core/text/printable.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/signals.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/export/field_file.h"

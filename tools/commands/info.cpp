@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/printable.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/printable.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/formats/text_table.h"

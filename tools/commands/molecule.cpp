@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/core/mesh_writer.h"
-#include "morsel/core/molecule.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/io/mesh_writer.h"
+#include "morsel/core/io/molecule.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/formats/text_table.h"

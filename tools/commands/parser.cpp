@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/nearest_name.h"
+#include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/core/mesh_writer.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"

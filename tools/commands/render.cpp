@@ -6,8 +6,8 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/formats/png_comment.h"

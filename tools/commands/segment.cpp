@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"

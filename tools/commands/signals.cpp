@@ -8,7 +8,7 @@
 #include <atomic>
 #include <cerrno>
 
-#include "morsel/core/temporary_file.h"
+#include "morsel/core/io/temporary_file.h"
 #include "morsel/tools/commands/failure.h"
 
 namespace morsel::tools {

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
+#include "morsel/core/io/file_extension.h"
 
 namespace morsel::tools {
 

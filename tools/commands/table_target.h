@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/formats/journal.h"
 #include "morsel/tools/formats/json_stream.h"

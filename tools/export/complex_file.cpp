@@ -4,7 +4,7 @@
 #include <numeric>
 #include <span>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/tools/formats/vtp_writer.h"
 #include "morsel/tools/report/provenance.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_writer.h"
+#include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/mscomplex/cut.h"
 #include "morsel/tools/report/provenance.h"
 

@@ -4,9 +4,9 @@
 #include <functional>
 #include <span>
 
-#include "morsel/core/file_writer.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
 #include "morsel/tools/export/complex_file.h"
 #include "morsel/tools/export/surface_file.h"
 #include "morsel/tools/formats/csv.h"

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "morsel/tools/study/comparison.h"
-#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

@@ -1,8 +1,8 @@
 #include "morsel/tools/export/field_file.h"
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/core/mesh_writer.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/export/input_numbers.h"
 #include "morsel/tools/formats/vtp_writer.h"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/export/complex_file.h"
 #include "morsel/tools/export/surface_file.h"
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "morsel/tools/study/hierarchy.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/hierarchy.h"
 
 namespace morsel::tools {
 

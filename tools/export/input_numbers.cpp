@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools {
 

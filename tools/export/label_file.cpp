@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/core/file_writer.h"
-#include "morsel/core/mesh_writer.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/io/mesh_writer.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/export/input_numbers.h"
 #include "morsel/tools/formats/vtp_writer.h"
 

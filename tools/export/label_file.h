@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {

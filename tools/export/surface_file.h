@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/tools/formats/vtp_writer.h"
 #include "morsel/tools/report/provenance.h"

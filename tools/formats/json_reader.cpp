@@ -1,5 +1,5 @@
 #include "morsel/tools/formats/json_reader.h"
-#include "morsel/core/exhaustion.h"
+#include "morsel/core/parallel/exhaustion.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "morsel/core/parallel.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::tools {
 namespace {

@@ -1,6 +1,6 @@
 #include "morsel/tools/formats/markup.h"
 
-#include "morsel/core/printable.h"
+#include "morsel/core/text/printable.h"
 
 namespace morsel::tools {
 

@@ -9,7 +9,7 @@
 #include <new>
 #include <vector>
 
-#include "morsel/core/exhaustion.h"
+#include "morsel/core/parallel/exhaustion.h"
 
 namespace morsel::tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "morsel/core/printable.h"
+#include "morsel/core/text/printable.h"
 
 namespace morsel::tools {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::tools {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/types.h"
 
 namespace morsel::tools {

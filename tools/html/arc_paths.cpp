@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::tools::html {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::tools::html {
 namespace {

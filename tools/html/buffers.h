@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "morsel/tools/html/packed_stream.h"
 #include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/html/packed_stream.h"
 
 namespace morsel::tools::html {
 

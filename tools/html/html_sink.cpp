@@ -5,10 +5,10 @@
 #include <string_view>
 #include <utility>
 
+#include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/html/buffers.h"
 #include "morsel/tools/html/page_data.h"
 #include "morsel/tools/html/page_sources.h"
-#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 namespace {

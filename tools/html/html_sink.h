@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "morsel/core/file_writer.h"
-#include "morsel/tools/study/comparison.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

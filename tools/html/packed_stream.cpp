@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 #include "morsel/tools/formats/base64.h"
 
 namespace morsel::tools::html {

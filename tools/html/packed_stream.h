@@ -6,7 +6,7 @@
 #include <memory>
 #include <string_view>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 
 namespace morsel::tools::html {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/html/buffers.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools::html {
 

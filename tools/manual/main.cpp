@@ -6,7 +6,7 @@
 #include <iostream>
 #include <string>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/manual/completions.h"
 #include "morsel/tools/manual/man_pages.h"

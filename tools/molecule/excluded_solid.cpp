@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "morsel/core/neighbors.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/molecule/solid.h"
 
 namespace morsel::tools {

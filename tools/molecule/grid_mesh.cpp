@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/neighbors.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools {
 namespace {

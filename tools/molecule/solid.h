@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/molecule.h"
+#include "morsel/core/io/molecule.h"
 #include "morsel/core/types.h"
 
 namespace morsel::tools {

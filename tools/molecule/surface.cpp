@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_defects.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/mesh/mesh_defects.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/molecule/grid_mesh.h"
 #include "morsel/tools/molecule/solid.h"
 

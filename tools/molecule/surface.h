@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "morsel/core/mesh.h"
-#include "morsel/core/molecule.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/io/molecule.h"
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/parallel/progress.h"
 
 namespace morsel::tools {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "morsel/tools/plot/ticks.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/plot/ticks.h"
 
 namespace morsel::tools::plot {
 namespace {

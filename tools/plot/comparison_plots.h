@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/plot/plot.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools::plot {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/plot/layout.h"
 #include "morsel/tools/plot/pixel_canvas.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools::plot {
 

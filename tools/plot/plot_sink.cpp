@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/plot/plot_files.h"
 
 namespace morsel::tools {

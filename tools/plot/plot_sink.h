@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/study/comparison.h"
-#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/plot/comparison_plots.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

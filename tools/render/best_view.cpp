@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/smoothing/saliency.h"
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/body.h"
 #include "morsel/tools/render/camera.h"
 #include "morsel/tools/render/rays.h"

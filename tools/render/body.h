@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::tools::render {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::tools::render {
 namespace {

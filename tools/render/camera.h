@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::tools::render {
 

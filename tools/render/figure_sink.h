@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/tools/study/comparison.h"
-#include "morsel/tools/results/file_names.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/render/sheet.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools::render {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "morsel/core/parallel.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::tools::render {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// A region of a picture magnified: in one of its corners, or as a picture of its own.
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/canvas.h"
 #include "morsel/tools/render/tracer.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/render/best_view.h"
 #include "morsel/tools/render/canvas.h"
 #include "morsel/tools/render/caption.h"

@@ -4,7 +4,7 @@
 
 #include <new>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools::render {
 namespace {

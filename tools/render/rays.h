@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 
 namespace morsel::tools::render {
 

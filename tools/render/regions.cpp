@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools::render {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::tools::render {
 namespace {

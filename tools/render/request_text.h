@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/tools/render/picture.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/render/picture.h"
 
 namespace morsel::tools::render {
 

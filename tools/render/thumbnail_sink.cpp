@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/formats/png_comment.h"
 
 namespace morsel::tools::render {

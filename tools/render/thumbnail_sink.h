@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
-#include "morsel/core/progress.h"
-#include "morsel/tools/study/comparison.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools::render {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 
 namespace morsel::tools::render {
 namespace {

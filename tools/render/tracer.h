@@ -1,7 +1,7 @@
 #pragma once
 /// Takes the picture of a scene, by rays.
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/camera.h"
 #include "morsel/tools/render/image.h"
 #include "morsel/tools/render/scene.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::tools::render {
 namespace {

@@ -1,7 +1,7 @@
 #include "morsel/tools/report/comparison_table.h"
 
-#include "morsel/core/parameters.h"
-#include "morsel/core/printable.h"
+#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/printable.h"
 #include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools {

@@ -1,6 +1,6 @@
 #include "morsel/tools/report/cut_writer.h"
 
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {

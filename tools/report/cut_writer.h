@@ -1,8 +1,8 @@
 #pragma once
 /// The JSON document of `morsel cut`: morsel.cut/1 (tools/report/cut.schema.json).
 
-#include "morsel/tools/study/cutting.h"
 #include "morsel/tools/report/field_document.h"
+#include "morsel/tools/study/cutting.h"
 
 namespace morsel::tools {
 

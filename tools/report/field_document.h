@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/tools/study/made_field.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 

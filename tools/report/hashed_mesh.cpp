@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/formats/sha256.h"
 
 namespace morsel::tools {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools {
 

@@ -1,8 +1,8 @@
 #include "morsel/tools/report/hierarchy_table.h"
 
-#include "morsel/core/printable.h"
-#include "morsel/tools/report/comparison_table.h"
+#include "morsel/core/text/printable.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/report/comparison_table.h"
 
 namespace morsel::tools {
 

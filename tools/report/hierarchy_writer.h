@@ -1,9 +1,9 @@
 #pragma once
 /// The JSON document of a hierarchy ("morsel.hierarchy/1", see hierarchy.schema.json).
 
-#include "morsel/tools/study/hierarchy.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/study/hierarchy.h"
 
 namespace morsel::tools {
 

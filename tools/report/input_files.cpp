@@ -4,7 +4,7 @@
 #include <map>
 #include <system_error>
 
-#include "morsel/core/specification.h"
+#include "morsel/core/text/specification.h"
 #include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {

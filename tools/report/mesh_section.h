@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {

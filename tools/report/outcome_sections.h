@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "morsel/core/mesh_builder.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/mesh/mesh_builder.h"
+#include "morsel/core/text/parameters.h"
+#include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/made_field.h"
-#include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
 

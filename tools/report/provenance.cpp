@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_bytes.h"
+#include "morsel/core/io/file_bytes.h"
 #include "morsel/tools/formats/command_line.h"
-#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/result_shapes.h"
 

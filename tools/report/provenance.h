@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/tools/study/comparison.h"
-#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/report/field_document.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// The JSON document of a quadrangulation.
 
-#include "morsel/tools/study/quadrangulation.h"
 #include "morsel/tools/report/field_document.h"
+#include "morsel/tools/study/quadrangulation.h"
 
 namespace morsel::tools {
 

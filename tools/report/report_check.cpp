@@ -4,11 +4,11 @@
 #include <system_error>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_extension.h"
-#include "morsel/tools/study/comparison.h"
+#include "morsel/core/io/file_extension.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_reader.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 namespace {

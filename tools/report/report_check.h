@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/report/difference.h"
 
 namespace morsel::tools {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "morsel/core/exhaustion.h"
+#include "morsel/core/parallel/exhaustion.h"
 #include "morsel/tools/formats/json_view.h"
 
 namespace morsel::tools {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/report/report_document.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 

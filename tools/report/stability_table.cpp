@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "morsel/core/parameters.h"
-#include "morsel/tools/report/comparison_table.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/report/comparison_table.h"
 
 namespace morsel::tools {
 namespace {

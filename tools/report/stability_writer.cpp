@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "morsel/tools/formats/csv.h"
+#include "morsel/tools/formats/version.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
-#include "morsel/tools/formats/version.h"
 
 namespace morsel::tools {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/study/stability.h"

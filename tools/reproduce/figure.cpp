@@ -5,14 +5,14 @@
 #include <map>
 #include <utility>
 
-#include "morsel/core/file_writer.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/png_comment.h"
-#include "morsel/tools/study/hierarchy.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/sheet.h"
-#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/reproduce/region.h"
+#include "morsel/tools/study/hierarchy.h"
 
 namespace morsel::tools::reproduce {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// Makes one figure: its panels, each as `morsel render` would, and the sheet that shows them side by side.
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/reproduce/outcome.h"

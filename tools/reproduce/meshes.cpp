@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools::reproduce {
 namespace {

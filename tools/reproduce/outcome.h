@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/tools/study/comparison.h"
-#include "morsel/tools/study/made_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/picture.h"
 #include "morsel/tools/reproduce/meshes.h"
 #include "morsel/tools/reproduce/recipe.h"
+#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools::reproduce {
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "morsel/tools/formats/markup.h"
 #include "morsel/tools/formats/base64.h"
 #include "morsel/tools/formats/command_line.h"
+#include "morsel/tools/formats/markup.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/formats/version.h"
 #include "morsel/tools/reproduce/document.h"

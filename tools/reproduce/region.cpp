@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "morsel/core/neighbors.h"
+#include "morsel/core/mesh/neighbors.h"
 
 namespace morsel::tools::reproduce {
 namespace {

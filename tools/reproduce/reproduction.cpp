@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/file_writer.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/reproduce/document.h"
 #include "morsel/tools/reproduce/page.h"
 #include "morsel/tools/reproduce/table.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/reproduce/figure.h"
 
 namespace morsel::tools::reproduce {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <utility>
 
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/csv.h"
-#include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools::reproduce {
 

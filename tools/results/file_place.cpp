@@ -5,7 +5,7 @@
 #include <system_error>
 #include <tuple>
 
-#include "morsel/core/temporary_file.h"
+#include "morsel/core/io/temporary_file.h"
 
 namespace morsel::tools {
 namespace {

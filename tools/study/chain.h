@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/tracking.h"
-#include "morsel/tools/study/target.h"
 #include "morsel/tools/study/registry.h"
+#include "morsel/tools/study/target.h"
 
 namespace morsel::tools {
 

@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/method.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/persistence/pairing.h"
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/study/chain.h"
 #include "morsel/tools/study/matching.h"
 #include "morsel/tools/study/registry.h"
-#include "morsel/tools/formats/sha256.h"
 
 namespace morsel::tools {
 

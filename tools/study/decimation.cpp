@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
 #include "morsel/tools/study/random_stream.h"
 
 namespace morsel::tools {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools {
 

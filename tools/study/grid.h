@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/specification.h"
+#include "morsel/core/text/specification.h"
 #include "morsel/tools/study/variation.h"
 
 namespace morsel::tools {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/study/iteration_levels.h"
 #include "morsel/tools/study/persistence_levels.h"
 

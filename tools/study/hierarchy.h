@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/persistence/threshold.h"
-#include "morsel/tools/study/made_field.h"
 #include "morsel/tools/study/level.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 

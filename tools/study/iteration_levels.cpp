@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/tracking.h"
 #include "morsel/persistence/pairing.h"
 #include "morsel/tools/study/matching.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/study/chain.h"
 #include "morsel/tools/study/level_builder.h"
 #include "morsel/tools/study/registry.h"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/overlap.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "morsel/core/progress.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/study/level.h"
 
 namespace morsel::tools {

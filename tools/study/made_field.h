@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/segments.h"
 #include "morsel/persistence/threshold.h"
 

@@ -4,8 +4,8 @@
 #include <queue>
 #include <tuple>
 
-#include "morsel/core/neighbors.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/stop.h"
 
 namespace morsel::tools {
 namespace {

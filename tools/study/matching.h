@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "morsel/core/mesh.h"
+#include "morsel/core/mesh/mesh.h"
 #include "morsel/morse/critical_points.h"
 
 namespace morsel::tools {

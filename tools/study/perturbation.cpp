@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/length.h"
-#include "morsel/core/parallel.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/subdivision.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/mesh/subdivision.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/unit_size.h"
 #include "morsel/tools/study/decimation.h"

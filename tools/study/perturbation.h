@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools {
 

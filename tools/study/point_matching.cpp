@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
-#include "morsel/core/stop.h"
+#include "morsel/core/parallel/stop.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::tools {
 namespace {

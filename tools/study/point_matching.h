@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "morsel/core/neighbors.h"
+#include "morsel/core/mesh/neighbors.h"
 #include "morsel/core/types.h"
 
 namespace morsel::tools {

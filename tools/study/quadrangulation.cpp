@@ -5,8 +5,8 @@
 
 #include "morsel/core/error.h"
 #include "morsel/mscomplex/hierarchy.h"
-#include "morsel/tools/study/comparison.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 namespace {

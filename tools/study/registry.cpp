@@ -4,7 +4,7 @@
 #include <array>
 
 #include "morsel/core/error.h"
-#include "morsel/core/nearest_name.h"
+#include "morsel/core/text/nearest_name.h"
 #include "morsel/morse/functions/atomic_density.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/functions/curvature_functions.h"

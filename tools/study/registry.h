@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/core/method.h"
-#include "morsel/core/parameters.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/text/parameters.h"
 
 namespace morsel::tools {
 

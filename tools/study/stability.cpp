@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/length.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/mesh/length.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/core/rethrow.h"
 #include "morsel/tools/study/point_matching.h"
 #include "morsel/tools/study/random_stream.h"

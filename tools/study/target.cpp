@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel.h"
+#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/smoothing/keep_order.h"
 #include "morsel/morse/unfolding.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/progress.h"
-#include "morsel/core/scalar_field.h"
+#include "morsel/core/field/scalar_field.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/persistence/diagram.h"
 
 namespace morsel::tools {

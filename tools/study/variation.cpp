@@ -7,7 +7,7 @@
 #include <unordered_set>
 
 #include "morsel/core/error.h"
-#include "morsel/core/specification.h"
+#include "morsel/core/text/specification.h"
 
 namespace morsel::tools {
 namespace {

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parameters.h"
 #include "morsel/core/rethrow.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
+#include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/study/chain.h"
 #include "morsel/tools/study/comparison.h"
-#include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
-#include "morsel/core/progress.h"
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/progress.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/study/grid.h"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/formats/json_stream.h"
-#include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/sweep/sweep.h"
 
 namespace morsel::tools {

@@ -1,6 +1,6 @@
 #include <cstdio>
 
-#include "morsel/core/mesh_io.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/smoothing/salient.h"

@@ -1,0 +1,71 @@
+#pragma once
+/// The link of a vertex on the capped surface, walked once: what classification and sweeps are made of.
+
+#include "morsel/core/mesh/mesh.h"
+
+namespace morsel::core {
+
+/// Calls visit(u) once for each neighbour u of v, counter-clockwise: a full turn, or from one boundary
+/// neighbour to the other. O(degree).
+template <class Visit>
+void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
+  const Triangle* const triangles = mesh.triangles().data();
+  const Index* const twins = mesh.twins().data();
+  const Index start = mesh.vertex_halfedge(v);
+  Index h = start;
+  Index apex = kNone;
+  do {
+    const Index t = h / 3;
+    const Index i = h - 3 * t;
+    const Index previous = i == 0 ? 2 : i - 1;
+    visit(triangles[t][3 - i - previous]);
+    apex = triangles[t][previous];
+    h = twins[3 * t + previous];
+  } while (h != start && h != kNone);
+  if (h == kNone) visit(apex);
+}
+
+/// The part of a link that satisfies a predicate: its lower part, say.
+struct LinkPart {
+  Index runs = 0;     ///< maximal runs around the vertex; 0 if the part is empty or the whole link
+  bool empty = true;  ///< no element of the link is in the part
+  bool whole = true;  ///< every element is
+};
+
+/// Walks the link of v on the capped surface, a cycle: its neighbours, and at a boundary the loop's cap,
+/// which is in the part if `cap_inside`. Calls inside(u) once for each neighbour u, and on_run(u) for one
+/// element of each run (u = kNone: the cap). O(degree).
+template <class Inside, class OnRun>
+LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& inside, OnRun&& on_run) {
+  LinkPart part;
+  const bool boundary = mesh.is_boundary_vertex(v);
+  bool previous = cap_inside;
+  bool first_inside = cap_inside;
+  Index first = kNone;
+  bool started = boundary;
+  const auto note = [&](bool is_inside) {
+    part.empty &= !is_inside;
+    part.whole &= is_inside;
+    previous = is_inside;
+  };
+  const auto enter = [&](Index u) {
+    ++part.runs;
+    on_run(u);
+  };
+  if (boundary) note(cap_inside);
+  for_each_neighbor(mesh, v, [&](Index u) {
+    const bool is_inside = inside(u);
+    if (!started) {
+      started = true;
+      first = u;
+      first_inside = is_inside;
+    } else if (is_inside && !previous) {
+      enter(u);
+    }
+    note(is_inside);
+  });
+  if (first_inside && !previous) enter(first);
+  return part;
+}
+
+}  // namespace morsel::core

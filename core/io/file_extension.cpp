@@ -1,0 +1,14 @@
+#include "morsel/core/io/file_extension.h"
+
+#include <algorithm>
+
+namespace morsel::core {
+
+std::string file_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace morsel::core

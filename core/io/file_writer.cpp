@@ -1,0 +1,193 @@
+#include "morsel/core/io/file_writer.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <locale>
+#include <stdexcept>
+#include <streambuf>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/core/io/temporary_file.h"
+
+namespace morsel::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 18;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw WriteFailed("cannot write " + path.string() + ": " + reason);
+}
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+  fail(path, std::generic_category().message(error));
+}
+
+/// The file that a chain of symbolic links ends at, which need not exist.
+fs::path followed(fs::path path) {
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
+    path = path.parent_path() / fs::read_symlink(path);
+  return path;
+}
+
+}  // namespace
+
+struct FileWriter::Output {
+  Output(const fs::path& target, Sync sync);
+  ~Output() {
+    if (device >= 0) ::close(device);
+    temporary.discard();
+    remove_made();
+  }
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  void append(const char* data, std::size_t size) {
+    if (file() < 0) throw std::logic_error("FileWriter: written after commit()");
+    if (size > buffer.size() - used) {
+      flush();
+      if (size > buffer.size()) {
+        write_out(data, size);
+        return;
+      }
+    }
+    std::copy_n(data, size, buffer.data() + used);
+    used += size;
+  }
+  void flush() { write_out(buffer.data(), std::exchange(used, 0)); }
+  void write_out(const char* data, std::size_t size);
+  void commit();
+  void open_temporary(const fs::path& target);
+  /// Folders that nothing was written to in the end.
+  void remove_made() noexcept {
+    for (const fs::path& folder : made)
+      if (::rmdir(folder.c_str()) != 0) return;
+  }
+  int file() const { return device >= 0 ? device : temporary.descriptor(); }
+
+  struct StreamBuffer : std::streambuf {
+    explicit StreamBuffer(Output& o) : output(o) {}
+    int_type overflow(int_type c) override {
+      if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+      const char byte = traits_type::to_char_type(c);
+      output.append(&byte, 1);
+      return c;
+    }
+    std::streamsize xsputn(const char* data, std::streamsize size) override {
+      output.append(data, static_cast<std::size_t>(size));
+      return size;
+    }
+    Output& output;
+  };
+
+  fs::path shown;  // as the caller named it
+  TemporaryFile temporary;
+  int device = -1;             // or else this is written to
+  std::vector<fs::path> made;  // folders, from the inside out
+  bool synced = false;
+  std::vector<char> buffer;
+  std::size_t used = 0;
+  StreamBuffer stream_buffer{*this};
+  std::ostream stream{&stream_buffer};
+};
+
+FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), buffer(kBufferSize) {
+  if (!target.has_filename()) fail(shown, "that is not the name of a file");
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) fail(shown, EISDIR);
+  if ((exists && !S_ISREG(status.st_mode)) || is_descriptor_path(target)) {
+    device = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (device < 0) fail(shown, errno);
+  } else {
+    // Renaming would replace a file that its owner has protected.
+    if (exists && ::access(target.c_str(), W_OK) != 0) fail(shown, errno);
+    open_temporary(followed(target));
+    if (exists) static_cast<void>(::fchmod(temporary.descriptor(), status.st_mode & 07777));
+    synced = exists && sync == Sync::when_replacing;
+  }
+  stream.imbue(std::locale::classic());
+  stream.precision(17);
+  stream.exceptions(std::ios::badbit | std::ios::failbit);
+}
+
+void FileWriter::Output::open_temporary(const fs::path& target) {
+  std::error_code no_folder;
+  for (fs::path at = target.parent_path(); !at.empty() && !fs::exists(at, no_folder); at = at.parent_path())
+    made.push_back(at);
+  if (!made.empty()) fs::create_directories(made.front(), no_folder);
+  if (const int error = temporary.open(target); error != 0) {
+    remove_made();
+    fail(shown, error);
+  }
+}
+
+void FileWriter::Output::write_out(const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(file(), data, size);
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      fail(shown, errno);
+    }
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void FileWriter::Output::commit() {
+  if (file() < 0) return;
+  flush();
+  int error = 0;
+  if (device < 0)
+    error = temporary.publish(synced);
+  else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
+    error = errno;
+  if (error != 0) fail(shown, error);
+  made.clear();
+}
+
+FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}
+
+FileWriter::~FileWriter() = default;
+
+void FileWriter::write(std::string_view text) { output_->append(text.data(), text.size()); }
+
+void FileWriter::write_bytes(const void* data, std::size_t size) {
+  output_->append(static_cast<const char*>(data), size);
+}
+
+void FileWriter::write_number(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  output_->append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+void FileWriter::write_number(std::uint64_t value) {
+  std::array<char, 24> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  output_->append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+std::ostream& FileWriter::stream() { return output_->stream; }
+
+void FileWriter::commit() { output_->commit(); }
+
+void write_file(const fs::path& path, std::string_view contents, Sync sync) {
+  FileWriter writer(path, sync);
+  writer.write(contents);
+  writer.commit();
+}
+
+}  // namespace morsel::core

@@ -1,0 +1,42 @@
+#pragma once
+/// The readers behind mesh_io.h, one source file a format. Internal.
+///
+/// Each reads a whole file from memory. `file` names it in errors. A reader takes what its format allows and
+/// what programs commonly write, and refuses everything else with a BadInput that says what and where: a
+/// damaged file must not pass for a whole one. Vertices come out in the order of the file and positions with
+/// the precision the file has them in; corners are checked to name vertices that exist. No count in a header
+/// is believed before the file is seen to be long enough for it.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/progress.h"
+
+namespace morsel::core {
+
+/// Bytes of each piece of a text that is read in parallel: longer texts are cut. A parameter for the sake of
+/// tests.
+inline constexpr std::size_t kTextChunk = std::size_t{1} << 16;
+
+/// OFF and its variants COFF, NOFF, STOFF and their combinations, comments, polygons; header word missing or
+/// grown together with the counts. A vertex or face a line. Colours, normals and texture coordinates are
+/// skipped. Binary OFF and 4OFF, nOFF (other dimensions than three) are refused.
+LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk = kTextChunk);
+
+/// Wavefront OBJ: v and f with absolute or relative indices; other statements of the format are skipped.
+LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk = kTextChunk);
+
+/// PLY, ASCII and binary of both byte orders. An ASCII value has the precision of its declared type, so that
+/// the ASCII and the binary form of a file give the same mesh. Elements other than vertex and face are
+/// skipped; triangle strips are refused.
+LoadedSoup read_ply(std::string_view bytes, const std::string& file, const Progress& progress);
+
+/// STL, ASCII and binary (told apart by the size, not by the word "solid"). Equal positions become one
+/// vertex; vertices are numbered in the order in which they first appear. Normals are skipped.
+LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progress& progress);
+
+}  // namespace morsel::core

@@ -1,0 +1,104 @@
+#include "morsel/core/io/mesh_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/text/text_scanner.h"
+
+namespace morsel::core {
+namespace {
+
+struct Format {
+  std::string_view extension;
+  MeshFormat format;
+};
+constexpr std::array<Format, 4> kFormats = {{{".off", MeshFormat::off},
+                                             {".obj", MeshFormat::obj},
+                                             {".ply", MeshFormat::ply},
+                                             {".stl", MeshFormat::stl}}};
+
+const Format* find_format(const std::filesystem::path& path) {
+  const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);
+  return found == kFormats.end() ? nullptr : found;
+}
+
+}  // namespace
+
+bool has_mesh_extension(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+
+std::string mesh_extensions(std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < kFormats.size(); ++i) {
+    if (i > 0) text += i + 1 == kFormats.size() ? last : ", ";
+    text += kFormats[i].extension;
+  }
+  return text;
+}
+
+MeshFormat mesh_format(const std::filesystem::path& path) {
+  if (const Format* found = find_format(path)) return found->format;
+  const std::string extension = file_extension(path);
+  fail_reading(path.string(), extension.empty() ? "its name has no extension: use " + mesh_extensions()
+                                                : "meshes are read from " + mesh_extensions(" and ") +
+                                                      " files, not " + extension);
+}
+
+LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
+                              const Progress& progress) {
+  progress.update("reading the mesh", 0);
+  switch (format) {
+    case MeshFormat::off:
+      return read_off(bytes, name, progress);
+    case MeshFormat::obj:
+      return read_obj(bytes, name, progress);
+    case MeshFormat::ply:
+      return read_ply(bytes, name, progress);
+    case MeshFormat::stl:
+      return read_stl(bytes, name, progress);
+  }
+  throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
+}
+
+LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress) {
+  const std::string name = path.string();
+  // A missing file is reported as such, whatever its extension.
+  const FileBytes bytes(path, name);
+  return parse_polygon_soup(bytes.view(), mesh_format(path), name, progress);
+}
+
+namespace {
+
+/// Whatever is wrong names the file.
+LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const BuildOptions& options,
+                 const Progress& progress) {
+  try {
+    BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
+    return {std::move(built.mesh),
+            {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
+  } catch (const MeshError& error) {
+    throw error.about("\"" + path.string() + "\"");
+  } catch (const BadInput& error) {
+    throw BadInput("cannot use \"" + path.string() + "\": " + error.what());
+  }
+}
+
+}  // namespace
+
+LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options,
+                     const Progress& progress) {
+  return build(path, read_polygon_soup(path, progress), options, progress);
+}
+
+WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options,
+                          const Progress& progress) {
+  LoadedSoup file = read_polygon_soup(path, progress);
+  std::vector<Point> positions = file.soup.positions;
+  return {build(path, std::move(file), options, progress), std::move(positions)};
+}
+
+}  // namespace morsel::core

@@ -1,0 +1,37 @@
+#pragma once
+/// Lengths as users give them: in the unit of the mesh, in ε, or in edges.
+
+#include <cstdint>
+#include <string>
+
+#include "morsel/core/mesh/mesh.h"
+
+namespace morsel::core {
+
+/// The mean length of the mesh's edges, 0 if there are none. Scales exactly by powers of two. O(edges),
+/// parallel, the same bits for every number of threads.
+double mean_edge_length(const TriangleMesh& mesh);
+
+enum class LengthUnit : std::uint8_t {
+  mesh,     ///< the mesh's own
+  epsilon,  ///< ε = 0.3 % of the bounding box's diagonal (the paper's "Parameters")
+  edge      ///< the mesh's mean_edge_length()
+};
+
+/// A length in one of these units.
+struct Length {
+  double value = 0;
+  LengthUnit unit = LengthUnit::mesh;
+
+  static constexpr Length absolute(double length) { return {length, LengthUnit::mesh}; }
+  static constexpr Length epsilons(double count) { return {count, LengthUnit::epsilon}; }
+  static constexpr Length edges(double count) { return {count, LengthUnit::edge}; }
+
+  /// The length in the unit of `mesh`. O(1), or O(edges) in edges.
+  double on(const TriangleMesh& mesh) const;
+};
+
+/// "8eps", "3edges" or "0.25"; parse_length() reads it back exactly.
+std::string to_string(const Length& length);
+
+}  // namespace morsel::core

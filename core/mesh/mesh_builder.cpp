@@ -1,0 +1,234 @@
+#include "morsel/core/mesh/mesh_builder.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "morsel/core/mesh/mesh_repair.h"
+#include "morsel/core/mesh/polygon_triangulation.h"
+#include "morsel/core/parallel/interruptible.h"
+
+namespace morsel::core {
+namespace {
+
+enum class PolygonState : unsigned char { sound, out_of_range, degenerate, duplicate };
+
+bool has_repeated_corner(std::span<const Index> polygon) {
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    if (polygon[i] == polygon[(i + 1) % polygon.size()]) return true;
+  return false;
+}
+
+/// The polygon without corners that follow one on the same vertex.
+void merge_repeated(std::span<const Index> polygon, std::vector<Index>& result) {
+  result.clear();
+  for (const Index v : polygon)
+    if (result.empty() || result.back() != v) result.push_back(v);
+  while (result.size() > 1 && result.back() == result.front()) result.pop_back();
+}
+
+/// Turns polygons into triangles. What is wrong with a polygon as such becomes triangles with the same fault,
+/// so that find_defects() sees it, or is mended.
+class Triangulation {
+ public:
+  Triangulation(PolygonSoup soup, const BuildOptions& options, const Progress& progress)
+      : soup_(std::move(soup)), repair_(options.repair), progress_(progress) {}
+
+  TriangleSoup run(RepairCounts& counts) {
+    check_soup();
+    const std::size_t count = soup_.polygon_count();
+    bool only_triangles = true;
+    for (std::size_t p = 0; p < count && only_triangles; ++p) only_triangles = soup_.polygon(p).size() == 3;
+    if (only_triangles) {
+      result_.triangles.resize(count);
+      for (std::size_t p = 0; p < count; ++p)
+        std::copy_n(soup_.corners.begin() + static_cast<std::ptrdiff_t>(3 * p), 3,
+                    result_.triangles[p].begin());
+    } else {
+      if (repair_) merge_corners(counts);
+      classify();
+      for (std::size_t p = 0; p < count; ++p) {
+        if ((p & 0xFFFF) == 0xFFFF)
+          progress_.update("triangulating polygons", static_cast<double>(p) / static_cast<double>(count));
+        append(p);
+      }
+    }
+    result_.positions = std::move(soup_.positions);
+    return std::move(result_);
+  }
+
+ private:
+  void check_soup() const {
+    const auto& offsets = soup_.offsets;
+    if (offsets.empty() || offsets.front() != 0 || offsets.back() != soup_.corners.size() ||
+        !std::is_sorted(offsets.begin(), offsets.end()))
+      throw InvalidArgument("the offsets of a polygon soup must ascend from 0 to the number of its corners");
+    if (soup_.positions.size() >= kNone || soup_.polygon_count() >= kNone)
+      throw BadInput("the mesh is too large: " + std::to_string(soup_.positions.size()) + " vertices and " +
+                     std::to_string(soup_.polygon_count()) + " faces");
+  }
+
+  void merge_corners(RepairCounts& counts) {
+    std::vector<Index> merged;
+    std::vector<Index> corners;
+    std::vector<std::size_t> offsets = {0};
+    for (std::size_t p = 0; p < soup_.polygon_count(); ++p) {
+      merge_repeated(soup_.polygon(p), merged);
+      if (merged.size() >= 3 && merged.size() < soup_.polygon(p).size()) ++counts.merged_repeated_corners;
+      corners.insert(corners.end(), merged.begin(), merged.end());
+      offsets.push_back(corners.size());
+    }
+    soup_.corners = std::move(corners);
+    soup_.offsets = std::move(offsets);
+  }
+
+  void classify() {
+    const std::size_t n = soup_.positions.size();
+    state_.assign(soup_.polygon_count(), PolygonState::sound);
+    for (std::size_t p = 0; p < state_.size(); ++p) {
+      const auto polygon = soup_.polygon(p);
+      if (std::any_of(polygon.begin(), polygon.end(), [&](Index v) { return v >= n; }))
+        state_[p] = PolygonState::out_of_range;
+      else if (polygon.size() < 3 || has_repeated_corner(polygon))
+        state_[p] = PolygonState::degenerate;
+    }
+    find_duplicates();
+    for (std::size_t p = 0; p < state_.size(); ++p) {
+      if (state_[p] != PolygonState::sound) continue;
+      progress_.throw_if_cancelled();
+      const auto polygon = soup_.polygon(p);
+      for (std::size_t i = 0; i < polygon.size(); ++i)
+        edges_.insert(polygon[i], polygon[(i + 1) % polygon.size()]);
+    }
+  }
+
+  /// Sorted keys of the polygon's sides.
+  void sides(std::size_t p, std::vector<std::uint64_t>& keys) const {
+    const auto polygon = soup_.polygon(p);
+    keys.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const auto [low, high] = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
+      keys.push_back(std::uint64_t{low} << 32 | high);
+    }
+    std::sort(keys.begin(), keys.end(), interruptible());
+  }
+
+  /// Polygons of four and more corners with the same sides. (Triangles are compared after triangulation.)
+  void find_duplicates() {
+    std::vector<std::pair<std::uint64_t, std::size_t>> hashed;
+    std::vector<std::uint64_t> keys;
+    for (std::size_t p = 0; p < state_.size(); ++p) {
+      if (state_[p] != PolygonState::sound || soup_.polygon(p).size() < 4) continue;
+      sides(p, keys);
+      std::uint64_t hash = keys.size();
+      for (const std::uint64_t key : keys) hash = (hash ^ key) * 0x9E37'79B9'7F4A'7C15u, hash ^= hash >> 29;
+      hashed.emplace_back(hash, p);
+    }
+    std::sort(hashed.begin(), hashed.end(), interruptible());
+    for (std::size_t first = 0, last = 0; first < hashed.size(); first = last) {
+      while (last < hashed.size() && hashed[last].first == hashed[first].first) ++last;
+      if (last - first > 1) find_duplicates(std::span(hashed).subspan(first, last - first));
+    }
+  }
+
+  /// Among polygons whose sides have the same hash, which need not be the same.
+  void find_duplicates(std::span<const std::pair<std::uint64_t, std::size_t>> hashed) {
+    std::vector<std::pair<std::vector<std::uint64_t>, std::size_t>> sorted(hashed.size());
+    for (std::size_t i = 0; i < hashed.size(); ++i) {
+      sorted[i].second = hashed[i].second;
+      sides(hashed[i].second, sorted[i].first);
+    }
+    std::sort(sorted.begin(), sorted.end(), interruptible());
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[i - 1].first) continue;
+      if (twin_of_.empty()) twin_of_.resize(state_.size());
+      state_[sorted[i].second] = PolygonState::duplicate;
+      twin_of_[sorted[i].second] = sorted[i - 1].second;
+    }
+  }
+
+  void append(std::size_t p) {
+    const auto polygon = soup_.polygon(p);
+    auto& triangles = result_.triangles;
+    if (!twin_of_.empty()) first_triangle_.push_back(triangles.size());
+    switch (state_[p]) {
+      case PolygonState::sound:
+        triangulator_.triangulate(polygon, p, triangles);
+        break;
+      case PolygonState::out_of_range:
+        for (const Index v : polygon) triangles.push_back({v, kNone, kNone});
+        break;
+      case PolygonState::degenerate:
+        for (const Index v : polygon) triangles.push_back({v, v, v});
+        if (polygon.empty() && !soup_.positions.empty()) triangles.push_back({0, 0, 0});
+        break;
+      case PolygonState::duplicate:
+        first_triangle_[p] = first_triangle_[twin_of_[p]];
+        triangles.push_back(Triangle(triangles[first_triangle_[p]]));
+        break;
+    }
+    result_.faces.resize(triangles.size(), static_cast<Index>(p));
+  }
+
+  PolygonSoup soup_;
+  bool repair_;
+  const Progress& progress_;
+  std::vector<PolygonState> state_;
+  // Per polygon, if there are duplicates: an earlier one with the same sides, and its first triangle.
+  std::vector<std::size_t> twin_of_;
+  std::vector<std::size_t> first_triangle_;
+  EdgeSet edges_;
+  PolygonTriangulator triangulator_{soup_.positions, edges_, progress_};
+  TriangleSoup result_;
+};
+
+/// Defects of repaired triangles, in the input's numbers.
+std::vector<Defect> remaining(std::vector<Defect> defects, const VertexNumbering& numbering) {
+  // Where nothing can be oriented, edges between faces of opposite orientation are no news.
+  const auto is = [](DefectKind kind) { return [kind](const Defect& d) { return d.kind == kind; }; };
+  if (std::any_of(defects.begin(), defects.end(), is(DefectKind::non_orientable)))
+    std::erase_if(defects, is(DefectKind::inconsistent_orientation));
+  for (Defect& d : defects)
+    if (d.kind == DefectKind::non_finite_position)
+      for (Index& v : d.first) v = numbering.input_vertex(v);
+  return defects;
+}
+
+}  // namespace
+
+void PolygonSoup::add_polygon(std::span<const Index> polygon) {
+  corners.insert(corners.end(), polygon.begin(), polygon.end());
+  offsets.push_back(corners.size());
+}
+
+BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progress& progress) {
+  progress.update("building the mesh", 0);
+  RepairCounts counts;
+  TriangleSoup soup = Triangulation(std::move(input), options, progress).run(counts);
+  VertexNumbering numbering;
+  numbering.input_count = soup.positions.size();
+  if (options.repair) {
+    const bool is_damaged = std::any_of(soup.triangles.begin(), soup.triangles.end(), [&](const Triangle& t) {
+      return *std::max_element(t.begin(), t.end()) >= soup.positions.size();
+    });
+    if (is_damaged) throw MeshError(find_defects(soup.positions, soup.triangles, soup.faces));
+    progress.update("repairing the mesh", 0.2);
+    numbering = repair_triangles(soup, counts);
+  }
+  progress.update("building the mesh", 0.5);
+  const bool is_renumbered = !soup.faces.empty();
+  try {
+    // Where triangles are not the input's faces, an error needs them once more.
+    TriangleMesh mesh = is_renumbered ? TriangleMesh(soup.positions, soup.triangles)
+                                      : TriangleMesh(std::move(soup.positions), std::move(soup.triangles));
+    return {std::move(mesh), std::move(numbering), counts.listed()};
+  } catch (const MeshError& error) {
+    std::vector<Defect> defects =
+        is_renumbered ? find_defects(soup.positions, soup.triangles, soup.faces) : error.defects();
+    if (options.repair) throw MeshError(remaining(std::move(defects), numbering), true);
+    throw MeshError(std::move(defects));
+  }
+}
+
+}  // namespace morsel::core

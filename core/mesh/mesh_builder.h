@@ -1,0 +1,89 @@
+#pragma once
+/// From a polygon soup to a TriangleMesh: triangulation, repair, and the way back to the input's vertices.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/core/mesh/mesh_defects.h"
+#include "morsel/core/parallel/progress.h"
+
+namespace morsel::core {
+
+/// Polygons over shared vertices, exactly as a file holds them: nothing is checked yet.
+struct PolygonSoup {
+  std::vector<Point> positions;
+  /// Polygon p has the corners corners[offsets[p]] … corners[offsets[p + 1] − 1].
+  std::vector<std::size_t> offsets = {0};
+  std::vector<Index> corners;
+
+  std::size_t polygon_count() const { return offsets.size() - 1; }
+  std::span<const Index> polygon(std::size_t p) const {
+    return std::span<const Index>(corners).subspan(offsets[p], offsets[p + 1] - offsets[p]);
+  }
+  void add_polygon(std::span<const Index> polygon);
+};
+
+/// One kind of repair that was done, and on how many elements of the input: faces are its polygons, not the
+/// triangles that they are cut into.
+struct Repair {
+  std::string action;  ///< "removed_degenerate_faces", …, as the report lists it
+  std::size_t count = 0;
+};
+
+/// How mesh vertices and the input's vertices correspond. Empty tables mean "the same numbers".
+struct VertexNumbering {
+  std::size_t input_count = 0;
+  std::vector<Index> to_input;    ///< per mesh vertex: its number in the input
+  std::vector<Index> from_input;  ///< per input vertex: its (smallest) mesh vertex, kNone if dropped
+
+  Index input_vertex(Index mesh_vertex) const {
+    return to_input.empty() ? mesh_vertex : to_input[mesh_vertex];
+  }
+  Index mesh_vertex(Index input_vertex) const {
+    return from_input.empty() ? input_vertex : from_input[input_vertex];
+  }
+};
+
+struct BuiltMesh {
+  TriangleMesh mesh;
+  VertexNumbering numbering;
+  std::vector<Repair> repairs;
+};
+
+struct BuildOptions {
+  bool repair = false;  ///< mend what can be mended instead of refusing it
+};
+
+/// Makes the mesh: cuts polygons of four and more corners into triangles (polygon_triangulation.h), keeping
+/// their order, and checks every rule of TriangleMesh. Positions are never moved nor welded. Throws MeshError
+/// with every defect if a rule is broken; faces in it are numbered as the soup's polygons are. A polygon with
+/// fewer than three corners, or one after the other on the same vertex, is degenerate; polygons with the same
+/// sides are duplicates whichever way round they run.
+///
+/// With `options.repair` it does these repairs, in this order, lists those that changed anything, and throws
+/// MeshError only for what remains (faces that name missing vertices, non-finite positions in use, components
+/// that cannot be oriented, no face left):
+///
+/// | action | what |
+/// | --- | --- |
+/// | merged_repeated_corners | faces in which corners after one another on the same vertex became one |
+/// | removed_degenerate_faces | faces with fewer than three different vertices |
+/// | removed_duplicate_faces | faces on the same vertices as an earlier one, which is kept |
+/// | split_non_manifold_edges | edges of three or more faces: the faces are parted there |
+/// | split_non_manifold_vertices | vertices whose faces form several fans: each gets a vertex of its own |
+/// | reoriented_faces | faces turned round so that all in a component agree |
+/// | removed_unreferenced_vertices | vertices that no face (any more) uses |
+///
+/// Where a vertex is split, the fan of the first face keeps its number and the others get new vertices at the
+/// same position after all others. Faces that meet in a split edge stay joined where both its ends got the
+/// same new vertices. A component that has to be reoriented ends up with outward normals if it is closed,
+/// else as most of its faces were (as the first was, in a tie); one that agrees with itself is left alone.
+///
+/// O(n log n), deterministic.
+BuiltMesh build_mesh(PolygonSoup soup, const BuildOptions& options = {}, const Progress& progress = {});
+
+}  // namespace morsel::core

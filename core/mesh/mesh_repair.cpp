@@ -1,0 +1,268 @@
+#include "morsel/core/mesh/mesh_repair.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "morsel/core/parallel/interruptible.h"
+#include "morsel/core/parallel/union_find.h"
+
+namespace morsel::core {
+namespace {
+
+struct HalfEdge {
+  Index smaller;
+  Index larger;
+  Index halfedge;
+};
+
+Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+/// Counts the faces that triangles belong to, which must come in ascending order.
+class FaceCounter {
+ public:
+  explicit FaceCounter(const TriangleSoup& soup) : soup_(soup) {}
+  void add(std::size_t triangle) {
+    const Index face = soup_.face(triangle);
+    if (count_ == 0 || face != last_) ++count_;
+    last_ = face;
+  }
+  std::size_t count() const { return count_; }
+
+ private:
+  const TriangleSoup& soup_;
+  Index last_ = kNone;
+  std::size_t count_ = 0;
+};
+
+class Repairer {
+ public:
+  Repairer(TriangleSoup& soup, RepairCounts& counts) : soup_(soup), counts_(counts) {}
+
+  VertexNumbering run() {
+    const std::size_t input_count = soup_.positions.size();
+    remove_degenerate();
+    remove_duplicates();
+    sort_halfedges();
+    if (split()) sort_halfedges();
+    orient();
+    VertexNumbering numbering = remove_unreferenced();
+    numbering.input_count = input_count;
+    return numbering;
+  }
+
+ private:
+  Index origin(Index h) const { return soup_.triangles[h / 3][h % 3]; }
+
+  void remove(const std::vector<bool>& drop, std::size_t& count) {
+    FaceCounter faces(soup_);
+    std::size_t kept = 0;
+    if (soup_.faces.empty()) {  // from here on triangles and faces differ
+      soup_.faces.resize(drop.size());
+      for (std::size_t t = 0; t < drop.size(); ++t) soup_.faces[t] = static_cast<Index>(t);
+    }
+    for (std::size_t t = 0; t < drop.size(); ++t)
+      if (drop[t]) faces.add(t);
+    for (std::size_t t = 0; t < drop.size(); ++t) {
+      if (drop[t]) continue;
+      soup_.triangles[kept] = soup_.triangles[t];
+      soup_.faces[kept++] = soup_.faces[t];
+    }
+    soup_.triangles.resize(kept);
+    soup_.faces.resize(kept);
+    count += faces.count();
+  }
+
+  void remove_degenerate() {
+    std::vector<bool> drop(soup_.triangles.size());
+    bool any = false;
+    for (std::size_t t = 0; t < drop.size(); ++t) {
+      const auto& [a, b, c] = soup_.triangles[t];
+      drop[t] = a == b || b == c || c == a;
+      any = any || drop[t];
+    }
+    if (any) remove(drop, counts_.removed_degenerate_faces);
+  }
+
+  void remove_duplicates() {
+    std::vector<std::pair<Triangle, Index>> sorted;
+    sorted.reserve(soup_.triangles.size());
+    for (std::size_t t = 0; t < soup_.triangles.size(); ++t) {
+      sorted.emplace_back(soup_.triangles[t], static_cast<Index>(t));
+      std::sort(sorted.back().first.begin(), sorted.back().first.end());
+    }
+    std::sort(sorted.begin(), sorted.end(), interruptible());
+    std::vector<bool> drop(soup_.triangles.size(), false);
+    bool any = false;
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first) any = drop[sorted[i].second] = true;
+    if (any) remove(drop, counts_.removed_duplicate_faces);
+  }
+
+  void sort_halfedges() {
+    halfedges_.clear();
+    halfedges_.reserve(3 * soup_.triangles.size());
+    for (Index h = 0; h < 3 * soup_.triangles.size(); ++h) {
+      const auto [smaller, larger] = std::minmax({origin(h), origin(next(h))});
+      halfedges_.push_back({smaller, larger, h});
+    }
+    const auto less = [](const HalfEdge& a, const HalfEdge& b) {
+      return std::tie(a.smaller, a.larger, a.halfedge) < std::tie(b.smaller, b.larger, b.halfedge);
+    };
+    std::sort(halfedges_.begin(), halfedges_.end(), interruptible(less));
+  }
+
+  /// Calls visit(first, last) with the range in halfedges_ of each edge.
+  template <class Visit>
+  void for_each_edge(Visit&& visit) const {
+    for (std::size_t i = 0; i < halfedges_.size();) {
+      throw_if_stopped_at_times();
+      std::size_t end = i + 1;
+      while (end < halfedges_.size() && halfedges_[end].smaller == halfedges_[i].smaller &&
+             halfedges_[end].larger == halfedges_[i].larger)
+        ++end;
+      visit(i, end);
+      i = end;
+    }
+  }
+
+  /// Gives each fan of faces around a vertex a vertex of its own, where fans are joined across edges of two
+  /// faces only. Each fan is a path or a cycle then, so that at most two faces remain at any edge and one fan
+  /// at any vertex. Returns whether anything was split.
+  bool split() {
+    UnionFind fans(static_cast<Index>(3 * soup_.triangles.size()));
+    for_each_edge([&](std::size_t first, std::size_t last) {
+      if (last - first > 2) ++counts_.split_non_manifold_edges;
+      if (last - first != 2) return;
+      const Index a = halfedges_[first].halfedge;
+      const Index b = halfedges_[first + 1].halfedge;
+      const bool same_way = origin(a) == origin(b);
+      fans.unite(a, same_way ? b : next(b));
+      fans.unite(next(a), same_way ? next(b) : b);
+    });
+    // Roots are the smallest corners of their fans, so they come before the others.
+    std::vector<Index> fans_of(soup_.positions.size(), 0);
+    std::vector<Index> vertex_of_fan(3 * soup_.triangles.size(), kNone);
+    const auto input_count = static_cast<Index>(soup_.positions.size());
+    for (Index c = 0; c < vertex_of_fan.size(); ++c) {
+      const Index root = fans.find(c);
+      Index& corner = soup_.triangles[c / 3][c % 3];
+      if (root == c) {
+        vertex_of_fan[c] = corner;
+        const Index fan = fans_of[corner]++;
+        if (fan == 1) ++counts_.split_non_manifold_vertices;
+        if (fan > 0) {
+          vertex_of_fan[c] = input_count + static_cast<Index>(split_from_.size());
+          split_from_.push_back(corner);
+        }
+      }
+      corner = vertex_of_fan[root];
+    }
+    for (const Index v : split_from_) soup_.positions.push_back(Point(soup_.positions[v]));
+    return !split_from_.empty();
+  }
+
+  void orient() {
+    const auto count = static_cast<Index>(soup_.triangles.size());
+    UnionFind components(count);
+    ParityUnionFind parity(count);
+    std::vector<Index> contradictions;
+    std::vector<Index> open;  // faces with a boundary edge
+    for_each_edge([&](std::size_t first, std::size_t last) {
+      const Index a = halfedges_[first].halfedge;
+      if (last - first == 1) open.push_back(a / 3);
+      if (last - first != 2) return;
+      const Index b = halfedges_[first + 1].halfedge;
+      components.unite(a / 3, b / 3);
+      if (!parity.unite(a / 3, b / 3, origin(a) == origin(b))) contradictions.push_back(a / 3);
+    });
+    struct Component {
+      Index same = 0, opposite = 0;  // faces, by parity relative to the first one
+      bool is_closed = true;
+      bool is_orientable = true;
+      double volume = 0, terms = 0;  // as the first face is oriented
+    };
+    std::vector<Component> of_root(count);
+    for (const Index t : contradictions) of_root[components.find(t)].is_orientable = false;
+    for (const Index t : open) of_root[components.find(t)].is_closed = false;
+    for (Index t = 0; t < count; ++t) {
+      const Index root = components.find(t);
+      Component& c = of_root[root];
+      const bool odd = parity.find(t).second != parity.find(root).second;
+      ++(odd ? c.opposite : c.same);
+      const Point& base = soup_.positions[soup_.triangles[root][0]];
+      const auto corner = [&](int i) -> Point { return soup_.positions[soup_.triangles[t][i]] - base; };
+      const double term = corner(0).dot(corner(1).cross(corner(2)));
+      c.volume += odd ? -term : term;
+      c.terms += std::abs(term);
+    }
+    FaceCounter faces(soup_);
+    for (Index t = 0; t < count; ++t) {
+      const Index root = components.find(t);
+      const Component& c = of_root[root];
+      if (c.opposite == 0 || !c.is_orientable) continue;
+      const bool outward_known = c.is_closed && std::abs(c.volume) > 1e-9 * c.terms;
+      const bool keep_first = outward_known ? c.volume > 0 : c.same >= c.opposite;
+      const bool odd = parity.find(t).second != parity.find(root).second;
+      if (odd != keep_first) continue;
+      std::swap(soup_.triangles[t][1], soup_.triangles[t][2]);
+      faces.add(t);
+    }
+    counts_.reoriented_faces += faces.count();
+  }
+
+  VertexNumbering remove_unreferenced() {
+    const std::size_t total = soup_.positions.size();
+    const std::size_t input_count = total - split_from_.size();
+    std::vector<Index> number(total, kNone);
+    for (const Triangle& t : soup_.triangles)
+      for (const Index v : t) number[v] = 0;
+    VertexNumbering numbering;
+    Index kept = 0;
+    for (std::size_t v = 0; v < total; ++v) {
+      if (number[v] == kNone) continue;
+      number[v] = kept;
+      soup_.positions[kept++] = soup_.positions[v];
+      numbering.to_input.push_back(v < input_count ? static_cast<Index>(v) : split_from_[v - input_count]);
+    }
+    counts_.removed_unreferenced_vertices += total - kept;
+    if (kept == input_count && split_from_.empty()) return {};
+    soup_.positions.resize(kept);
+    for (Triangle& t : soup_.triangles)
+      for (Index& v : t) v = number[v];
+    // The fan that kept its vertex's number is the one with the smallest.
+    numbering.from_input.assign(number.begin(), number.begin() + static_cast<std::ptrdiff_t>(input_count));
+    return numbering;
+  }
+
+  TriangleSoup& soup_;
+  RepairCounts& counts_;
+  std::vector<HalfEdge> halfedges_;
+  std::vector<Index> split_from_;  // per vertex that splitting added: the one it was split from
+};
+
+}  // namespace
+
+std::vector<Repair> RepairCounts::listed() const {
+  std::vector<Repair> result;
+  const auto add = [&](const char* action, std::size_t count) {
+    if (count > 0) result.push_back({action, count});
+  };
+  add("merged_repeated_corners", merged_repeated_corners);
+  add("removed_degenerate_faces", removed_degenerate_faces);
+  add("removed_duplicate_faces", removed_duplicate_faces);
+  add("split_non_manifold_edges", split_non_manifold_edges);
+  add("split_non_manifold_vertices", split_non_manifold_vertices);
+  add("reoriented_faces", reoriented_faces);
+  add("removed_unreferenced_vertices", removed_unreferenced_vertices);
+  return result;
+}
+
+VertexNumbering repair_triangles(TriangleSoup& soup, RepairCounts& counts) {
+  return Repairer(soup, counts).run();
+}
+
+}  // namespace morsel::core

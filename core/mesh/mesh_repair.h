@@ -1,0 +1,41 @@
+#pragma once
+/// Repairing triangles until they obey the rules of TriangleMesh. Internal to build_mesh(), which documents
+/// what is done.
+
+#include <span>
+#include <vector>
+
+#include "morsel/core/mesh/mesh_builder.h"
+#include "morsel/core/types.h"
+
+namespace morsel::core {
+
+/// Triangles that are parts of the polygons of an input.
+struct TriangleSoup {
+  std::vector<Point> positions;
+  std::vector<Triangle> triangles;
+  /// Per triangle the polygon that it is a part of, ascending; empty if each is one of its own.
+  std::vector<Index> faces;
+
+  Index face(std::size_t t) const { return faces.empty() ? static_cast<Index>(t) : faces[t]; }
+};
+
+/// Counts of repairs before and during repair_triangles().
+struct RepairCounts {
+  std::size_t merged_repeated_corners = 0;
+  std::size_t removed_degenerate_faces = 0;
+  std::size_t removed_duplicate_faces = 0;
+  std::size_t split_non_manifold_edges = 0;
+  std::size_t split_non_manifold_vertices = 0;
+  std::size_t reoriented_faces = 0;
+  std::size_t removed_unreferenced_vertices = 0;
+
+  /// Those that are not zero, in the order above.
+  std::vector<Repair> listed() const;
+};
+
+/// Repairs in place. All corners must name vertices that exist. What remains afterwards is at most: no
+/// triangle, non-finite positions, components that cannot be oriented. O(n log n).
+VertexNumbering repair_triangles(TriangleSoup& soup, RepairCounts& counts);
+
+}  // namespace morsel::core

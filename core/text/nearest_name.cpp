@@ -1,0 +1,58 @@
+#include "morsel/core/text/nearest_name.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace morsel::core {
+namespace {
+
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before;              // row i - 2
+  std::vector<std::size_t> last(b.size() + 1);  // row i - 1
+  std::iota(last.begin(), last.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::vector<std::size_t> row(b.size() + 1, i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before = std::exchange(last, std::move(row));
+  }
+  return last.back();
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t kLongest = 64;  // nobody mistypes more than that
+  if (word.size() > kLongest) return "";
+  std::string best;
+  std::size_t least = (word.size() + 1) / 3 + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t steps = distance(word, candidate);
+    if (steps >= least) continue;
+    least = steps;
+    best = candidate;
+  }
+  return best;
+}
+
+std::string nearest_hint(std::string_view word, std::span<const std::string> candidates) {
+  const std::string name = nearest_name(word, candidates);
+  return name.empty() ? "" : "; did you mean " + name + "?";
+}
+
+std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string listed) {
+  std::string hint = nearest_hint(word, candidates);
+  if (!hint.empty() && !listed.empty() && listed[0] >= 'a' && listed[0] <= 'z')
+    listed[0] = static_cast<char>(listed[0] - 'a' + 'A');
+  hint += (hint.empty() ? "; " : " ") + listed + ": ";
+  for (std::size_t i = 0; i < candidates.size(); ++i) hint += (i == 0 ? "" : ", ") + candidates[i];
+  return hint;
+}
+
+}  // namespace morsel::core

@@ -1,0 +1,189 @@
+#include "morsel/core/text/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/core/text/nearest_name.h"
+
+namespace morsel::core {
+namespace {
+
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+void check_range(double value, const Range& range, const std::string& what) {
+  const bool low = range.min_exclusive ? value <= range.min : value < range.min;
+  if (!low && value <= range.max) return;
+  std::string allowed;
+  if (std::isfinite(range.min))
+    allowed = (range.min_exclusive ? "above " : "at least ") + shortest(range.min);
+  if (std::isfinite(range.max))
+    allowed += (allowed.empty() ? "" : " and ") + ("at most " + shortest(range.max));
+  throw InvalidArgument(what + " must be " + allowed + ", not " + shortest(value));
+}
+
+template <class Number>
+bool parse_whole(std::string_view text, Number& value) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && !text.empty();
+}
+
+}  // namespace
+
+std::string shortest(double value) {
+  std::array<char, 32> buffer;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string to_string(const Length& length) {
+  const char* unit = length.unit == LengthUnit::epsilon ? "eps"
+                     : length.unit == LengthUnit::edge  ? "edges"
+                                                        : "";
+  return shortest(length.value) + unit;
+}
+
+double parse_number(std::string_view text, std::string_view what) {
+  double value = 0;
+  if (!parse_whole(text, value) || !std::isfinite(value))
+    throw InvalidArgument(std::string(what) + " must be a finite number, not " + in_quotes(text));
+  return value;
+}
+
+std::int64_t parse_integer(std::string_view text, std::string_view what) {
+  std::int64_t value = 0;
+  if (!parse_whole(text, value))
+    throw InvalidArgument(std::string(what) + " must be a whole number, not " + in_quotes(text));
+  return value;
+}
+
+Length parse_length(std::string_view text, std::string_view what) {
+  const std::string_view given = text;
+  LengthUnit unit = LengthUnit::mesh;
+  for (const auto& [name, named] : {std::pair<std::string_view, LengthUnit>("eps", LengthUnit::epsilon),
+                                    {"edges", LengthUnit::edge},
+                                    {"edge", LengthUnit::edge}})
+    if (unit == LengthUnit::mesh && text.ends_with(name)) {
+      text.remove_suffix(name.size());
+      unit = named;
+    }
+  double value = 0;
+  if (!parse_whole(text, value) || !std::isfinite(value))
+    throw InvalidArgument(std::string(what) +
+                          " must be a length such as 0.25 (in the mesh's unit), 8eps or 3edges, not " +
+                          in_quotes(given));
+  return {value, unit};
+}
+
+ParameterReader::ParameterReader(Specification specification) : specification_(std::move(specification)) {}
+
+ParameterReader ParameterReader::for_help(std::string name) {
+  ParameterReader reader(Specification{std::move(name), {}});
+  reader.for_help_ = true;
+  return reader;
+}
+
+const std::string* ParameterReader::declare(std::string_view key, std::string default_text,
+                                            std::string_view description, bool required) {
+  declared_.push_back({std::string(key), std::move(default_text), std::string(description)});
+  for (const auto& [name, value] : specification_.given)
+    if (name == key) return &value;
+  if (required && !for_help_)
+    throw InvalidArgument(owner() + " needs " + std::string(key) + "=… (" + std::string(description) + ")");
+  return nullptr;
+}
+
+bool ParameterReader::given(std::string_view key) const {
+  return std::any_of(specification_.given.begin(), specification_.given.end(),
+                     [&](const auto& entry) { return entry.first == key; });
+}
+
+double ParameterReader::number(std::string_view key, double default_value, Range range,
+                               std::string_view description) {
+  const std::string* text = declare(key, shortest(default_value), description);
+  if (text == nullptr) return default_value;
+  const std::string what = owner() + ":" + std::string(key);
+  const double value = parse_number(*text, what);
+  check_range(value, range, what);
+  return value;
+}
+
+std::int64_t ParameterReader::count(std::string_view key, std::int64_t default_value, std::int64_t min,
+                                    std::int64_t max, std::string_view description) {
+  const std::string* text = declare(key, std::to_string(default_value), description);
+  if (text == nullptr) return default_value;
+  const std::string what = owner() + ":" + std::string(key);
+  const std::int64_t value = parse_integer(*text, what);
+  if (value < min || value > max)
+    throw InvalidArgument(what + " must be between " + std::to_string(min) + " and " + std::to_string(max) +
+                          ", not " + *text);
+  return value;
+}
+
+Length ParameterReader::length(std::string_view key, Length default_value, Range range,
+                               std::string_view description) {
+  const std::string* text = declare(key, to_string(default_value), description);
+  if (text == nullptr) return default_value;
+  const std::string what = owner() + ":" + std::string(key);
+  const Length value = parse_length(*text, what);
+  check_range(value.value, range, what);
+  return value;
+}
+
+bool ParameterReader::flag(std::string_view key, bool default_value, std::string_view description) {
+  return choice(key, default_value ? "yes" : "no", {"yes", "no"}, description) == "yes";
+}
+
+std::string ParameterReader::choice(std::string_view key, std::string_view default_value,
+                                    const std::vector<std::string_view>& choices,
+                                    std::string_view description) {
+  std::string allowed;
+  for (const std::string_view c : choices) allowed += (allowed.empty() ? "" : ", ") + std::string(c);
+  const std::string* text =
+      declare(key, std::string(default_value), std::string(description) + " [" + allowed + "]");
+  if (text == nullptr) return std::string(default_value);
+  if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
+  throw InvalidArgument(owner() + ":" + std::string(key) + " must be one of " + allowed + ", not " +
+                        in_quotes(*text));
+}
+
+std::string ParameterReader::text(std::string_view key, const char* default_value,
+                                  std::string_view description) {
+  const bool required = default_value == nullptr;
+  const std::string fallback = required ? "" : default_value;
+  const std::string* text = declare(key, fallback, description, required);
+  return text == nullptr ? fallback : unescape(*text);
+}
+
+std::vector<std::string> ParameterReader::list(std::string_view key, const char* default_value,
+                                               std::string_view description) {
+  const bool required = default_value == nullptr;
+  const std::string fallback = required ? "" : default_value;
+  const std::string* given_text = declare(key, fallback, description, required);
+  std::vector<std::string> items;
+  for (const std::string_view item : split_unescaped(given_text == nullptr ? fallback : *given_text, '/'))
+    items.push_back(unescape(item));
+  return items;
+}
+
+void ParameterReader::finish() const {
+  for (std::size_t i = 0; i < specification_.given.size(); ++i) {
+    const std::string& key = specification_.given[i].first;
+    const auto declares = [&](const ParameterInfo& info) { return info.key == key; };
+    if (std::none_of(declared_.begin(), declared_.end(), declares)) {
+      std::vector<std::string> valid;
+      for (const ParameterInfo& info : declared_) valid.push_back(info.key);
+      throw InvalidArgument(owner() + " has no parameter " + in_quotes(key) +
+                            (valid.empty() ? "; it takes none" : nearest_of(key, valid, "it takes")));
+    }
+    for (std::size_t j = 0; j < i; ++j)
+      if (specification_.given[j].first == key)
+        throw InvalidArgument(owner() + ":" + key + " is given twice");
+  }
+}
+
+}  // namespace morsel::core

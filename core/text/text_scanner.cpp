@@ -1,0 +1,190 @@
+#include "morsel/core/text/text_scanner.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+#include "morsel/core/error.h"
+
+namespace morsel::core {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// The number that `digits` stands for if it is too small for its type: zero or subnormal. std::from_chars
+/// calls both ends of the range an error.
+bool is_tiny(std::string_view digits) {
+  long exponent = 0;
+  const std::size_t e = digits.find_first_of("eE");
+  if (e != std::string_view::npos) {
+    std::string_view power = digits.substr(e + 1);
+    const bool negative = power.starts_with('-');
+    if (negative || power.starts_with('+')) power.remove_prefix(1);
+    const auto result = std::from_chars(power.data(), power.data() + power.size(), exponent);
+    if (result.ec == std::errc::result_out_of_range) return negative;
+    if (negative) exponent = -exponent;
+  }
+  // The decimal place of the first digit that is not zero, next to the point.
+  long place = 0;
+  bool past_point = false;
+  bool significant = false;
+  for (const char c : digits.substr(0, e)) {
+    if (c == '.') {
+      past_point = true;
+    } else if (c >= '0' && c <= '9') {
+      significant = significant || c != '0';
+      if (past_point && !significant) --place;
+      if (!past_point && significant) ++place;
+    }
+  }
+  return exponent + place < 0;
+}
+
+}  // namespace
+
+void fail_reading(const std::string& file, const std::string& what) {
+  throw BadInput("cannot read \"" + file + "\": " + what);
+}
+
+std::string shown(std::string_view word) {
+  constexpr std::size_t kLongest = 24;
+  std::string text = "\"";
+  for (const char c : word.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + (word.size() > kLongest ? "…\"" : "\"");
+}
+
+TextScanner::TextScanner(std::string_view text, const std::string& file, Syntax syntax,
+                         const Progress& progress)
+    : begin_(text.data()),
+      end_(text.data() + text.size()),
+      next_(begin_),
+      syntax_(syntax),
+      file_(file),
+      progress_(progress) {
+  if (text.starts_with("\xEF\xBB\xBF")) next_ += 3;  // a byte-order mark
+  if (syntax.terminator != 0)
+    terminator_ = syntax.terminator;
+  else if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
+    terminator_ = '\r';
+  cursor_ = line_end_ = next_;
+}
+
+bool TextScanner::next_raw_line() {
+  if (next_ == end_) return false;
+  cursor_ = next_;
+  const auto* found = static_cast<const char*>(std::memchr(cursor_, terminator_, remaining()));
+  line_end_ = found == nullptr ? end_ : found;
+  next_ = found == nullptr ? end_ : found + 1;
+  ++line_;
+  advance();
+  return true;
+}
+
+void TextScanner::report() const {
+  progress_.update("reading the mesh",
+                   static_cast<double>(cursor_ - begin_) / static_cast<double>(end_ - begin_));
+}
+
+bool TextScanner::next_line() {
+  while (next_raw_line())
+    if (!at_line_end()) return true;
+  cursor_ = line_end_;
+  return false;
+}
+
+bool TextScanner::at_line_end() {
+  for (;;) {
+    while (cursor_ < line_end_ && is_blank(*cursor_)) ++cursor_;
+    if (cursor_ == line_end_) return true;
+    if (*cursor_ == syntax_.comment && syntax_.comment != 0) {
+      cursor_ = line_end_;
+      return true;
+    }
+    if (!syntax_.continuation || *cursor_ != '\\') return false;
+    const char* after = cursor_ + 1;
+    while (after < line_end_ && is_blank(*after)) ++after;
+    if (after != line_end_) return false;
+    cursor_ = line_end_;
+    if (!next_raw_line()) return true;
+  }
+}
+
+std::string_view TextScanner::peek_word() const {
+  const char* end = cursor_;
+  while (end < line_end_ && !is_blank(*end) && (*end != syntax_.comment || syntax_.comment == 0)) ++end;
+  return {cursor_, static_cast<std::size_t>(end - cursor_)};
+}
+
+std::string_view TextScanner::word() {
+  if (at_line_end()) return {};
+  const std::string_view result = peek_word();
+  cursor_ += result.size();
+  advance();
+  return result;
+}
+
+std::string_view TextScanner::word_on_any_line() {
+  if (at_line_end() && !next_line()) return {};
+  return word();
+}
+
+template <class Float>
+double TextScanner::parse(std::string_view what) {
+  if (at_line_end()) fail("the line ends where " + std::string(what) + " should be");
+  const char* start = cursor_;
+  if (*start == '+' && start + 1 < line_end_ && start[1] != '-') ++start;
+  Float value = 0;
+  const auto [stop, error] = std::from_chars(start, line_end_, value);
+  const bool whole_word = stop == line_end_ || is_blank(*stop) || (*stop == syntax_.comment && *stop != '\0');
+  if (error == std::errc::invalid_argument || !whole_word)
+    fail("expected " + std::string(what) + ", found " + shown(peek_word()));
+  if (error == std::errc::result_out_of_range) {
+    if (!is_tiny({start, static_cast<std::size_t>(stop - start)}))
+      fail(std::string(what) + " is too large a number: " + shown(peek_word()));
+    value = *start == '-' ? -Float{0} : Float{0};
+  }
+  cursor_ = stop;
+  advance();
+  return value;
+}
+
+double TextScanner::number(std::string_view what) { return parse<double>(what); }
+
+double TextScanner::single_number(std::string_view what) { return parse<float>(what); }
+
+std::int64_t TextScanner::leading_integer(std::string_view what) {
+  if (at_line_end()) fail("the line ends where " + std::string(what) + " should be");
+  const char* start = cursor_;
+  if (*start == '+' && start + 1 < line_end_ && start[1] != '-') ++start;
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(start, line_end_, value);
+  if (error == std::errc::invalid_argument)
+    fail("expected " + std::string(what) + ", found " + shown(peek_word()));
+  if (error == std::errc::result_out_of_range)
+    fail(std::string(what) + " is too large a number: " + shown(peek_word()));
+  cursor_ = stop;
+  advance();
+  return value;
+}
+
+std::int64_t TextScanner::integer(std::string_view what) {
+  at_line_end();
+  const char* start = cursor_;
+  const std::int64_t value = leading_integer(what);
+  if (cursor_ == line_end_ || is_blank(*cursor_) || (*cursor_ == syntax_.comment && *cursor_ != '\0'))
+    return value;
+  cursor_ = start;
+  fail("expected " + std::string(what) + ", found " + shown(peek_word()));
+}
+
+void TextScanner::fail(const std::string& what) const {
+  fail_reading(file_, "line " + std::to_string(line_) + ": " + what);
+}
+
+void TextScanner::fail_at_end(const std::string& what) const {
+  fail_reading(file_, "it ends at line " + std::to_string(line_) + ", " + what);
+}
+
+}  // namespace morsel::core
