@@ -70,15 +70,21 @@ struct MethodContext {
   bool count_iterations = false;
   /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method
   /// there. One that iterates on another field than it was given tells that first, as 0. A method that has to
-  /// begin again begins again with its first number. Empty: nobody listens.
+  /// begin again begins again with its first number. Empty: no callback is set.
   std::function<bool(int iteration, const ScalarField& field)> on_iteration = {};
   /// Which iterations on_iteration is told; the others cost less. Empty: all.
   std::function<bool(int iteration)> tells_iteration = {};
-  /// The vertices of a field's extrema by falling persistence, the essential ones first, `count` of them or
-  /// all there are; empty if nobody computes it.
-  std::function<std::vector<Index>(const ScalarField& field, std::size_t count)> persistent_extrema = {};
-  /// The field with all pairs of at most this persistence cancelled; empty if nobody computes it.
-  std::function<ScalarField(const ScalarField& field, double threshold)> cancel = {};
+};
+
+/// What is peculiar about a method, for whoever composes methods.
+struct MethodTraits {
+  /// It takes critical points away pair by pair: fields between its input and its output have no use.
+  bool cancels_pairs = false;
+  /// It takes the Morse function again whatever field it is given: nothing can come before it.
+  bool retakes_field = false;
+  /// The field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this method
+  /// with `iterations=i` returns: then one run gives the results of all smaller numbers.
+  bool tells_results = false;
 };
 
 /// A method: a function from a scalar field to a scalar field on the same mesh. It never measures, and what
@@ -87,9 +93,7 @@ class Method {
  public:
   virtual ~Method() = default;
   virtual MethodResult apply(const ScalarField& input, const MethodContext& context) const = 0;
-  /// Whether the field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this
-  /// method with `iterations=i` returns: then one run gives the results of all smaller numbers.
-  virtual bool tells_results() const { return false; }
+  virtual MethodTraits traits() const { return {}; }
 };
 
 }  // namespace morsel::core

@@ -102,7 +102,7 @@ class Denoise final : public core::Method {
     return control.result(parameters(smoothing), std::move(told));
   }
 
-  bool tells_results() const override { return true; }
+  core::MethodTraits traits() const override { return {.retakes_field = true, .tells_results = true}; }
 
  private:
   core::Parameters parameters(const SurfaceSmoothing& smoothing) const {

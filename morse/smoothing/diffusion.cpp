@@ -91,7 +91,7 @@ class LaplacianSmoothing final : public core::Method {
     return control.result(std::move(parameters));
   }
 
-  bool tells_results() const override { return true; }
+  core::MethodTraits traits() const override { return {.tells_results = true}; }
 
  private:
   DiffusionOptions options_;

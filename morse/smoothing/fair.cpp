@@ -11,6 +11,8 @@
 #include "morsel/core/field/vertex_order.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/operators/cholesky.h"
+#include "morsel/persistence/cancellation.h"
+#include "morsel/persistence/pairing.h"
 
 namespace morsel::morse {
 namespace {
@@ -240,11 +242,13 @@ class FairMethod final : public core::Method {
   FairMethod(std::int64_t extrema, const FairOptions& options) : extrema_(extrema), options_(options) {}
 
   core::MethodResult apply(const ScalarField& input, const core::MethodContext& context) const override {
-    if (!context.persistent_extrema || !context.cancel)
-      throw core::InvalidArgument(
-          "fair needs the persistence of the field's extrema, which is not computed here");
-    const std::vector<Index> chosen = context.persistent_extrema(input, static_cast<std::size_t>(extrema_));
-    FairResult result = fair(input, chosen, options_, context.cancel, context.progress);
+    const core::Progress& progress = context.progress;
+    const std::vector<Index> chosen = persistence::persistent_extrema(
+        persistence::pair_extrema(input, progress), static_cast<std::size_t>(extrema_));
+    const auto cancel = [&](const ScalarField& field, double threshold) {
+      return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}, progress).field;
+    };
+    FairResult result = fair(input, chosen, options_, cancel, progress);
     core::Parameters details = {{"minima", static_cast<std::int64_t>(result.minima)},
                                 {"maxima", static_cast<std::int64_t>(result.maxima)},
                                 {"extrema_left", static_cast<std::int64_t>(result.left)},

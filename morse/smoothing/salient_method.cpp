@@ -31,8 +31,6 @@ class Salient final : public core::Method {
   Salient(SalientOptions options, const StopCriteria& criteria, core::Length scale, std::string_view preset)
       : options_(std::move(options)), criteria_(criteria), scale_(scale), preset_(preset) {}
 
-  bool retakes() const { return scale_.value > 0; }
-
   core::MethodResult apply(const core::ScalarField& given,
                            const core::MethodContext& context) const override {
     const core::ScalarField input = retakes() ? at_scale(given, context) : given;
@@ -62,9 +60,13 @@ class Salient final : public core::Method {
   }
 
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
-  bool tells_results() const override { return !options_.return_saliency && options_.accuracy == 0; }
+  core::MethodTraits traits() const override {
+    return {.retakes_field = retakes(), .tells_results = !options_.return_saliency && options_.accuracy == 0};
+  }
 
  private:
+  bool retakes() const { return scale_.value > 0; }
+
   /// The Morse function of the smoothed surface, as a field on the original one.
   core::ScalarField at_scale(const core::ScalarField& given, const core::MethodContext& context) const {
     if (!context.morse_function)
@@ -108,8 +110,6 @@ void read_neighbors(core::ParameterReader& reader, SalientOptions& options) {
                     "connected: only neighbours that edges within the neighbourhood connect") == "connected")
     options.ball = Ball::connected;
 }
-
-bool salient_retakes(const core::Method& method) { return dynamic_cast<const Salient&>(method).retakes(); }
 
 SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
                           const StopCriteria& criteria, IterationControl& control,

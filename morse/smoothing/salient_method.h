@@ -14,10 +14,6 @@ void read_support(core::ParameterReader& reader, SalientOptions& options);
 /// weights=none|area and ball=euclidean|connected.
 void read_neighbors(core::ParameterReader& reader, SalientOptions& options);
 
-/// Whether a method that make_salient() made takes the Morse function again instead of using the field it is
-/// given.
-bool salient_retakes(const core::Method& method);
-
 /// Runs iterations of salient() until the control, made of `criteria`, wants no more.
 SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
                           const StopCriteria& criteria, IterationControl& control,

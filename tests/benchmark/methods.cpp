@@ -33,7 +33,7 @@ Baselines baselines(const core::TriangleMesh& mesh, const core::ScalarField& fie
 void run_methods(const Plan& plan, const Report& report) {
   const Workload work = workload("bunny00", plan.quick ? 1 : 2);
   const core::LoadedMesh loaded{work.mesh, {}};
-  const tools::NamedFunction curvature = tools::make_function("mean-curvature");
+  const tools::NamedFunction curvature = tools::Registry::standard().make_function("mean-curvature");
   const core::ScalarField field = tools::evaluate_field(loaded, curvature).field;
   std::map<std::string, double> stock_seconds;
   const Baselines stock_runs = baselines(work.mesh, field);
@@ -58,14 +58,14 @@ void run_methods(const Plan& plan, const Report& report) {
                            "mean-curvature:estimator=quadric,radius=4eps", "gaussian-curvature",
                            "principal-curvature", "curvedness", "shape-index", "geodesic:source=0",
                            "geodesic:mode=average", "eigenfunction:index=10"}) {
-    const tools::NamedFunction function = tools::make_function(text);
+    const tools::NamedFunction function = tools::Registry::standard().make_function(text);
     add(text, [&] { return tools::evaluate_field(loaded, function).field; });
   }
   for (const char* text :
        {"salient", "gaussian:sigma=8eps", "saliency", "laplacian",
         "laplacian:scheme=implicit,weights=cotangent", "fair", "denoise", "denoise:kind=laplacian",
         "spectral:modes=10", "salient:weights=area", "salient:ball=connected", "tps"}) {
-    const tools::MethodChain chain = tools::make_method(text);
+    const tools::MethodChain chain = tools::Registry::standard().make_method(text);
     add(text, [&] { return tools::apply_chain(chain, loaded, curvature, field).field; });
   }
 }

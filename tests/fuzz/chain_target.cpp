@@ -22,7 +22,7 @@ void check(const Make& make) {
 }
 
 void check_method(std::string_view text) {
-  const tools::MethodChain chain = tools::make_method(text);
+  const tools::MethodChain chain = tools::Registry::standard().make_method(text);
   fuzz::require(!chain.steps.empty(), "a chain without a step");
   std::string name;
   for (const tools::MethodStep& step : chain.steps) {
@@ -30,13 +30,15 @@ void check_method(std::string_view text) {
     name.append(name.empty() ? "" : "+").append(step.name);
   }
   fuzz::require(name == chain.name, "the name of a chain");
-  fuzz::require(tools::make_method(chain.specification).name == chain.name, "a chain made again");
+  fuzz::require(tools::Registry::standard().make_method(chain.specification).name == chain.name,
+                "a chain made again");
 }
 
 void check_function(std::string_view text) {
-  const tools::NamedFunction function = tools::make_function(text);
+  const tools::NamedFunction function = tools::Registry::standard().make_function(text);
   fuzz::require(function.function != nullptr, "a name without a function");
-  fuzz::require(tools::make_function(function.specification).name == function.name, "a function made again");
+  fuzz::require(tools::Registry::standard().make_function(function.specification).name == function.name,
+                "a function made again");
 }
 
 void check_variation(std::string_view text) {

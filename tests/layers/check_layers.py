@@ -14,9 +14,9 @@ import sys
 LIBRARY = ("core", "morse", "persistence", "mscomplex")
 MAY_INCLUDE = {
     "core": {"core"},
-    "morse": {"core", "morse"},
+    "morse": {"core", "persistence", "morse"},
     "persistence": {"core", "persistence"},
-    "mscomplex": {"core", "mscomplex"},
+    "mscomplex": {"core", "persistence", "mscomplex"},
     "tools": {*LIBRARY, "tools"},
 }
 # The rooms of tools, from the ground up.

@@ -36,14 +36,7 @@ ScalarField cancel(const ScalarField& field, double threshold) {
   return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}).field;
 }
 
-core::MethodContext context() {
-  core::MethodContext result;
-  result.persistent_extrema = persistent;
-  result.cancel = cancel;
-  return result;
-}
-
-core::MethodResult apply(const ScalarField& field, Given given, const core::MethodContext& with = context()) {
+core::MethodResult apply(const ScalarField& field, Given given, const core::MethodContext& with = {}) {
   return made(morse::make_fair, "fair", std::move(given))->apply(field, with);
 }
 

@@ -262,11 +262,11 @@ TEST_CASE("salient with a scale smooths the function of the smoothed surface") {
   CHECK(values_of(apply({{"scale", "1edges"}, {"iterations", "0"}}, context).field) == values_of(at_scale));
   CHECK_THROWS_WITH(apply({{"scale", "1edges"}}, {}), Catch::Contains("salient with a scale"));
   CHECK_THROWS_AS(apply({{"scale", "1e6edges"}}, context), core::BadInput);
-  CHECK(morse::salient_retakes(*made(morse::make_salient, "salient", {{"scale", "1eps"}})));
-  CHECK(morse::salient_retakes(*made(morse::make_salient, "salient", {{"preset", "robust"}})));
+  CHECK(made(morse::make_salient, "salient", {{"scale", "1eps"}})->traits().retakes_field);
+  CHECK(made(morse::make_salient, "salient", {{"preset", "robust"}})->traits().retakes_field);
   CHECK_FALSE(
-      morse::salient_retakes(*made(morse::make_salient, "salient", {{"preset", "robust"}, {"scale", "0"}})));
-  CHECK_FALSE(morse::salient_retakes(*made(morse::make_salient, "salient")));
+      made(morse::make_salient, "salient", {{"preset", "robust"}, {"scale", "0"}})->traits().retakes_field);
+  CHECK_FALSE(made(morse::make_salient, "salient")->traits().retakes_field);
 
   // Listeners hear of the field that was taken again as iteration 0; records begin with it.
   core::MethodContext listening = context;

@@ -53,7 +53,9 @@ void check_invariants(const core::ScalarField& field) {
 
 /// The result of a chain on a field of a mesh that was read from no file.
 core::ScalarField apply(const tools::MethodChain& chain, const core::ScalarField& input) {
-  return tools::apply_chain(chain, {input.mesh(), {}}, tools::make_function("mean-curvature"), input).field;
+  return tools::apply_chain(chain, {input.mesh(), {}},
+                            tools::Registry::standard().make_function("mean-curvature"), input)
+      .field;
 }
 
 }  // namespace
@@ -81,7 +83,7 @@ TEST_CASE("invariants hold for every field that a method returns") {
                            "tps:count=6",
                            "salient:iterations=1,sigma=0.6+tps:threshold=5%",
                            "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
-    chains.push_back(tools::make_method(text));
+    chains.push_back(tools::Registry::standard().make_method(text));
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& f : field_zoo(entry.mesh, 23))
       for (const tools::MethodChain& chain : chains) {
@@ -93,9 +95,9 @@ TEST_CASE("invariants hold for every field that a method returns") {
 TEST_CASE("every method gives the same bits at any number of threads") {
   const TriangleMesh mesh = torus(90, 80).mesh();
   const core::ScalarField input(mesh, smooth_values(mesh, 1, 3));
-  for (const auto& entry : tools::methods()) {
+  for (const auto& entry : tools::Registry::standard().methods()) {
     INFO(entry.name);
-    const tools::MethodChain chain = tools::make_method(entry.name);
+    const tools::MethodChain chain = tools::Registry::standard().make_method(entry.name);
     const auto run = [&](int threads) {
       const core::ThreadLimit limit(threads);
       const core::ScalarField field = apply(chain, input);

@@ -39,9 +39,11 @@ std::vector<Level> built(std::vector<tools::LevelSeed> seeds) {
 
 std::vector<Level> by_iteration(const ScalarField& field, const std::string& method,
                                 const std::vector<int>& iterations) {
-  const tools::MethodChain chain = tools::make_method(tools::with_iterations(method, iterations.back()));
-  return built(tools::iteration_levels(chain, {field.mesh(), {}}, tools::make_function("mean-curvature"),
-                                       field, iterations)
+  const tools::MethodChain chain =
+      tools::Registry::standard().make_method(tools::with_iterations(method, iterations.back()));
+  return built(tools::iteration_levels(chain, {field.mesh(), {}},
+                                       tools::Registry::standard().make_function("mean-curvature"), field,
+                                       iterations)
                    .seeds);
 }
 
@@ -67,10 +69,10 @@ class Scripted final : public core::Method {
 std::vector<Level> by_script(const ScalarField& input, const Scripted& method,
                              const std::vector<int>& iterations) {
   tools::MethodChain chain{"scripted", "scripted", {}};
-  chain.steps.push_back({"scripted", std::make_unique<Scripted>(method), tools::MethodRole::smooths});
-  return built(
-      tools::iteration_levels(chain, {input.mesh(), {}}, tools::make_function("height"), input, iterations)
-          .seeds);
+  chain.steps.push_back({"scripted", std::make_unique<Scripted>(method)});
+  return built(tools::iteration_levels(chain, {input.mesh(), {}},
+                                       tools::Registry::standard().make_function("height"), input, iterations)
+                   .seeds);
 }
 
 tools::FieldHierarchy hierarchy_of(const ScalarField& field) {
@@ -270,10 +272,10 @@ TEST_CASE("parents are followed through all iterations between two levels") {
   const std::vector<Level> levels = by_iteration(field, "laplacian", {0, 1, 2, 3, 8});
   check_levels(levels);
   morse::CriticalPointTracker tracker(*levels[3].field, 0.02 * mesh.bounding_box().diagonal());
-  const tools::MethodChain one = tools::make_method("laplacian:iterations=1");
+  const tools::MethodChain one = tools::Registry::standard().make_method("laplacian:iterations=1");
   ScalarField at = *levels[3].field;
   for (int i = 3; i < 8; ++i) {
-    at = tools::apply_chain(one, {mesh, {}}, tools::make_function("height"), at).field;
+    at = tools::apply_chain(one, {mesh, {}}, tools::Registry::standard().make_function("height"), at).field;
     tracker.advance(at);
   }
   CHECK(std::ranges::equal(at.values(), levels[4].field->values()));
@@ -288,9 +290,11 @@ TEST_CASE("levels by iteration are the fields of the method, linked") {
       check_levels(levels);
       for (const int k : {0, 1, 3}) {
         const tools::MethodChain chain =
-            tools::make_method("salient:sigma=0.6,iterations=" + std::to_string(k));
+            tools::Registry::standard().make_method("salient:sigma=0.6,iterations=" + std::to_string(k));
         const ScalarField alone =
-            tools::apply_chain(chain, {entry.mesh, {}}, tools::make_function("height"), f.field).field;
+            tools::apply_chain(chain, {entry.mesh, {}}, tools::Registry::standard().make_function("height"),
+                               f.field)
+                .field;
         const Level& level = levels[k == 3 ? 2 : static_cast<std::size_t>(k)];
         CHECK(level.name.iteration == k);
         CHECK(std::ranges::equal(level.field->values(), alone.values()));

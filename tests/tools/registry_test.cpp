@@ -4,62 +4,91 @@
 #include <set>
 
 #include "morsel/core/error.h"
+#include "morsel/morse/functions/height.h"
+#include "morsel/morse/smoothing/conventional.h"
+#include "morsel/tools/study/comparison.h"
 
 using namespace morsel;
 using Catch::Contains;
 
 TEST_CASE("every entry can be made with its defaults or says what it needs") {
-  for (const auto& entry : tools::morse_functions()) {
+  for (const auto& entry : tools::Registry::standard().functions()) {
     core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
     CHECK(entry.make(reader) != nullptr);
     CHECK_FALSE(entry.summary.empty());
   }
-  for (const auto& entry : tools::methods()) CHECK(tools::make_method(entry.name).steps.size() == 1);
+  for (const auto& entry : tools::Registry::standard().methods())
+    CHECK(tools::Registry::standard().make_method(entry.name).steps.size() == 1);
 }
 
 TEST_CASE("names are unique") {
   std::set<std::string_view> names;
-  for (const auto& entry : tools::morse_functions()) CHECK(names.insert(entry.name).second);
+  for (const auto& entry : tools::Registry::standard().functions()) CHECK(names.insert(entry.name).second);
   names.clear();
-  for (const auto& entry : tools::methods()) CHECK(names.insert(entry.name).second);
+  for (const auto& entry : tools::Registry::standard().methods()) CHECK(names.insert(entry.name).second);
 }
 
 TEST_CASE("a chain keeps its steps in order") {
-  const tools::MethodChain chain = tools::make_method("salient:iterations=5+tps:count=150+conventional");
+  const tools::MethodChain chain =
+      tools::Registry::standard().make_method("salient:iterations=5+tps:count=150+conventional");
   CHECK(chain.name == "salient+tps+conventional");
   REQUIRE(chain.steps.size() == 3);
   CHECK(chain.steps[1].name == "tps");
 }
 
 TEST_CASE("a method that starts anew can only begin a chain") {
-  CHECK(tools::make_method("denoise:iterations=2+salient+tps").steps.size() == 3);
-  CHECK_THROWS_WITH(tools::make_method("salient+denoise"), Contains("first step") && Contains("salient"));
-  CHECK_THROWS_AS(tools::make_method("denoise+denoise"), core::InvalidArgument);
+  CHECK(tools::Registry::standard().make_method("denoise:iterations=2+salient+tps").steps.size() == 3);
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("salient+denoise"),
+                    Contains("first step") && Contains("salient"));
+  CHECK_THROWS_AS(tools::Registry::standard().make_method("denoise+denoise"), core::InvalidArgument);
   // Of salient it depends on the scale.
-  CHECK_THROWS_WITH(tools::make_method("tps+salient:scale=2edges"),
-                    Contains("salient with a scale") && Contains("first step") && Contains("tps"));
-  CHECK_THROWS_WITH(tools::make_method("salient+salient:preset=robust"), Contains("first step"));
-  CHECK(tools::make_method("salient+salient:preset=robust,scale=0").steps.size() == 2);
-  CHECK(tools::make_method("salient:preset=robust+tps").steps[0].role == tools::MethodRole::retakes);
-  CHECK(tools::make_method("salient").steps[0].role == tools::MethodRole::smooths);
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("tps+salient:scale=2edges"),
+                    Contains("salient:scale=2edges") && Contains("first step") && Contains("tps"));
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("salient+salient:preset=robust"),
+                    Contains("first step"));
+  CHECK(tools::Registry::standard().make_method("salient+salient:preset=robust,scale=0").steps.size() == 2);
+  CHECK(tools::Registry::standard()
+            .make_method("salient:preset=robust+tps")
+            .steps[0]
+            .method->traits()
+            .retakes_field);
+  CHECK_FALSE(tools::Registry::standard().make_method("salient").steps[0].method->traits().retakes_field);
 }
 
 TEST_CASE("unknown names and keys list the valid ones") {
-  CHECK_THROWS_WITH(tools::make_method("foo"), Contains("foo") && Contains("conventional, ") &&
-                                                   Contains(", salient, ") && Contains(", tps"));
-  CHECK_THROWS_WITH(tools::make_function("foo"), Contains("height, ") && Contains("vertex-scalar"));
-  CHECK_THROWS_WITH(tools::make_method("salient:foo=1"),
+  CHECK_THROWS_WITH(
+      tools::Registry::standard().make_method("foo"),
+      Contains("foo") && Contains("conventional, ") && Contains(", salient, ") && Contains(", tps"));
+  CHECK_THROWS_WITH(tools::Registry::standard().make_function("foo"),
+                    Contains("height, ") && Contains("vertex-scalar"));
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("salient:foo=1"),
                     Contains("\"foo\"") && Contains("iterations, ") && Contains("sigma, range"));
-  CHECK_THROWS_WITH(tools::make_method("salient:sigma=1,sigma=2"), Contains("twice"));
-  CHECK_THROWS_AS(tools::make_method("salient+"), core::InvalidArgument);
-  CHECK_THROWS_AS(tools::make_function("height+height"), core::InvalidArgument);
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("salient:sigma=1,sigma=2"), Contains("twice"));
+  CHECK_THROWS_AS(tools::Registry::standard().make_method("salient+"), core::InvalidArgument);
+  CHECK_THROWS_AS(tools::Registry::standard().make_function("height+height"), core::InvalidArgument);
+}
+
+TEST_CASE("a user adds functions and methods of their own to a copy") {
+  tools::Registry registry = tools::Registry::standard();
+  registry.add(tools::MethodEntry{
+      "own", "mine", [](core::ParameterReader& reader) { return morse::make_conventional(reader); }});
+  CHECK(registry.make_method("salient+own").name == "salient+own");
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("own"), Contains("there is no method \"own\""));
+  const auto make = [](core::ParameterReader& reader) { return morse::make_height(reader); };
+  CHECK_THROWS_WITH(registry.add(tools::FunctionEntry{"height", "taken", make}), Contains("already"));
+  for (const char* name : {"", "two words", "a+b", "a:b", "Big"})
+    CHECK_THROWS_AS(registry.add(tools::FunctionEntry{name, "no name", make}), core::InvalidArgument);
+  registry.add(tools::FunctionEntry{"height-2", "mine", make});
+  CHECK(registry.make_function("height-2:axis=x").name == "height-2");
+  CHECK(registry.functions().size() == tools::Registry::standard().functions().size() + 1);
+  CHECK(tools::prepare({.field = "height-2", .methods = {"own"}, .target = {}}, registry).chains.size() == 1);
 }
 
 TEST_CASE("help names every key with its default") {
-  const std::string text = tools::describe_method("salient");
+  const std::string text = tools::Registry::standard().describe_method("salient");
   for (const char* key : {"iterations=10", "sigma=8eps", "range=1std", "support=2"})
     CHECK_THAT(text, Contains(key));
-  CHECK_THAT(tools::describe_method("tps"), Contains("threshold=0.1%"));
-  CHECK_THAT(tools::describe_function("height"), Contains("axis=z"));
-  CHECK_THROWS_AS(tools::describe_method("height"), core::InvalidArgument);
+  CHECK_THAT(tools::Registry::standard().describe_method("tps"), Contains("threshold=0.1%"));
+  CHECK_THAT(tools::Registry::standard().describe_function("height"), Contains("axis=z"));
+  CHECK_THROWS_AS(tools::Registry::standard().describe_method("height"), core::InvalidArgument);
 }

@@ -121,13 +121,14 @@ TEST_CASE("every recipe can be read") {
         CHECK(figure.panels[other].method.find('{') == std::string_view::npos);  // or it could go round
         method.replace(at, 3, "100");
       }
-      CHECK_NOTHROW(make_method(method));
+      CHECK_NOTHROW(Registry::standard().make_method(method));
       CHECK((panel.region == Region::none || figure.compared));
     }
   }
   for (const TableRow& row : table_rows()) {
     REQUIRE(row.model < models().size());
-    for (const TableSetting& setting : table_settings()) CHECK_NOTHROW(make_method(method_of(row, setting)));
+    for (const TableSetting& setting : table_settings())
+      CHECK_NOTHROW(Registry::standard().make_method(method_of(row, setting)));
   }
 }
 

@@ -43,9 +43,10 @@ Texts methods_of(const tools::PreparedSweep& prepared) {
 
 /// The combination as `compare` runs it.
 Json by_itself(const core::LoadedMesh& mesh, const tools::Combination& combination) {
-  const tools::NamedFunction function = tools::make_function(to_string(combination.field));
+  const tools::NamedFunction function =
+      tools::Registry::standard().make_function(to_string(combination.field));
   const tools::FieldOutcome field = tools::evaluate_field(mesh, function);
-  const tools::MethodChain chain = tools::make_method(to_string(combination.steps));
+  const tools::MethodChain chain = tools::Registry::standard().make_method(to_string(combination.steps));
   const tools::ChainOutcome made = tools::apply_chain(chain, mesh, function, field.field);
   tools::Timings timings;
   const tools::Measurement measured = tools::measure(made.field, timings);
@@ -150,7 +151,7 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
 
 TEST_CASE("every method that tells its results tells, bit by bit, what fewer iterations return") {
   const core::LoadedMesh mesh = bumpy();
-  const tools::NamedFunction function = tools::make_function("mean-curvature");
+  const tools::NamedFunction function = tools::Registry::standard().make_function("mean-curvature");
   const core::ScalarField field = tools::evaluate_field(mesh, function).field;
   std::set<std::string> seen;
   for (const std::string text :
@@ -164,10 +165,10 @@ TEST_CASE("every method that tells its results tells, bit by bit, what fewer ite
                        std::vector<core::Index>(f.ranks().begin(), f.ranks().end()));
     };
     const auto method = [&](int iterations) {
-      return tools::make_method(text + "iterations=" + std::to_string(iterations));
+      return tools::Registry::standard().make_method(text + "iterations=" + std::to_string(iterations));
     };
     const tools::MethodChain longest = method(4);
-    REQUIRE(longest.steps[0].method->tells_results());
+    REQUIRE(longest.steps[0].method->traits().tells_results);
     core::MethodContext context = tools::method_context(mesh, function);
     context.on_iteration = [&](int i, const core::ScalarField& f) {
       told[i] = keep(f);
@@ -182,12 +183,20 @@ TEST_CASE("every method that tells its results tells, bit by bit, what fewer ite
     seen.insert(longest.name);
   }
   // A new method that iterates belongs into the list above.
-  for (const tools::MethodEntry& entry : tools::methods()) {
-    const Texts keys = tools::keys_of_method(std::string(entry.name));
+  for (const tools::MethodEntry& entry : tools::Registry::standard().methods()) {
+    const Texts keys = tools::Registry::standard().keys_of_method(std::string(entry.name));
     CHECK(std::ranges::count(keys, "iterations") == (seen.contains(std::string(entry.name)) ? 1 : 0));
   }
-  CHECK_FALSE(tools::make_method("salient:classify=saliency").steps[0].method->tells_results());
-  CHECK_FALSE(tools::make_method("salient:accuracy=1e-4").steps[0].method->tells_results());
+  CHECK_FALSE(tools::Registry::standard()
+                  .make_method("salient:classify=saliency")
+                  .steps[0]
+                  .method->traits()
+                  .tells_results);
+  CHECK_FALSE(tools::Registry::standard()
+                  .make_method("salient:accuracy=1e-4")
+                  .steps[0]
+                  .method->traits()
+                  .tells_results);
 }
 
 TEST_CASE("rows are what each combination gives by itself") {

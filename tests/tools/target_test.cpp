@@ -20,7 +20,8 @@ namespace {
 tools::ChainOutcome apply(const std::string& method, const ScalarField& input, std::size_t target,
                           morse::CriticalPointTracker* tracker = nullptr) {
   const core::LoadedMesh loaded{input.mesh(), {}};
-  return tools::apply_chain(tools::make_method(method), loaded, tools::make_function("height"), input,
+  return tools::apply_chain(tools::Registry::standard().make_method(method), loaded,
+                            tools::Registry::standard().make_function("height"), input,
                             {target, false, tracker});
 }
 
@@ -62,7 +63,8 @@ TEST_CASE("a method that goes too far in one step is blended with its input") {
   const ScalarField input(mesh, random_values(mesh.vertex_count(), 5));
   const std::string far = "salient:iterations=1,sigma=1,range=1000std";
   const tools::ChainOutcome alone =
-      tools::apply_chain(tools::make_method(far), {mesh, {}}, tools::make_function("height"), input);
+      tools::apply_chain(tools::Registry::standard().make_method(far), {mesh, {}},
+                         tools::Registry::standard().make_function("height"), input);
   REQUIRE(total(alone.field) < 100);
   const tools::ChainOutcome outcome = apply(far, input, 100);
   CHECK(outcome.target->reached == 100);
@@ -77,14 +79,14 @@ TEST_CASE("the iterations before the target are run and the ones after are not")
   const ScalarField input(mesh, random_values(mesh.vertex_count(), 5));
   const core::LoadedMesh loaded{mesh, {}};
   const tools::ChainOutcome all =
-      tools::apply_chain(tools::make_method("laplacian:iterations=30"), loaded,
-                         tools::make_function("height"), input, {{}, true, nullptr});
+      tools::apply_chain(tools::Registry::standard().make_method("laplacian:iterations=30"), loaded,
+                         tools::Registry::standard().make_function("height"), input, {{}, true, nullptr});
   const auto& curve = all.steps[0].iterations;
   REQUIRE(curve.size() == 31);
   const std::size_t wanted = curve[7].total() - 1;
   const tools::ChainOutcome outcome =
-      tools::apply_chain(tools::make_method("laplacian:iterations=30"), loaded,
-                         tools::make_function("height"), input, {wanted, true, nullptr});
+      tools::apply_chain(tools::Registry::standard().make_method("laplacian:iterations=30"), loaded,
+                         tools::Registry::standard().make_function("height"), input, {wanted, true, nullptr});
   std::size_t first = 0;
   while (curve[first].total() >= wanted) ++first;
   CHECK(outcome.steps[0].iterations.size() == first + 1);  // the last of them went too far
@@ -145,13 +147,17 @@ TEST_CASE("a target of nothing is refused") {
 TEST_CASE("a method that takes the function again gives the target the field that it begins with") {
   const TriangleMesh mesh = jittered(sphere(4).mesh(), 0.02, 5);
   const core::LoadedMesh loaded{mesh, {}};
-  const ScalarField input = tools::make_function("mean-curvature").function->evaluate(mesh, {}).field;
-  const ScalarField at_scale =
-      tools::make_function("mean-curvature:scale=1edges").function->evaluate(mesh, {}).field;
+  const ScalarField input =
+      tools::Registry::standard().make_function("mean-curvature").function->evaluate(mesh, {}).field;
+  const ScalarField at_scale = tools::Registry::standard()
+                                   .make_function("mean-curvature:scale=1edges")
+                                   .function->evaluate(mesh, {})
+                                   .field;
   REQUIRE(total(at_scale) < total(input));
   const auto reach = [&](std::size_t wanted) {
-    return tools::apply_chain(tools::make_method("salient:scale=1edges,iterations=3"), loaded,
-                              tools::make_function("mean-curvature"), input, {wanted, false, nullptr});
+    return tools::apply_chain(tools::Registry::standard().make_method("salient:scale=1edges,iterations=3"),
+                              loaded, tools::Registry::standard().make_function("mean-curvature"), input,
+                              {wanted, false, nullptr});
   };
   const tools::ChainOutcome begin = reach(total(at_scale));
   CHECK(std::ranges::equal(begin.field.values(), at_scale.values()));

@@ -16,14 +16,14 @@ namespace {
 
 template <class Entries>
 int list(const Entries& entries, const std::string& name, const char* kind,
-         std::string (*describe)(const std::string& name)) {
+         std::string (Registry::*describe)(const std::string& name) const) {
   if (!name.empty()) {
     std::vector<std::string> names;
     for (const auto& entry : entries) names.emplace_back(entry.name);
     if (std::ranges::find(names, name) == names.end())
       throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"" +
                                   core::nearest_hint(name, names));
-    std::cout << describe(name);
+    std::cout << (Registry::standard().*describe)(name);
     return kDone;
   }
   std::size_t width = 0;
@@ -42,14 +42,16 @@ void add_catalogue(Program& program) {
   fields.examples = {{"fields", "the names, a line each"},
                      {"fields mean-curvature", "its keys, to be written as mean-curvature:scale=8eps"}};
   fields.action = [name](Console&) {
-    return list(morse_functions(), *name, "Morse function", describe_function);
+    return list(Registry::standard().functions(), *name, "Morse function", &Registry::describe_function);
   };
 
   Command& all = program.add("methods", "List the methods, or the keys of one");
   all.text("NAME", *name, "Of one of them: its keys, their defaults and meanings");
   all.examples = {{"methods", "the names, a line each"},
                   {"methods salient", "its keys, to be written as salient:iterations=5,sigma=4eps"}};
-  all.action = [name](Console&) { return list(methods(), *name, "method", describe_method); };
+  all.action = [name](Console&) {
+    return list(Registry::standard().methods(), *name, "method", &Registry::describe_method);
+  };
 }
 
 }  // namespace morsel::tools

@@ -31,9 +31,9 @@ std::vector<std::string> all_names(const Option& option) {
 std::vector<std::string> values_of(const Command& command, const Option& option) {
   if (!option.choices.empty()) return option.choices;
   if (option.value_name == "F" || (option.is_argument() && command.name == "fields"))
-    return names_of(morse_functions());
+    return names_of(Registry::standard().functions());
   if (option.value_name == "M" || (option.is_argument() && command.name == "methods"))
-    return names_of(methods());
+    return names_of(Registry::standard().methods());
   return {};
 }
 

@@ -11,7 +11,7 @@ namespace morsel::tools {
 
 std::vector<std::pair<std::string, std::string>> named_files(const std::string& field) {
   std::vector<std::pair<std::string, std::string>> files;
-  const std::string file_key = make_function(field).file_key;
+  const std::string file_key = Registry::standard().make_function(field).file_key;
   const core::Specification specification = core::parse_specification(field, "--field");
   for (const auto& [key, raw] : specification.given)
     if (key == file_key) files.emplace_back("--field " + specification.name + ":" + key, core::unescape(raw));

@@ -75,12 +75,6 @@ core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFu
   context.morse_function = [&, progress](const core::TriangleMesh& mesh) {
     return function.function->evaluate(mesh, {&loaded.source, progress}).field;
   };
-  context.persistent_extrema = [&, progress](const core::ScalarField& field, std::size_t count) {
-    return persistence::persistent_extrema(persistence::pair_extrema(field, progress), count);
-  };
-  context.cancel = [&, progress](const core::ScalarField& field, double threshold) {
-    return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}, progress).field;
-  };
   return context;
 }
 
@@ -95,7 +89,7 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
     const bool told = is_last && options.on_iteration;
     std::optional<TargetSearch> search;
     if (options.target && is_last)
-      search.emplace(outcome.field, *options.target, step.role != MethodRole::cancels, progress);
+      search.emplace(outcome.field, *options.target, !step.method->traits().cancels_pairs, progress);
     StepWatcher watcher(options.tracker, search ? &*search : nullptr);
     context.on_iteration = {};
     if (watcher.wanted() || told)

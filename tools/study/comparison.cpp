@@ -48,10 +48,10 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
   return {std::move(points), std::move(diagram), std::move(complex), std::move(segments)};
 }
 
-PreparedComparison prepare(const ComparisonRequest& request) {
+PreparedComparison prepare(const ComparisonRequest& request, const Registry& registry) {
   check_target(request.target);
-  PreparedComparison comparison{make_function(request.field), {}, request.target, request.snap};
-  for (const std::string& method : request.methods) comparison.chains.push_back(make_method(method));
+  PreparedComparison comparison{registry.make_function(request.field), {}, request.target, request.snap};
+  for (const std::string& method : request.methods) comparison.chains.push_back(registry.make_method(method));
   return comparison;
 }
 

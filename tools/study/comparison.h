@@ -93,7 +93,7 @@ struct PreparedComparison {
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
-PreparedComparison prepare(const ComparisonRequest& request);
+PreparedComparison prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
 
 /// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods
 /// and sinks throw.

@@ -27,8 +27,9 @@ class Links {
     links_ = {core::parse_specification(request.field, "--field")};
     for (core::Specification& step : core::parse_chain(request.method, "--method"))
       links_.push_back(std::move(step));
-    keys_ = {keys_of_function(links_.front().name)};
-    for (std::size_t i = 1; i < links_.size(); ++i) keys_.push_back(keys_of_method(links_[i].name));
+    keys_ = {Registry::standard().keys_of_function(links_.front().name)};
+    for (std::size_t i = 1; i < links_.size(); ++i)
+      keys_.push_back(Registry::standard().keys_of_method(links_[i].name));
   }
 
   Place place(const std::string& key) const {
@@ -141,8 +142,8 @@ PreparedSweep prepare(const SweepRequest& request) {
   std::vector<std::size_t> choices(places.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
     prepared.combinations.push_back(links.combination(places, prepared.variations, choices));
-    make_function(to_string(prepared.combinations.back().field));
-    make_method(to_string(prepared.combinations.back().steps));
+    Registry::standard().make_function(to_string(prepared.combinations.back().field));
+    Registry::standard().make_method(to_string(prepared.combinations.back().steps));
     for (std::size_t k = places.size(); k-- > 0;) {
       if (++choices[k] < prepared.variations[k].values.size()) break;
       choices[k] = 0;

@@ -19,12 +19,12 @@ using core::InvalidArgument;
 using core::ScalarField;
 
 bool is_iterative(const std::string& method) {
-  return std::ranges::count(keys_of_method(method), "iterations") > 0;
+  return std::ranges::count(Registry::standard().keys_of_method(method), "iterations") > 0;
 }
 
 std::string iterative_methods() {
   std::string names;
-  for (const MethodEntry& entry : methods())
+  for (const MethodEntry& entry : Registry::standard().methods())
     if (is_iterative(std::string(entry.name))) names += (names.empty() ? "" : ", ") + std::string(entry.name);
   return names;
 }
@@ -113,7 +113,7 @@ std::string stopped_by(const StepOutcome& step) {
 }  // namespace
 
 std::string with_iterations(const std::string& method, int needed) {
-  make_method(method);  // refuses unknown names and keys before anything else is said
+  Registry::standard().make_method(method);  // refuses unknown names and keys before anything else is said
   const std::vector<core::Specification> chain = core::parse_chain(method, "--method");
   const core::Specification& last = chain.back();
   if (!is_iterative(last.name))

@@ -4,9 +4,9 @@
 
 namespace morsel::tools {
 
-FieldRecipe prepare(const FieldRequest& request) {
+FieldRecipe prepare(const FieldRequest& request, const Registry& registry) {
   check_target(request.target);
-  return {make_function(request.field), make_method(request.method), request.target};
+  return {registry.make_function(request.field), registry.make_method(request.method), request.target};
 }
 
 MadeField make_field(const FieldRecipe& recipe, const core::LoadedMesh& loaded,

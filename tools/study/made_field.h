@@ -26,7 +26,7 @@ struct FieldRecipe {
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
-FieldRecipe prepare(const FieldRequest& request);
+FieldRecipe prepare(const FieldRequest& request, const Registry& registry = Registry::standard());
 
 /// The field before the method and after it.
 struct MadeField {

@@ -1,7 +1,7 @@
 #include "morsel/tools/study/registry.h"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/nearest_name.h"
@@ -26,44 +26,53 @@
 namespace morsel::tools {
 namespace {
 
-constexpr std::array kFunctions = {
-    FunctionEntry{"atomic-density", "density of the atoms around a molecular surface (Natarajan et al. 2006)",
-                  morse::make_atomic_density, "structure"},
-    FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
-                  morse::make_curvedness},
-    FunctionEntry{"eigenfunction", "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
-                  morse::make_eigenfunction},
-    FunctionEntry{"gaussian-curvature", "Gaussian curvature, the angle defect (Meyer et al. 2003)",
-                  morse::make_gaussian_curvature},
-    FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
-                  morse::make_geodesic},
-    FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
-    FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
-    FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
-                  morse::make_principal_curvature},
-    FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
-                  morse::make_shape_index},
-    FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
-                  morse::make_vertex_scalar, "file"},
-};
+std::vector<FunctionEntry> standard_functions() {
+  return {
+      FunctionEntry{"atomic-density",
+                    "density of the atoms around a molecular surface (Natarajan et al. 2006)",
+                    morse::make_atomic_density, "structure"},
+      FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
+                    morse::make_curvedness},
+      FunctionEntry{"eigenfunction",
+                    "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
+                    morse::make_eigenfunction},
+      FunctionEntry{"gaussian-curvature", "Gaussian curvature, the angle defect (Meyer et al. 2003)",
+                    morse::make_gaussian_curvature},
+      FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
+                    morse::make_geodesic},
+      FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
+      FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
+      FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
+                    morse::make_principal_curvature},
+      FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
+                    morse::make_shape_index},
+      FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
+                    morse::make_vertex_scalar, "file"},
+  };
+}
 
-constexpr std::array kMethods = {
-    MethodEntry{"conventional", "the field as it is (Banchoff 1970)", morse::make_conventional},
-    MethodEntry{"denoise", "smoothing of the surface before the field is taken again (Fleishman et al. 2003)",
-                morse::make_denoise, MethodRole::retakes},
-    MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
-    MethodEntry{"gaussian", "Gaussian averages, the paper's equation (1)", morse::make_gaussian},
-    MethodEntry{"laplacian",
-                "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
-                morse::make_laplacian},
-    MethodEntry{"saliency", "mesh saliency over several scales (Lee, Varshney, Jacobs 2005)",
-                morse::make_saliency},
-    MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
-                morse::make_salient, MethodRole::smooths, morse::salient_retakes},
-    MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian", morse::make_spectral},
-    MethodEntry{"tps", "persistence cancellation (Edelsbrunner, Letscher, Zomorodian 2002)",
-                persistence::make_tps, MethodRole::cancels},
-};
+std::vector<MethodEntry> standard_methods() {
+  return {
+      MethodEntry{"conventional", "the field as it is: PL critical points (Banchoff 1970)",
+                  morse::make_conventional},
+      MethodEntry{"denoise",
+                  "smoothing of the surface before the field is taken again (Fleishman et al. 2003)",
+                  morse::make_denoise},
+      MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
+      MethodEntry{"gaussian", "Gaussian averages, the paper's equation (1)", morse::make_gaussian},
+      MethodEntry{"laplacian",
+                  "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
+                  morse::make_laplacian},
+      MethodEntry{"saliency", "mesh saliency over several scales (Lee, Varshney, Jacobs 2005)",
+                  morse::make_saliency},
+      MethodEntry{"salient", "iterated saliency, the paper's bilateral smoothing of the field",
+                  morse::make_salient},
+      MethodEntry{"spectral", "projection on the lowest eigenfunctions of the Laplacian",
+                  morse::make_spectral},
+      MethodEntry{"tps", "persistence simplification (Edelsbrunner, Letscher, Zomorodian 2002)",
+                  persistence::make_tps},
+  };
+}
 
 template <class Entries>
 const auto& find_entry(const Entries& entries, const std::string& name, std::string_view kind) {
@@ -74,6 +83,16 @@ const auto& find_entry(const Entries& entries, const std::string& name, std::str
   for (const auto& e : entries) names.emplace_back(e.name);
   throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"" +
                               core::nearest_of(name, names, "there are"));
+}
+
+template <class Entries>
+void check_new(const Entries& entries, const std::string& name, const std::string& kind) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789-";
+  if (name.empty() || name.find_first_not_of(kLetters) != std::string::npos)
+    throw core::InvalidArgument("\"" + name + "\" is no name of a " + kind +
+                                ": it has small letters, digits and dashes only");
+  if (std::ranges::find(entries, name, [](const auto& entry) { return entry.name; }) != entries.end())
+    throw core::InvalidArgument("there is a " + kind + " of the name " + name + " already");
 }
 
 /// Makes the entry and refuses keys that it did not ask for.
@@ -87,7 +106,7 @@ auto make_entry(const Entry& entry, core::Specification specification) {
 
 template <class Entry>
 std::vector<core::ParameterInfo> declared_by(const Entry& entry) {
-  core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
+  core::ParameterReader reader = core::ParameterReader::for_help(entry.name);
   entry.make(reader);
   return reader.declared();
 }
@@ -101,7 +120,7 @@ std::vector<std::string> keys_of(const Entry& entry) {
 
 template <class Entry>
 std::string describe(const Entry& entry) {
-  std::string text = std::string(entry.name) + ": " + std::string(entry.summary) + "\n";
+  std::string text = entry.name + ": " + entry.summary + "\n";
   for (const core::ParameterInfo& info : declared_by(entry)) {
     std::string key = "  " + info.key + "=" + (info.default_value.empty() ? "..." : info.default_value);
     key.resize(std::max<std::size_t>(key.size() + 2, 26), ' ');
@@ -112,46 +131,63 @@ std::string describe(const Entry& entry) {
 
 }  // namespace
 
-std::span<const FunctionEntry> morse_functions() { return kFunctions; }
-std::span<const MethodEntry> methods() { return kMethods; }
-
-NamedFunction make_function(std::string_view specification) {
-  core::Specification parsed = core::parse_specification(specification, "--field");
-  const FunctionEntry& entry = find_entry(kFunctions, parsed.name, "Morse function");
-  return {std::string(specification), std::string(entry.name), make_entry(entry, std::move(parsed)),
-          std::string(entry.file_key)};
+const Registry& Registry::standard() {
+  static const Registry registry = [] {
+    Registry made;
+    for (FunctionEntry& entry : standard_functions()) made.add(std::move(entry));
+    for (MethodEntry& entry : standard_methods()) made.add(std::move(entry));
+    return made;
+  }();
+  return registry;
 }
 
-MethodChain make_method(std::string_view specification) {
+Registry& Registry::add(FunctionEntry entry) {
+  check_new(functions_, entry.name, "Morse function");
+  functions_.push_back(std::move(entry));
+  return *this;
+}
+
+Registry& Registry::add(MethodEntry entry) {
+  check_new(methods_, entry.name, "method");
+  methods_.push_back(std::move(entry));
+  return *this;
+}
+
+NamedFunction Registry::make_function(std::string_view specification) const {
+  core::Specification parsed = core::parse_specification(specification, "--field");
+  const FunctionEntry& entry = find_entry(functions_, parsed.name, "Morse function");
+  return {std::string(specification), entry.name, make_entry(entry, std::move(parsed)), entry.file_key};
+}
+
+MethodChain Registry::make_method(std::string_view specification) const {
   MethodChain chain{std::string(specification), "", {}};
   for (core::Specification& link : core::parse_chain(specification, "--method")) {
-    const MethodEntry& entry = find_entry(kMethods, link.name, "method");
-    MethodStep step{std::string(entry.name), make_entry(entry, std::move(link)), entry.role};
-    if (entry.retakes != nullptr && entry.retakes(*step.method)) step.role = MethodRole::retakes;
-    if (step.role == MethodRole::retakes && !chain.steps.empty())
-      throw core::InvalidArgument(step.name + (entry.retakes != nullptr ? " with a scale" : "") +
-                                  " does not use the field that " + chain.name +
-                                  " would hand to it, so it can only be the first step of a chain");
+    const MethodEntry& entry = find_entry(methods_, link.name, "method");
+    const std::string text = core::to_string(link);
+    MethodStep step{entry.name, make_entry(entry, std::move(link))};
+    if (step.method->traits().retakes_field && !chain.steps.empty())
+      throw core::InvalidArgument(text + " takes the Morse function again and does not use the field of " +
+                                  chain.name + ", so it can only be the first step of a chain");
     chain.name += (chain.name.empty() ? "" : "+") + step.name;
     chain.steps.push_back(std::move(step));
   }
   return chain;
 }
 
-std::vector<std::string> keys_of_function(const std::string& name) {
-  return keys_of(find_entry(kFunctions, name, "Morse function"));
+std::vector<std::string> Registry::keys_of_function(const std::string& name) const {
+  return keys_of(find_entry(functions_, name, "Morse function"));
 }
 
-std::vector<std::string> keys_of_method(const std::string& name) {
-  return keys_of(find_entry(kMethods, name, "method"));
+std::vector<std::string> Registry::keys_of_method(const std::string& name) const {
+  return keys_of(find_entry(methods_, name, "method"));
 }
 
-std::string describe_function(const std::string& name) {
-  return describe(find_entry(kFunctions, name, "Morse function"));
+std::string Registry::describe_function(const std::string& name) const {
+  return describe(find_entry(functions_, name, "Morse function"));
 }
 
-std::string describe_method(const std::string& name) {
-  return describe(find_entry(kMethods, name, "method"));
+std::string Registry::describe_method(const std::string& name) const {
+  return describe(find_entry(methods_, name, "method"));
 }
 
 }  // namespace morsel::tools

@@ -1,8 +1,8 @@
 #pragma once
-/// The one list of Morse functions and the one list of methods. A new one is a header and source pair in its
-/// module and one line in registry.cpp.
+/// The Morse functions and methods that can be chosen by name. A new one is a header and source pair in its
+/// module and a line in registry.cpp; a user of the library adds their own to a copy.
 
-#include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,29 +15,18 @@
 namespace morsel::tools {
 
 struct FunctionEntry {
-  std::string_view name;
-  std::string_view summary;  ///< one line for help
-  std::unique_ptr<core::MorseFunction> (*make)(core::ParameterReader&);
-  std::string_view file_key = {};  ///< the key that names a file to read, if there is one
-};
-
-/// What is peculiar about a method, for whoever composes methods.
-enum class MethodRole : std::uint8_t {
-  smooths,  ///< nothing: it makes a field of the field it is given
-  cancels,  ///< takes critical points away pair by pair: fields between its input and its output have no use
-  retakes   ///< takes the Morse function again whatever the field it is given: nothing can come before it
+  std::string name;
+  std::string summary;  ///< one line for help
+  /// Reads the keys, each with a default, and makes the function. Throws InvalidArgument.
+  std::function<std::unique_ptr<core::MorseFunction>(core::ParameterReader&)> make;
+  std::string file_key = {};  ///< the key that names a file to read, if there is one
 };
 
 struct MethodEntry {
-  std::string_view name;
-  std::string_view summary;
-  std::unique_ptr<core::Method> (*make)(core::ParameterReader&);
-  MethodRole role = MethodRole::smooths;
-  bool (*retakes)(const core::Method&) = nullptr;  ///< asked if parameters decide whether the role is that
+  std::string name;
+  std::string summary;
+  std::function<std::unique_ptr<core::Method>(core::ParameterReader&)> make;
 };
-
-std::span<const FunctionEntry> morse_functions();
-std::span<const MethodEntry> methods();
 
 /// A Morse function by its text ("height:axis=z").
 struct NamedFunction {
@@ -51,7 +40,6 @@ struct NamedFunction {
 struct MethodStep {
   std::string name;
   std::unique_ptr<core::Method> method;
-  MethodRole role = MethodRole::smooths;
 };
 
 /// A method by its text, a chain ("salient:iterations=5+tps:count=150") or a single step.
@@ -61,17 +49,35 @@ struct MethodChain {
   std::vector<MethodStep> steps;
 };
 
-/// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch no
-/// file.
-NamedFunction make_function(std::string_view specification);
-MethodChain make_method(std::string_view specification);
+/// A value: copies are independent. Looking up is thread-safe, adding is not.
+class Registry {
+ public:
+  /// What ships with the library.
+  static const Registry& standard();
 
-/// The keys that a Morse function or method has. Throw InvalidArgument if there is none of that name.
-std::vector<std::string> keys_of_function(const std::string& name);
-std::vector<std::string> keys_of_method(const std::string& name);
+  /// Throw InvalidArgument if the name is taken, or is none: small letters, digits and dashes.
+  Registry& add(FunctionEntry entry);
+  Registry& add(MethodEntry entry);
 
-/// An entry with its keys, defaults and descriptions, as help shows it. Throw InvalidArgument as above.
-std::string describe_function(const std::string& name);
-std::string describe_method(const std::string& name);
+  std::span<const FunctionEntry> functions() const { return functions_; }
+  std::span<const MethodEntry> methods() const { return methods_; }
+
+  /// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch
+  /// no file.
+  NamedFunction make_function(std::string_view specification) const;
+  MethodChain make_method(std::string_view specification) const;
+
+  /// The keys that a Morse function or method has. Throw InvalidArgument if there is none of that name.
+  std::vector<std::string> keys_of_function(const std::string& name) const;
+  std::vector<std::string> keys_of_method(const std::string& name) const;
+
+  /// An entry with its keys, defaults and descriptions, as help shows it. Throw InvalidArgument as above.
+  std::string describe_function(const std::string& name) const;
+  std::string describe_method(const std::string& name) const;
+
+ private:
+  std::vector<FunctionEntry> functions_;
+  std::vector<MethodEntry> methods_;
+};
 
 }  // namespace morsel::tools

@@ -275,7 +275,7 @@ StabilityRequest with_defaults(StabilityRequest request) {
   return request;
 }
 
-PreparedStability prepare(const StabilityRequest& given) {
+PreparedStability prepare(const StabilityRequest& given, const Registry& registry) {
   const StabilityRequest request = with_defaults(given);
   check_target(request.target);
   if (request.trials < 1) throw core::InvalidArgument("there must be at least one trial");
@@ -289,14 +289,14 @@ PreparedStability prepare(const StabilityRequest& given) {
                              request.seed,
                              parse_radius(request.radius),
                              request.points,
-                             make_function(request.reference_field),
-                             make_method(request.reference)};
+                             registry.make_function(request.reference_field),
+                             registry.make_method(request.reference)};
   const MatchingRadius& radius = prepared.radius;
   if (!(radius.share.value_or(radius.length.value) >= 0))
     throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
   if (request.target) prepared.targets.push_back(request.target);
-  for (const std::string& field : request.fields) prepared.functions.push_back(make_function(field));
-  for (const std::string& method : request.methods) prepared.chains.push_back(make_method(method));
+  for (const std::string& field : request.fields) prepared.functions.push_back(registry.make_function(field));
+  for (const std::string& method : request.methods) prepared.chains.push_back(registry.make_method(method));
   for (const double amount : request.noise)
     prepared.perturbations.push_back({PerturbationKind::noise, amount, request.noise_kind});
   for (const double amount : request.decimate)

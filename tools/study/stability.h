@@ -69,7 +69,7 @@ struct PreparedStability {
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values and what cannot go together. Touches no file.
-PreparedStability prepare(const StabilityRequest& request);
+PreparedStability prepare(const StabilityRequest& request, const Registry& registry = Registry::standard());
 
 /// What the clean surface's points (the reference) and those found on another one have in common.
 struct Agreement {

@@ -91,7 +91,7 @@ class SweepRun {
     const auto field_text = [&](std::size_t i) { return to_string(prepared_.combinations[i].field); };
     for (const Members& group : grouped_by(members, field_text)) {
       show_progress();
-      const NamedFunction function = make_function(field_text(group.front()));
+      const NamedFunction function = Registry::standard().make_function(field_text(group.front()));
       const FieldOutcome field =
           named(group.front(), [&] { return evaluate_field(loaded_, function, progress_); });
       function_ = &function;
@@ -120,8 +120,11 @@ class SweepRun {
       return prepared_.combinations[i].steps[step];
     };
     const auto readable = [&](std::size_t i) {
-      return iterations_of(specification(i)) &&
-             make_method(to_string(specification(i))).steps.front().method->tells_results();
+      return iterations_of(specification(i)) && Registry::standard()
+                                                    .make_method(to_string(specification(i)))
+                                                    .steps.front()
+                                                    .method->traits()
+                                                    .tells_results;
     };
     const auto text = [&](std::size_t i) {
       return to_string(readable(i) ? without_iterations(specification(i)) : specification(i));
@@ -133,7 +136,7 @@ class SweepRun {
   void apply(const ScalarField& input, const Members& members, std::size_t step) {
     show_progress();
     const core::Specification& specification = prepared_.combinations[members.front()].steps[step];
-    const MethodChain chain = make_method(to_string(specification));
+    const MethodChain chain = Registry::standard().make_method(to_string(specification));
     const HeldWatch watch;
     core::MethodResult result = named(members.front(), [&] {
       return chain.steps.front().method->apply(input, method_context(loaded_, *function_, progress_));
@@ -150,7 +153,7 @@ class SweepRun {
     for (const std::size_t i : members) by_iterations[*iterations_of(specification(i))].push_back(i);
     show_progress();
     const std::size_t longest = by_iterations.rbegin()->second.front();
-    const MethodChain chain = make_method(to_string(specification(longest)));
+    const MethodChain chain = Registry::standard().make_method(to_string(specification(longest)));
     HeldWatch watch;
     std::map<int, double> seconds;
     const auto read = [&](int iterations, const ScalarField& field) {

@@ -31,7 +31,7 @@ struct SweepOptions {
 ///
 /// Work that combinations have in common is done once: a field is taken once for all methods, the first steps
 /// of a chain are applied once for all that follows, and what differs in the iterations of a step alone is
-/// read out of one run of it, if the method lets itself be read (core::Method::tells_results()). Rows are the
+/// read out of one run of it, if the method lets itself be read (core::MethodTraits). Rows are the
 /// same bits as those of a sweep with one combination. No more fields are in memory at a time than a chain
 /// has steps, and two more.
 ///
