@@ -9,7 +9,6 @@
 
 using namespace morsel;
 
-/// The distance from the middle of the bounding box.
 class Radius : public core::MorseFunction {
  public:
   core::FunctionResult evaluate(const core::TriangleMesh& mesh, const core::FunctionContext&) const override {
@@ -45,7 +44,7 @@ class Table : public tools::ComparisonSink {
 
 int main(int, char** arguments) {
   tools::Registry registry = tools::Registry::standard();
-  registry.add(tools::FunctionEntry{"radius", "distance from the middle",
+  registry.add(tools::FunctionEntry{"radius", "distance from the middle of the bounding box",
                                     [](core::ParameterReader&) { return std::make_unique<Radius>(); }});
   registry.add(tools::MethodEntry{"steps", "values rounded to steps", [](core::ParameterReader& reader) {
                                     return std::make_unique<Steps>(
