@@ -128,7 +128,8 @@ void ResultFolder::open() {
   for (;;) {
     std::vector<fs::path> missing;
     std::error_code error;
-    for (fs::path at = path_; !at.empty() && !fs::exists(at, error); at = at.parent_path())
+    for (fs::path at = path_.has_filename() ? path_ : path_.parent_path();
+         !at.empty() && !fs::exists(at, error); at = at.parent_path())
       missing.push_back(at);
     fs::create_directories(path_, error);
     root_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
