@@ -77,7 +77,7 @@ int run(std::vector<std::string> words, std::stop_token stop) {
     return kDone;
   };
 
-  if (words.empty() || is_help(words[0]) || (words[0] == "help" && words.size() == 1))
+  if (words.empty() || is_help(words[0]) || (words[0] == "help" && (words.size() == 1 || is_help(words[1]))))
     return show(program_help(program.commands));
   if (words[0] == "--version") return show("morsel " + std::string(kVersion) + "\n");
   if (words[0] == "help") return show(command_help(chosen(program.commands, words[1])));

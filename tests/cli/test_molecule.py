@@ -167,7 +167,7 @@ class Molecule(ProgramTest):
 
     def test_an_output_that_cannot_be_written(self):
         file = self.file("one.pdb", atom(1, (0, 0, 0)))
-        self.morsel("molecule", file, "-o", "no/such/folder/x.off", code=4)
+        self.morsel("molecule", file, "-o", "one.pdb/x.off", code=4)
 
     def test_atomic_density_is_the_sum_of_gaussians(self):
         mesh = self.file("o.off", OCTAHEDRON)

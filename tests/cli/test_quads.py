@@ -135,7 +135,7 @@ class Quads(ProgramTest):
             self.assertFalse((self.folder / "bad.obj").exists() or (self.folder / "bad.json").exists())
         result = self.morsel("quads", self.mesh, "-o", "quads.ply", code=2)
         self.assertIn(".obj", result.stderr)
-        self.morsel("quads", self.mesh, "-o", "no/such/folder/quads.obj", code=4)
+        self.morsel("quads", self.mesh, "-o", f"{self.file('taken', '')}/quads.obj", code=4)
 
 
 if __name__ == "__main__":

@@ -230,7 +230,7 @@ class Segment(ProgramTest):
     def test_wrong_usage_and_bad_input_are_told_before_the_work(self):
         mesh = self.file("o.off", OCTAHEDRON)
         for arguments, code, words in ((["-o", "x.off"], 2, [".ply", ".vtp", ".txt", "x.off"]),
-                                       ([], 2, ["--output"]),
+                                       ([], 2, ["-o OUT"]),
                                        (["-o", "x.ply", "--by", "both"], 2, ["both", "morse-smale"]),
                                        (["-o", "x.ply", "--segments", "0"], 2, ["segments"]),
                                        (["-o", "x.ply", "--segments", "3", "--persistence", "1%"], 2,
@@ -238,8 +238,8 @@ class Segment(ProgramTest):
                                        (["-o", "x.ply", "--persistence", "-1%"], 2, ["--persistence", "-1%"]),
                                        (["-o", "x.ply", "--persistence", "much"], 2,
                                         ["--persistence", "much"]),
-                                       (["-o", "no/x.ply"], 4, ["no/x.ply"]),
-                                       (["-o", "x.ply", "--json", "no/t.json"], 4, ["no/t.json"])):
+                                       (["-o", "o.off/x.ply"], 4, ["o.off/x.ply"]),
+                                       (["-o", "x.ply", "--json", "o.off/t.json"], 4, ["o.off/t.json"])):
             result = self.morsel("segment", mesh, *arguments, code=code)
             for word in words:
                 self.assertIn(word, result.stderr)

@@ -216,9 +216,10 @@ class Refused(Stability):
 
     def test_files(self):
         self.refuse("-o", "s.txt", naming=["s.txt", ".json", ".csv"])
-        self.refuse("-o", "absent/s.json", naming=["absent"], code=4)
+        self.file("taken", "")
+        self.refuse("-o", "taken/s.json", naming=["taken"], code=4)
         self.morsel("stability", "absent.off", "-o", "s.json", code=3)
-        self.assertEqual(os.listdir(self.folder), [])  # no half-written document
+        self.assertEqual(os.listdir(self.folder), ["taken"])  # no half-written document
 
     def test_a_trial_that_fails(self):
         mesh = self.file("o.off", OCTAHEDRON)

@@ -192,7 +192,8 @@ class Refused(Sweep):
 
     def test_files(self):
         self.refuse("--vary", "sigma=1", "-o", "s.txt", naming=["s.txt", ".json", ".csv"])
-        self.refuse("--vary", "sigma=1", "-o", "absent/s.json", naming=["absent"], code=4)
+        self.file("taken", "")
+        self.refuse("--vary", "sigma=1", "-o", "taken/s.json", naming=["taken"], code=4)
         self.file("plots", "")
         self.refuse("--vary", "sigma=1", "--figures", "plots", naming=["plots"], code=4)
         self.morsel("sweep", "absent.off", "--vary", "sigma=1", "-o", "s.json", code=3)

@@ -218,8 +218,6 @@ TEST_CASE("too few extrema are refused with the least number") {
   CHECK_THROWS_AS(apply(field, {{"extrema", "0"}}), core::InvalidArgument);
   CHECK_THROWS_AS(apply(field, {{"values", "mine"}}), core::InvalidArgument);
   CHECK_THROWS_AS(apply(field, {{"weights", "cotangent"}}), core::InvalidArgument);
-  CHECK_THROWS_WITH(apply(field, {}, {}), Catch::Contains("persistence"));
-  CHECK_THROWS_AS(apply(field, {}, {}), core::InvalidArgument);
   const Index regular = [&] {
     for (Index v = 0;; ++v)
       if (morse::classify_vertex(field, v).type == CriticalType::regular) return v;

@@ -73,7 +73,7 @@ std::string usage(const Command& command) {
 
 std::string command_help(const Command& command) {
   std::string text = "Usage: morsel " + command.name + " " + usage(command) + "\n" +
-                     wrapped(command.summary, 0, kWidth) + ".\n\n";
+                     wrapped(command.summary + ".", 0, kWidth) + "\n\n";
   for (const bool arguments : {true, false})
     for (const Option& option : command.options())
       if (option.is_argument() == arguments) text += row(option_heading(option), option_text(option));

@@ -75,8 +75,8 @@ std::vector<std::string> option_names(const Command& command) {
     if (!option.negation.empty()) names.push_back(option.negation);
     for (const std::string& name : names)  // CLI11 leaves out the dashes of a flag
       if (name == begin || name == "--" + begin || name == "-" + begin)
-        refuse(command,
-               name + (option.is_flag() ? " takes no value" : " needs a value: " + option.value_name));
+        refuse(command, option.is_flag() ? name + " takes no value"
+                                         : names.front() + " needs a value: " + option.value_name);
   }
   refuse(command, message);
 }
@@ -91,12 +91,7 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
   for (const Parsed& row : rows) {
     const Option& option = *row.option;
     const std::string name = option.all_names().front();
-    if (row.count() == 0) {
-      if (option.is_required)
-        refuse(command,
-               command.name + " needs " + name + (option.is_argument() ? "" : " " + option.value_name));
-      continue;
-    }
+    if (row.count() == 0) continue;
     if (!option.is_flag() && !option.is_repeated && row.count() > 1)
       refuse(command, name + " was given " + std::to_string(row.count()) + " times");
     for (const std::string& other : option.needed)
@@ -108,6 +103,15 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
       if (std::ranges::find(option.choices, word) == option.choices.end())
         refuse(command, name + " must be " + names_text(option.choices) + ", not \"" + word + "\"" +
                             core::nearest_hint(word, option.choices));
+  }
+}
+
+void check_required(const Command& command, const std::vector<Parsed>& rows) {
+  for (const Parsed& row : rows) {
+    const Option& option = *row.option;
+    if (option.is_required && row.count() == 0)
+      refuse(command, command.name + " needs " + option.all_names().front() +
+                          (option.is_argument() ? "" : " " + option.value_name));
   }
 }
 
@@ -136,6 +140,7 @@ void parse(Command& command, std::vector<std::string> words) {
     const std::vector<std::string> flags = {row.denied != nullptr && row.denied->count() > 0 ? "no" : "yes"};
     row.option->take(*row.option, row.option->is_flag() ? flags : row.given->results());
   }
+  check_required(command, rows);
 }
 
 }  // namespace morsel::tools
