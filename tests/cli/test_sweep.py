@@ -192,9 +192,8 @@ class Refused(Sweep):
 
     def test_files(self):
         self.refuse("--vary", "sigma=1", "-o", "s.txt", naming=["s.txt", ".json", ".csv"])
-        self.file("taken", "")
-        self.refuse("--vary", "sigma=1", "-o", "taken/s.json", naming=["taken"], code=4)
         self.file("plots", "")
+        self.refuse("--vary", "sigma=1", "-o", "plots/s.json", naming=["plots"], code=4)
         self.refuse("--vary", "sigma=1", "--figures", "plots", naming=["plots"], code=4)
         self.morsel("sweep", "absent.off", "--vary", "sigma=1", "-o", "s.json", code=3)
         self.assertEqual(os.listdir(self.folder), ["plots"])  # no half-written document, no journal
