@@ -51,6 +51,7 @@ std::vector<batch::MeshOutcome> whole_collection(const std::vector<batch::Collec
     if (!names.contains(mesh.name)) others.push_back(mesh);
   std::vector<batch::MeshOutcome> found = look_at(others, options.request, options.run, out, progress);
   std::vector<batch::MeshOutcome> whole;
+  whole.reserve(all.size());
   auto one = ran.begin();
   auto other = found.begin();
   for (const batch::CollectionMesh& mesh : all)

@@ -94,15 +94,18 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
     if (row.count() == 0) continue;
     if (!option.is_flag() && !option.is_repeated && row.count() > 1)
       refuse(command, name + " was given " + std::to_string(row.count()) + " times");
-    for (const std::string& other : option.needed)
-      if (!is_given(other)) refuse(command, name + " needs " + other);
-    for (const std::string& other : option.excluded)
-      if (is_given(other)) refuse(command, name + " and " + other + " exclude one another");
+    if (const auto other = std::ranges::find_if_not(option.needed, is_given); other != option.needed.end())
+      refuse(command, name + " needs " + *other);
+    if (const auto other = std::ranges::find_if(option.excluded, is_given); other != option.excluded.end())
+      refuse(command, name + " and " + *other + " exclude one another");
     if (option.choices.empty()) continue;
-    for (const std::string& word : row.given->results())
-      if (std::ranges::find(option.choices, word) == option.choices.end())
-        refuse(command, name + " must be " + names_text(option.choices) + ", not \"" + word + "\"" +
-                            core::nearest_hint(word, option.choices));
+    const std::vector<std::string>& words = row.given->results();
+    const auto word = std::ranges::find_if(words, [&](const std::string& given) {
+      return std::ranges::find(option.choices, given) == option.choices.end();
+    });
+    if (word != words.end())
+      refuse(command, name + " must be " + names_text(option.choices) + ", not \"" + *word + "\"" +
+                          core::nearest_hint(*word, option.choices));
   }
 }
 

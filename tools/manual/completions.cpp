@@ -78,10 +78,10 @@ std::string bash_completion(const std::deque<Command>& commands) {
       }
       for (const std::string& name : all_names(option)) options.push_back(name);
       if (!option.is_flag())
-        values = "        " + joined(option.all_names(), "|") + ") " +
-                 (listed.empty() ? option.is_path ? "files=1" : "words="
-                                 : "words=" + quoted_word(joined(listed, " "))) +
-                 "; value=1 ;;\n" + values;
+        values.insert(0, "        " + joined(option.all_names(), "|") + ") " +
+                             (listed.empty() ? option.is_path ? "files=1" : "words="
+                                             : "words=" + quoted_word(joined(listed, " "))) +
+                             "; value=1 ;;\n");
     }
     cases += "    " + command.name + ")\n      options=" + quoted_word(joined(options, " ")) +
              "\n      case $previous in\n" + values + "      esac ;;\n";
@@ -143,16 +143,17 @@ std::string fish_completion(const std::deque<Command>& commands) {
         "complete -c morsel -n " + quoted_word("__fish_seen_subcommand_from " + command.name);
     for (const Option& option : command.options()) {
       const std::vector<std::string> listed = values_of(command, option);
-      std::string rest = listed.empty() ? "" : " -f -a " + quoted_word(joined(listed, " "));
+      const std::string offered = listed.empty() ? "" : " -f -a " + quoted_word(joined(listed, " "));
       if (option.is_argument()) {
-        if (!listed.empty()) text += begin + rest + "\n";
+        if (!listed.empty()) text.append(begin).append(offered).append("\n");
         continue;
       }
-      if (!option.is_flag()) rest = (option.is_path ? " -r" : " -x") + rest;
-      std::string names;
+      text += begin;
       for (const std::string& name : all_names(option))
-        names += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-      text += begin + names + rest + " -d " + quoted_word(brief(option.help)) + "\n";
+        text.append(name.starts_with("--") ? " -l " : " -s ")
+            .append(name.substr(name.starts_with("--") ? 2 : 1));
+      if (!option.is_flag()) text += option.is_path ? " -r" : " -x";
+      text.append(offered).append(" -d ").append(quoted_word(brief(option.help))).append("\n");
     }
   }
   return text;

@@ -79,8 +79,8 @@ const auto& find_entry(const Entries& entries, const std::string& name, std::str
   const auto entry =
       std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.name == name; });
   if (entry != entries.end()) return *entry;
-  std::vector<std::string> names;
-  for (const auto& e : entries) names.emplace_back(e.name);
+  std::vector<std::string> names(entries.size());
+  std::ranges::transform(entries, names.begin(), [](const auto& e) { return e.name; });
   throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"" +
                               core::nearest_of(name, names, "there are"));
 }
