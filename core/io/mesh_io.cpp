@@ -8,6 +8,7 @@
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -32,12 +33,9 @@ const Format* find_format(const std::filesystem::path& path) {
 bool has_mesh_extension(const std::filesystem::path& path) { return find_format(path) != nullptr; }
 
 std::string mesh_extensions(std::string_view last) {
-  std::string text;
-  for (std::size_t i = 0; i < kFormats.size(); ++i) {
-    if (i > 0) text += i + 1 == kFormats.size() ? last : ", ";
-    text += kFormats[i].extension;
-  }
-  return text;
+  std::vector<std::string> names(kFormats.size());
+  std::ranges::transform(kFormats, names.begin(), &Format::extension);
+  return listed(names, last);
 }
 
 MeshFormat mesh_format(const std::filesystem::path& path) {

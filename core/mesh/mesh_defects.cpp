@@ -7,6 +7,7 @@
 
 #include "morsel/core/parallel/interruptible.h"
 #include "morsel/core/parallel/union_find.h"
+#include "morsel/core/text/listed.h"
 
 namespace morsel::core {
 namespace {
@@ -241,16 +242,6 @@ std::vector<Defect> find_defects(std::span<const Point> positions, std::span<con
 }
 
 namespace {
-
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& items, std::string_view last_joint) {
-  std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0) text += i + 1 == items.size() ? last_joint : ", ";
-    text += items[i];
-  }
-  return text;
-}
 
 std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std::string_view subject) {
   const auto has = [&](DefectKind kind) {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/text/listed.h"
+
 namespace morsel::core {
 namespace {
 
@@ -46,13 +48,11 @@ std::string nearest_hint(std::string_view word, std::span<const std::string> can
   return name.empty() ? "" : "; did you mean " + name + "?";
 }
 
-std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string listed) {
+std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string lead) {
   std::string hint = nearest_hint(word, candidates);
-  if (!hint.empty() && !listed.empty() && listed[0] >= 'a' && listed[0] <= 'z')
-    listed[0] = static_cast<char>(listed[0] - 'a' + 'A');
-  hint += (hint.empty() ? "; " : " ") + listed + ": ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) hint += (i == 0 ? "" : ", ") + candidates[i];
-  return hint;
+  if (!hint.empty() && !lead.empty() && lead[0] >= 'a' && lead[0] <= 'z')
+    lead[0] = static_cast<char>(lead[0] - 'a' + 'A');
+  return hint + (hint.empty() ? "; " : " ") + lead + ": " + listed(candidates);
 }
 
 }  // namespace morsel::core

@@ -16,6 +16,6 @@ std::string nearest_hint(std::string_view word, std::span<const std::string> can
 
 /// The same with all candidates: "; did you mean NAME? There are: A, B", or "; there are: A, B", where
 /// `listed` is "there are".
-std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string listed);
+std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string lead);
 
 }  // namespace morsel::core

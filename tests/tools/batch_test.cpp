@@ -231,7 +231,8 @@ namespace {
 Json result_of_a_mesh() {
   return Json::parse(R"({
     "mesh": {"path": "a.off", "sha256": "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef",
-      "vertices": 6, "edges": 12, "faces": 8, "components": 1, "boundary_loops": 0, "euler_characteristic": 2, "genus": 0,
+      "vertices": 6, "edges": 12, "faces": 8, "components": 1,
+       "boundary_loops": 0, "euler_characteristic": 2, "genus": 0,
       "bbox_diagonal": 3.5, "repairs": [{"action": "drop", "count": 1}]},
     "field": {"name": "height", "parameters": {"axis": "z"}, "min": -1.0, "max": 1.0},
     "methods": [{"name": "conventional", "parameters": {}, "field": {"min": -1.0, "max": 1.0},

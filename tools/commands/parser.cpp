@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
@@ -23,13 +24,6 @@ struct Parsed {
 
 [[noreturn]] void refuse(const Command& command, const std::string& sentence) {
   throw core::InvalidArgument(sentence + " (morsel " + command.name + " --help lists the options)");
-}
-
-std::string names_text(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
-  return text;
 }
 
 std::vector<Parsed> declare(const Command& command, CLI::App& app) {
@@ -104,7 +98,7 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
       return std::ranges::find(option.choices, given) == option.choices.end();
     });
     if (word != words.end())
-      refuse(command, name + " must be " + names_text(option.choices) + ", not \"" + *word + "\"" +
+      refuse(command, name + " must be " + core::listed(option.choices, " or ") + ", not \"" + *word + "\"" +
                           core::nearest_hint(*word, option.choices));
   }
 }

@@ -6,6 +6,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/listed.h"
 
 namespace morsel::tools::reproduce {
 namespace {
@@ -22,13 +23,6 @@ std::vector<std::string_view> words_of(const ModelRecipe& model) {
   std::vector<std::string_view> words = {model.name};
   words.insert(words.end(), model.words.begin(), model.words.end());
   return words;
-}
-
-std::string listed(const std::vector<std::string>& items, const char* last = " and ") {
-  std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == items.size() ? last : ", ") + items[i];
-  return text;
 }
 
 /// The meshes of a folder, by name, so that the order of the file system makes no difference.
@@ -58,7 +52,7 @@ std::optional<fs::path> find_model(const ModelRecipe& model, const std::vector<f
   names.reserve(found.size());
   for (const fs::path& mesh : found) names.push_back(mesh.filename().string());
   throw core::BadInput(std::to_string(found.size()) + " meshes in " + found.front().parent_path().string() +
-                       " could be the " + std::string(model.name) + ": " + listed(names) +
+                       " could be the " + std::string(model.name) + ": " + core::listed(names, " and ") +
                        "; name the right one " + std::string(model.name) + ".off (or .obj, .ply, .stl)");
 }
 
@@ -66,7 +60,7 @@ std::optional<fs::path> find_model(const ModelRecipe& model, const std::vector<f
 std::string sought(const ModelRecipe& model) {
   std::vector<std::string> words;
   for (const std::string_view word : words_of(model)) words.push_back("\"" + std::string(word) + "\"");
-  return listed(words, " or ");
+  return core::listed(words, " or ");
 }
 
 }  // namespace
@@ -97,11 +91,11 @@ std::vector<MeshFile> find_meshes(const fs::path& data, const fs::path& samples)
         std::string(model.sample) + " in " + samples.string() + ")");
   }
   if (!data.empty() && found == 0)
-    throw core::BadInput("no mesh in " + data.string() + " has " + listed(given, " or ") + " in its name (" +
-                         core::mesh_extensions() + ")");
+    throw core::BadInput("no mesh in " + data.string() + " has " + core::listed(given, " or ") +
+                         " in its name (" + core::mesh_extensions() + ")");
   if (!missing.empty())
     throw core::BadInput(
-        "there is no mesh for " + listed(missing) +
+        "there is no mesh for " + core::listed(missing, " and ") +
         "; --meshes tells where the sample meshes are, which are those of CGAL's example data "
         "(Debian's package libcgal-demo)");
   return files;

@@ -273,10 +273,13 @@ ResultFolder::Work::Work(ResultFolder& folder, const fs::path& around) : folder_
 }
 
 ResultFolder::Work::~Work() {
-  try {
-    const Hold hold(folder_);
-    folder_.remove_listed_work(relative_.parent_path(), folder_entry(relative_));
-  } catch (const std::exception&) {  // the next run removes it
+  constexpr int kTries = 2;  // descriptors that another thread holds for a moment are no reason to leave it
+  for (int i = 0; i < kTries; ++i) {
+    try {
+      const Hold hold(folder_);
+      if (folder_.remove_listed_work(relative_.parent_path(), folder_entry(relative_))) return;
+    } catch (const std::exception&) {  // the next run removes it
+    }
   }
 }
 
@@ -285,10 +288,10 @@ bool ResultFolder::remove_listed_work(const fs::path& around, const std::string&
   const fs::path relative = entry.substr(0, entry.size() - 1);
   const Descriptor outer = parent_of(relative, Missing::tell);
   if (outer.is_open() && !remove_tree(outer.number(), relative.filename())) return false;
-  list_->remove(entry);
   if (!around.empty())
     if (const Descriptor top = parent_of(around, Missing::tell); top.is_open())
       ::unlinkat(top.number(), around.filename().c_str(), AT_REMOVEDIR);  // unless something else is in it
+  list_->remove(entry);  // at the end: what fails before is left to the next run
   return true;
 }
 

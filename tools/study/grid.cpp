@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
@@ -38,7 +39,7 @@ class Links {
                                            : Place{link_of(key, key.substr(0, dot)), key.substr(dot + 1)};
     if (std::ranges::count(keys_[found.link], found.key) == 0)
       throw refused(key, links_[found.link].name + " has no key \"" + found.key +
-                             "\"; it has: " + listed(keys_[found.link]));
+                             "\"; it has: " + names_text(keys_[found.link]));
     for (const auto& [given, value] : links_[found.link].given)
       if (given == found.key)
         throw refused(key, "it is given as " + value + " in \"" + to_string(links_[found.link]) +
@@ -61,10 +62,8 @@ class Links {
     return InvalidArgument("--vary cannot vary \"" + key + "\": " + why);
   }
 
-  static std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text.empty() ? "none" : text;
+  static std::string names_text(const std::vector<std::string>& names) {
+    return names.empty() ? "none" : core::listed(names);
   }
 
   /// As a key's prefix names it: its name where that is its own, else its number.
@@ -84,10 +83,11 @@ class Links {
         found = {i, key};
       }
     if (ways.size() == 1) return found;
-    if (ways.size() > 1) throw refused(key, "it could be any of " + listed(ways) + "; write one of these");
+    if (ways.size() > 1)
+      throw refused(key, "it could be any of " + core::listed(ways) + "; write one of these");
     std::string known;
     for (std::size_t i = 0; i < links_.size(); ++i)
-      known += (i == 0 ? "" : "; ") + links_[i].name + ": " + listed(keys_[i]);
+      known += (i == 0 ? "" : "; ") + links_[i].name + ": " + names_text(keys_[i]);
     throw refused(key, "neither the field nor the method has it; there are " + known);
   }
 
@@ -110,7 +110,7 @@ class Links {
       }
     if (ways.size() == 1) return found;
     if (ways.empty()) throw refused(key, "neither the field nor a step of the method is called " + name);
-    throw refused(key, "it could be any of " + listed(ways) + "; write one of these");
+    throw refused(key, "it could be any of " + core::listed(ways) + "; write one of these");
   }
 
   std::vector<core::Specification> links_;
