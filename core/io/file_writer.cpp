@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/made_folders.h"
 #include "morsel/core/io/temporary_file.h"
 
 namespace morsel::core {
@@ -49,7 +50,7 @@ struct FileWriter::Output {
   ~Output() {
     if (device >= 0) ::close(device);
     temporary.discard();
-    remove_made();
+    made.remove();
   }
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -70,11 +71,6 @@ struct FileWriter::Output {
   void write_out(const char* data, std::size_t size);
   void commit();
   void open_temporary(const fs::path& target);
-  /// Folders that nothing was written to in the end.
-  void remove_made() noexcept {
-    for (const fs::path& folder : made)
-      if (::rmdir(folder.c_str()) != 0) return;
-  }
   int file() const { return device >= 0 ? device : temporary.descriptor(); }
 
   struct StreamBuffer : std::streambuf {
@@ -94,8 +90,8 @@ struct FileWriter::Output {
 
   fs::path shown;  // as the caller named it
   TemporaryFile temporary;
-  int device = -1;             // or else this is written to
-  std::vector<fs::path> made;  // folders, from the inside out
+  int device = -1;   // or else this is written to
+  MadeFolders made;  // removed without commit()
   bool synced = false;
   std::vector<char> buffer;
   std::size_t used = 0;
@@ -124,12 +120,9 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
 }
 
 void FileWriter::Output::open_temporary(const fs::path& target) {
-  std::error_code no_folder;
-  for (fs::path at = target.parent_path(); !at.empty() && !fs::exists(at, no_folder); at = at.parent_path())
-    made.push_back(at);
-  if (!made.empty()) fs::create_directories(made.front(), no_folder);
+  static_cast<void>(made.make(target.parent_path()));  // open() has the reason why it cannot be
   if (const int error = temporary.open(target); error != 0) {
-    remove_made();
+    made.remove();
     fail(shown, error);
   }
 }
@@ -155,7 +148,7 @@ void FileWriter::Output::commit() {
   else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
     error = errno;
   if (error != 0) fail(shown, error);
-  made.clear();
+  made.keep();
 }
 
 FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}

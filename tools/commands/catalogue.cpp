@@ -4,10 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "morsel/core/error.h"
-#include "morsel/core/text/nearest_name.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/study/registry.h"
 
@@ -15,14 +12,9 @@ namespace morsel::tools {
 namespace {
 
 template <class Entries>
-int list(const Entries& entries, const std::string& name, const char* kind,
+int list(const Entries& entries, const std::string& name,
          std::string (Registry::*describe)(const std::string& name) const) {
   if (!name.empty()) {
-    std::vector<std::string> names;
-    for (const auto& entry : entries) names.emplace_back(entry.name);
-    if (std::ranges::find(names, name) == names.end())
-      throw core::InvalidArgument("there is no " + std::string(kind) + " \"" + name + "\"" +
-                                  core::nearest_hint(name, names));
     std::cout << (Registry::standard().*describe)(name);
     return kDone;
   }
@@ -42,7 +34,7 @@ void add_catalogue(Program& program) {
   fields.examples = {{"fields", "the names, a line each"},
                      {"fields mean-curvature", "its keys, to be written as mean-curvature:scale=8eps"}};
   fields.action = [name](Console&) {
-    return list(Registry::standard().functions(), *name, "Morse function", &Registry::describe_function);
+    return list(Registry::standard().functions(), *name, &Registry::describe_function);
   };
 
   Command& all = program.add("methods", "List the methods, or the keys of one");
@@ -50,7 +42,7 @@ void add_catalogue(Program& program) {
   all.examples = {{"methods", "the names, a line each"},
                   {"methods salient", "its keys, to be written as salient:iterations=5,sigma=4eps"}};
   all.action = [name](Console&) {
-    return list(Registry::standard().methods(), *name, "method", &Registry::describe_method);
+    return list(Registry::standard().methods(), *name, &Registry::describe_method);
   };
 }
 

@@ -37,7 +37,11 @@ std::string range_text(const Option& option) {
 
 }  // namespace
 
-std::vector<std::string> Option::all_names() const { return split(names, ','); }
+std::vector<std::string> Option::all_names() const {
+  std::vector<std::string> all = split(names, ',');
+  if (!negation.empty()) all.push_back(negation);
+  return all;
+}
 
 Option& Option::value(std::string name) {
   value_name = std::move(name);

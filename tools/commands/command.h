@@ -40,7 +40,7 @@ struct Option {
 
   bool is_flag() const { return value_name.empty(); }
   bool is_argument() const { return !names.starts_with('-'); }
-  /// Each of the names, the short one first.
+  /// Each of the names, the short one first, the negation last.
   std::vector<std::string> all_names() const;
 
   Option& value(std::string name);

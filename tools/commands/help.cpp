@@ -23,6 +23,10 @@ std::string row(const std::string& heading, const std::string& text) {
 
 }  // namespace
 
+const char* const kExitCodes =
+    "0 done; 1 a check found differences, or a mesh of a batch failed; 2 wrong usage; 3 bad input; 4 writing "
+    "failed; 5 out of memory, threads or open files; 130 and 143 interrupted.";
+
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
   std::string lines;
   std::size_t column = indent;
@@ -45,7 +49,6 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
 std::string option_heading(const Option& option) {
   std::string heading;
   for (const std::string& name : option.all_names()) heading += (heading.empty() ? "" : ", ") + name;
-  if (!option.negation.empty()) heading += ", " + option.negation;
   if (!option.is_flag() && !option.is_argument()) heading += " " + option.value_name;
   return heading + (option.is_argument() && option.is_repeated ? " ..." : "");
 }
@@ -100,9 +103,7 @@ std::string program_help(const std::deque<Command>& commands) {
       "  morsel scan.off                        critical points of a surface's curvature, three methods\n"
       "  morsel scan.off --figures out          the same with pictures\n"
       "  morsel info scan.off                   what a mesh is, and what is wrong with it\n";
-  return text +
-         "\nExit codes: 0 done; 1 a check found differences, or a mesh of a batch failed; 2 wrong usage;\n"
-         "3 bad input; 4 writing failed; 5 out of memory, threads or open files; 130 and 143 interrupted.\n";
+  return text + "\n" + wrapped("Exit codes: " + std::string(kExitCodes), 0, kWidth) + "\n";
 }
 
 }  // namespace morsel::tools

@@ -13,6 +13,9 @@ std::string program_help(const std::deque<Command>& commands);
 /// One command: usage, options, examples, notes.
 std::string command_help(const Command& command);
 
+/// What the program ends with, as a sentence.
+extern const char* const kExitCodes;
+
 /// "MESH -o OUT [OPTIONS]": what a command cannot do without.
 std::string usage(const Command& command);
 /// "-o, --output FILE", as help shows it; of a flag with a negation "--points, --no-points".

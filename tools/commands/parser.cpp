@@ -49,7 +49,6 @@ std::vector<std::string> option_names(const Command& command) {
   for (const Option& option : command.options()) {
     if (option.is_argument()) continue;
     for (std::string& name : option.all_names()) names.push_back(std::move(name));
-    if (!option.negation.empty()) names.push_back(option.negation);
   }
   return names;
 }
@@ -65,8 +64,7 @@ std::vector<std::string> option_names(const Command& command) {
 [[noreturn]] void refuse_mismatch(const Command& command, const std::string& message) {
   const std::string begin = message.substr(0, message.find_first_of(": "));
   for (const Option& option : command.options()) {
-    std::vector<std::string> names = option.all_names();
-    if (!option.negation.empty()) names.push_back(option.negation);
+    const std::vector<std::string> names = option.all_names();
     for (const std::string& name : names)  // CLI11 leaves out the dashes of a flag
       if (name == begin || name == "--" + begin || name == "-" + begin)
         refuse(command, option.is_flag() ? name + " takes no value"

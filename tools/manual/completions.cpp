@@ -21,12 +21,6 @@ std::vector<std::string> names_of(const Entries& entries) {
   return names;
 }
 
-std::vector<std::string> all_names(const Option& option) {
-  std::vector<std::string> names = option.all_names();
-  if (!option.negation.empty()) names.push_back(option.negation);
-  return names;
-}
-
 /// What a value can be, where that is a list.
 std::vector<std::string> values_of(const Command& command, const Option& option) {
   if (!option.choices.empty()) return option.choices;
@@ -76,7 +70,7 @@ std::string bash_completion(const std::deque<Command>& commands) {
           values += "        *) [[ $word != -* ]] && words=" + quoted_word(joined(listed, " ")) + " ;;\n";
         continue;
       }
-      for (const std::string& name : all_names(option)) options.push_back(name);
+      for (const std::string& name : option.all_names()) options.push_back(name);
       if (!option.is_flag())
         values.insert(0, "        " + joined(option.all_names(), "|") + ") " +
                              (listed.empty() ? option.is_path ? "files=1" : "words="
@@ -117,7 +111,7 @@ std::string zsh_completion(const std::deque<Command>& commands) {
         cases += " \\\n        " + quoted_word(line);
         continue;
       }
-      for (const std::string& name : all_names(option)) {
+      for (const std::string& name : option.all_names()) {
         line = (option.is_repeated ? "*" : "") + name + "[" + for_zsh(option.help) + "]";
         if (!option.is_flag())
           line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(command, option);
@@ -149,7 +143,7 @@ std::string fish_completion(const std::deque<Command>& commands) {
         continue;
       }
       text += begin;
-      for (const std::string& name : all_names(option))
+      for (const std::string& name : option.all_names())
         text.append(name.starts_with("--") ? " -l " : " -s ")
             .append(name.substr(name.starts_with("--") ? 2 : 1));
       if (!option.is_flag()) text += option.is_path ? " -r" : " -x";

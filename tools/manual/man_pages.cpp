@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <vector>
 
 #include "morsel/tools/commands/help.h"
 #include "morsel/tools/formats/version.h"
@@ -36,9 +35,7 @@ std::string heading(const std::string& name, const std::string& summary) {
 
 std::string entry(const Option& option) {
   std::string names;
-  std::vector<std::string> all = option.all_names();
-  if (!option.negation.empty()) all.push_back(option.negation);
-  for (const std::string& name : all) names += (names.empty() ? "" : ", ") + bold(name);
+  for (const std::string& name : option.all_names()) names += (names.empty() ? "" : ", ") + bold(name);
   if (!option.is_flag() && !option.is_argument()) names += " \\fI" + plain(option.value_name) + "\\fR";
   return ".TP\n" + names + "\n" + plain(option_text(option)) + "\n";
 }
@@ -59,11 +56,6 @@ std::string entries(const Command& command, bool arguments) {
     if (option.is_argument() == arguments) roff += entry(option);
   return roff;
 }
-
-constexpr std::string_view kExitCodes =
-    "0 done; 1 a check found differences, or a mesh of a batch failed; 2 wrong usage; 3 bad input; 4 writing "
-    "failed; "
-    "5 out of memory, threads or open files; 130 and 143 interrupted.";
 
 }  // namespace
 

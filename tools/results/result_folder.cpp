@@ -126,17 +126,14 @@ ResultFolder::ResultFolder(fs::path path, Options options)
 /// Until the object is destroyed no other run removes the folder.
 void ResultFolder::open() {
   for (;;) {
-    std::vector<fs::path> missing;
-    std::error_code error;
-    for (fs::path at = path_.has_filename() ? path_ : path_.parent_path();
-         !at.empty() && !fs::exists(at, error); at = at.parent_path())
-      missing.push_back(at);
-    fs::create_directories(path_, error);
+    const std::error_code error = made_.make(path_);
     root_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!root_.is_open() && errno == ENOTDIR) fail_to_make(path_, "a file of that name is there");
-    if (!root_.is_open())
-      fail_to_make(path_, error ? error.message() : std::generic_category().message(errno));
-    made_ = std::move(missing);
+    if (!root_.is_open()) {
+      const int reason = errno;
+      made_.remove();
+      if (reason == ENOTDIR) fail_to_make(path_, "a file of that name is there");
+      fail_to_make(path_, error ? error.message() : std::generic_category().message(reason));
+    }
     int result = 0;
     do result = ::flock(root_.number(), LOCK_SH);
     while (result != 0 && errno == EINTR);
@@ -154,8 +151,7 @@ void ResultFolder::remove_if_unused() noexcept {
       list_->lock({});
       if (!list_->entries().empty() || ::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
     }
-    for (const fs::path& folder : made_)
-      if (::rmdir(folder.c_str()) != 0) return;
+    made_.remove();
   } catch (const std::exception&) {  // an empty list does no harm
   }
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/io/made_folders.h"
 #include "morsel/tools/results/descriptor.h"
 #include "morsel/tools/results/file_list.h"
 #include "morsel/tools/results/file_place.h"
@@ -107,7 +108,7 @@ class ResultFolder {
   std::filesystem::path path_;
   std::set<FilePlace> taken_;
   std::stop_token stop_;
-  std::vector<std::filesystem::path> made_;  // by the constructor, from the inside out
+  core::MadeFolders made_;
   Descriptor root_;
   std::recursive_mutex mutex_;
   int holds_ = 0;

@@ -1,0 +1,24 @@
+#pragma once
+/// Folders that are made for something to be written in them, and removed again if nothing was.
+
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+namespace morsel::core {
+
+/// Knows the folders that it made. Not thread-safe.
+class MadeFolders {
+ public:
+  /// The folder, and those around it, as far as they are missing. Forgets what was made before.
+  std::error_code make(const std::filesystem::path& folder);
+  /// What was made stays.
+  void keep() noexcept { made_.clear(); }
+  /// Removes what was made, from the inside out, until one is not empty.
+  void remove() noexcept;
+
+ private:
+  std::vector<std::filesystem::path> made_;  // from the inside out
+};
+
+}  // namespace morsel::core
