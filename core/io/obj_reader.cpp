@@ -131,7 +131,7 @@ class Reader {
 /// Reads it in parallel, in pieces of `chunk` bytes; nothing if that does not pay or something is wrong.
 std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::string& file,
                                           const Progress& progress, std::size_t chunk) {
-  const Progress silent = unreported(progress);
+  const Progress silent = progress.unreported();
   const char terminator =
       TextScanner(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, silent).terminator();
   if (bytes.find('\\') != std::string_view::npos) return std::nullopt;  // a line may be continued

@@ -53,7 +53,7 @@ class Reader {
   bool read_in_chunks(std::size_t chunk) {
     const char terminator = scanner_.terminator();
     const std::vector<std::string_view> chunks = line_chunks(scanner_.rest(), terminator, chunk);
-    const Progress silent = unreported(progress_);
+    const Progress silent = progress_.unreported();
     const std::vector<std::size_t> lines_before = items_before(
         chunks,
         [&](std::string_view lines) {

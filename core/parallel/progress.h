@@ -28,6 +28,10 @@ class Progress {
     throw_if_cancelled();
   }
 
+  /// Stops as this one and reports nothing: for the parts of a step that reports itself, which would
+  /// otherwise hide how far the step has come, and for other threads than the caller's.
+  Progress unreported() const { return Progress({}, stop_); }
+
   /// Throws Cancelled if a stop was requested. May be called from any thread.
   void throw_if_cancelled() const {
     if (stop_.stop_requested()) throw Cancelled();

@@ -36,10 +36,6 @@ PolygonSoup joined(std::vector<PolygonSoup>& parts) {
 
 }  // namespace
 
-Progress unreported(const Progress& progress) {
-  return Progress([&progress](std::string_view, double) { progress.throw_if_cancelled(); });
-}
-
 std::vector<std::string_view> line_chunks(std::string_view text, char terminator, std::size_t chunk) {
   std::vector<std::string_view> chunks;
   if (text.size() / 2 < chunk || thread_count() == 1) return chunks;

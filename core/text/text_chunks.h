@@ -12,9 +12,6 @@
 
 namespace morsel::core {
 
-/// A Progress for any thread: it reports nothing and stops when `progress` does, which must outlive it.
-Progress unreported(const Progress& progress);
-
 /// Cuts a text into pieces of whole lines, each of `chunk` bytes or a line more. None where that does not
 /// pay: the text is shorter than two of them, or there is one thread; nor where a piece would begin with a
 /// byte-order mark, which readers skip.

@@ -83,7 +83,7 @@ class Denoise final : public core::Method {
       context.progress.update("denoising", static_cast<double>(iteration) / criteria_.iterations);
       ++iteration;
       try {
-        smoothing.step(context.progress);
+        smoothing.step(context.progress.unreported());
         if (!control.needs_field()) {
           control.skip();
           continue;

@@ -147,7 +147,7 @@ void IterationControl::tell() {
 
 void IterationControl::count(double change) {
   if (!counted()) return;
-  const CriticalPoints points = classify(field_, context_.progress);
+  const CriticalPoints points = classify(field_, context_.progress.unreported());
   records_.push_back(
       {iteration_, points.minima, points.saddles, points.saddle_multiplicity, points.maxima, change});
 }

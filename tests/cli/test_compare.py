@@ -202,6 +202,7 @@ class Compare(ProgramTest):
         os.close(terminal)
         self.assertEqual(process.returncode, 0)
         self.assertIn(b"salient (2 of 2): ", shown)
+        self.assertRegex(shown, rb"salient \(2 of 2\): .*, about \d+ (s|min) left")
 
 
 if __name__ == "__main__":

@@ -137,7 +137,7 @@ TEST_CASE("pieces of a text that are read in parallel stop when the whole is to 
   std::stop_source stop;
   const core::Progress progress([](std::string_view, double) { FAIL("reported from another thread"); },
                                 stop.get_token());
-  const core::Progress piece = core::unreported(progress);
+  const core::Progress piece = progress.unreported();
   CHECK_NOTHROW(piece.update("reading", 0));
   stop.request_stop();
   CHECK_THROWS_AS(piece.update("reading", 0.5), core::Cancelled);

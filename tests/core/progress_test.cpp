@@ -28,6 +28,19 @@ TEST_CASE("progress reaches the hook and copies share it") {
   CHECK(seen == "a 25;b 100;");
 }
 
+TEST_CASE("the parts of a step stop with it and report nothing") {
+  std::stop_source stop;
+  int reports = 0;
+  const Progress progress([&](std::string_view, double) { ++reports; }, stop.get_token());
+  const Progress part = progress.unreported();
+  part.update("part", 0);
+  CHECK(reports == 0);
+  stop.request_stop();
+  CHECK_THROWS_AS(part.update("part", 0.5), Cancelled);
+  CHECK_THROWS_AS(part.throw_if_cancelled(), Cancelled);
+  CHECK(reports == 0);
+}
+
 TEST_CASE("a requested stop is thrown after the report and by copies too") {
   std::stop_source stop;
   int reports = 0;

@@ -72,8 +72,8 @@ core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFu
                                    const core::Progress& progress) {
   core::MethodContext context;
   context.progress = progress;
-  context.morse_function = [&, progress](const core::TriangleMesh& mesh) {
-    return function.function->evaluate(mesh, {&loaded.source, progress}).field;
+  context.morse_function = [&, silent = progress.unreported()](const core::TriangleMesh& mesh) {
+    return function.function->evaluate(mesh, {&loaded.source, silent}).field;
   };
   return context;
 }

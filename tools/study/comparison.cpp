@@ -63,7 +63,7 @@ void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& co
   for (ComparisonSink* sink : sinks) sink->field(input);
   const double radius = matching_radius(loaded.mesh);
   const morse::CriticalPointTracker at_input(std::shared_ptr<const core::ScalarField>(shared, &input.field),
-                                             radius, progress);
+                                             radius, progress.unreported());
   std::optional<morse::CriticalPoints> first;
   for (const MethodChain& chain : comparison.chains) {
     for (ComparisonSink* sink : sinks) sink->begin_method(chain.name);

@@ -108,7 +108,7 @@ class Trials {
   void run(const core::Progress& progress) {
     const std::thread::id caller = std::this_thread::get_id();
     // What runs in a trial stops with the others, but only the caller's thread may report.
-    const core::Progress silent([&](std::string_view, double) { progress.throw_if_cancelled(); });
+    const core::Progress silent = progress.unreported();
     std::vector<std::exception_ptr> errors(trials_.size());
     std::atomic<std::size_t> first_error = trials_.size();
     std::atomic<std::size_t> done = 0;

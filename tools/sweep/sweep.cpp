@@ -75,7 +75,11 @@ class SweepRun {
  public:
   SweepRun(const core::LoadedMesh& loaded, const PreparedSweep& prepared, const SweepOptions& options,
            const core::Progress& progress)
-      : loaded_(loaded), prepared_(prepared), options_(options), progress_(progress) {
+      : loaded_(loaded),
+        prepared_(prepared),
+        options_(options),
+        progress_(progress),
+        silent_(progress.unreported()) {
     rows_.resize(prepared.combinations.size());
     for (std::size_t i = 0; i < options.known.size(); ++i)
       if (options.known[i]) {
@@ -93,7 +97,7 @@ class SweepRun {
       show_progress();
       const NamedFunction function = Registry::standard().make_function(field_text(group.front()));
       const FieldOutcome field =
-          named(group.front(), [&] { return evaluate_field(loaded_, function, progress_); });
+          named(group.front(), [&] { return evaluate_field(loaded_, function, silent_); });
       function_ = &function;
       field_ = &field;
       descend(field.field, group, 0);
@@ -139,7 +143,7 @@ class SweepRun {
     const MethodChain chain = Registry::standard().make_method(to_string(specification));
     const HeldWatch watch;
     core::MethodResult result = named(members.front(), [&] {
-      return chain.steps.front().method->apply(input, method_context(loaded_, *function_, progress_));
+      return chain.steps.front().method->apply(input, method_context(loaded_, *function_, silent_));
     });
     const StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
     for (const std::size_t i : members) finish_step(i, step, outcome, watch.seconds());
@@ -161,7 +165,7 @@ class SweepRun {
       watch.hold([&] { descend(field, by_iterations.at(iterations), step + 1); });
     };
     ++open_runs_;
-    core::MethodContext context = method_context(loaded_, *function_, progress_);
+    core::MethodContext context = method_context(loaded_, *function_, silent_);
     context.tells_iteration = [&](int iteration) { return by_iterations.contains(iteration); };
     context.on_iteration = [&](int iteration, const ScalarField& field) {
       read(iteration, field);
@@ -198,8 +202,8 @@ class SweepRun {
 
   void measure(const ScalarField& field, std::size_t i) {
     const Stopwatch watch;
-    const morse::CriticalPoints points = morse::classify(field, progress_);
-    const persistence::Diagram diagram = persistence::pair_extrema(field, progress_);
+    const morse::CriticalPoints points = morse::classify(field, silent_);
+    const persistence::Diagram diagram = persistence::pair_extrema(field, silent_);
     Draft& draft = drafts_[i];
     draft.measured = {{"min", field.min()},
                       {"max", field.max()},
@@ -261,6 +265,7 @@ class SweepRun {
   const PreparedSweep& prepared_;
   const SweepOptions& options_;
   const core::Progress& progress_;
+  core::Progress silent_;  // of a combination: the sweep reports itself
   std::vector<SweepRow> rows_;
   std::map<std::size_t, Draft> drafts_;
   int open_runs_ = 0;
