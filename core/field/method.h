@@ -1,11 +1,13 @@
 #pragma once
 /// The common interface: Morse functions make a field from a mesh, methods make a field from a field.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "morsel/core/field/scalar_field.h"
@@ -60,6 +62,36 @@ struct MethodResult {
   std::vector<IterationRecord> iterations = {};  ///< from the input on, where they were counted
 };
 
+/// Whom an iterative method tells of its iterations, and of which ones.
+class IterationCallback {
+ public:
+  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method
+  /// there. One that iterates on another field than it was given tells that first, as 0. A method that has to
+  /// begin again begins again with its first number.
+  using Call = std::function<bool(int iteration, const ScalarField& field)>;
+  using Choice = std::function<bool(int iteration)>;
+
+  /// No callback is set: no iteration is wanted.
+  IterationCallback() = default;
+  /// Without `wants` all iterations are wanted.
+  template <class Told>
+  requires(!std::same_as<Told, IterationCallback> && std::convertible_to<Told, Call>)
+      IterationCallback(Told call, Choice wants = {})
+      : call_(std::move(call)), wants_(std::move(wants)) {}
+
+  /// Whether this iteration is to be told; of one that is not a method need not make a field.
+  bool wants(int iteration) const { return call_ && (!wants_ || wants_(iteration)); }
+  /// Tells the iteration if it is wanted; whether the method is to go on.
+  bool operator()(int iteration, const ScalarField& field) const {
+    return !wants(iteration) || call_(iteration, field);
+  }
+  explicit operator bool() const { return static_cast<bool>(call_); }
+
+ private:
+  Call call_;
+  Choice wants_;
+};
+
 /// What a method may need besides the field.
 struct MethodContext {
   /// Takes the field's Morse function again on another surface with the same triangles; empty if there is
@@ -68,12 +100,7 @@ struct MethodContext {
   Progress progress = {};
   /// Whether an iterative method is to count the critical points of all its iterations.
   bool count_iterations = false;
-  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method
-  /// there. One that iterates on another field than it was given tells that first, as 0. A method that has to
-  /// begin again begins again with its first number. Empty: no callback is set.
-  std::function<bool(int iteration, const ScalarField& field)> on_iteration = {};
-  /// Which iterations on_iteration is told; the others cost less. Empty: all.
-  std::function<bool(int iteration)> tells_iteration = {};
+  IterationCallback on_iteration = {};
 };
 
 /// What is peculiar about a method, for whoever composes methods.

@@ -113,11 +113,8 @@ bool IterationControl::counted() const {
 
 bool IterationControl::needs_field() const {
   const int next = iteration_ + 1;
-  return counted() || criteria_.until_change || is_told(next) || next >= criteria_.iterations;
-}
-
-bool IterationControl::is_told(int iteration) const {
-  return context_.on_iteration && (!context_.tells_iteration || context_.tells_iteration(iteration));
+  return counted() || criteria_.until_change || next >= criteria_.iterations ||
+         context_.on_iteration.wants(next);
 }
 
 void IterationControl::restart() {
@@ -141,7 +138,7 @@ void IterationControl::record(std::vector<double> values) {
 }
 
 void IterationControl::tell() {
-  const bool go_on = !is_told(iteration_) || context_.on_iteration(iteration_, field_);
+  const bool go_on = context_.on_iteration(iteration_, field_);
   if (!go_on && stopped_by_.empty()) stopped_by_ = "caller";
 }
 

@@ -51,8 +51,8 @@ class IterationControl {
   bool more() const { return stopped_by_.empty(); }
   /// The next iteration's values, per vertex. Equal values keep the order of the input.
   void record(std::vector<double> values);
-  /// Whether the next iteration's values are looked at: always, unless no criterion and nobody else asks for
-  /// those between the input and the last.
+  /// Whether the next iteration's field is looked at: by a criterion, by who counts all of them, by
+  /// MethodContext::on_iteration, or as the last one.
   bool needs_field() const;
   /// In place of record() where the next iteration's values are not needed; field() stays what it is.
   void skip() { ++iteration_; }
@@ -72,7 +72,6 @@ class IterationControl {
 
  private:
   bool counted() const;
-  bool is_told(int iteration) const;
   void count(double change);
   void decide(double change);
   void tell();

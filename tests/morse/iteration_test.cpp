@@ -152,18 +152,63 @@ TEST_CASE("whoever watches some iterations alone is told these, and nothing else
     std::vector<int> told;
     std::vector<double> third;
     core::MethodContext context;
-    context.tells_iteration = [](int iteration) { return iteration % 3 == 0; };
-    context.on_iteration = [&](int iteration, const ScalarField& passed) {
+    const auto tell = [&](int iteration, const ScalarField& passed) {
       told.push_back(iteration);
       if (iteration == 3) third = values_of(passed);
       return true;
     };
+    context.on_iteration = {tell, [](int iteration) { return iteration % 3 == 0; }};
     const core::MethodResult watched = run(make, field, {{"iterations", "7"}}, context);
     CHECK(told == std::vector<int>{3, 6});
     CHECK(third == values_of(run(make, field, {{"iterations", "3"}}).field));
     CHECK(values_of(watched.field) == values_of(run(make, field, {{"iterations", "7"}}).field));
     CHECK(iterations_run(watched) == 7);
   }
+}
+
+TEST_CASE("iterations that nothing looks at need no field") {
+  const ScalarField input = noisy(1);
+  const auto needed = [&](const core::MethodContext& context, const StopCriteria& criteria) {
+    std::vector<int> numbers;
+    IterationControl control(input, criteria, context);
+    while (control.more()) {
+      if (!control.needs_field()) {
+        control.skip();
+        continue;
+      }
+      numbers.push_back(control.iterations_run() + 1);
+      control.record(halved(control.field().values()));
+    }
+    return numbers;
+  };
+  using Numbers = std::vector<int>;
+  const auto go_on = [](int, const ScalarField&) { return true; };
+  core::MethodContext some;
+  some.on_iteration = {go_on, [](int iteration) { return iteration == 2; }};
+  core::MethodContext all;
+  all.on_iteration = go_on;
+  CHECK(needed({}, {.iterations = 4}) == Numbers{4});
+  CHECK(needed(some, {.iterations = 4}) == Numbers{2, 4});
+  CHECK(needed(all, {.iterations = 4}) == Numbers{1, 2, 3, 4});
+  CHECK(needed({.count_iterations = true}, {.iterations = 2}) == Numbers{1, 2});
+  CHECK(needed({}, {.iterations = 2, .until_change = 0}) == Numbers{1, 2});
+}
+
+TEST_CASE("a callback of iterations tells those that are wanted") {
+  const ScalarField field = noisy(1);
+  const core::IterationCallback none;
+  CHECK_FALSE(none);
+  CHECK_FALSE(none.wants(1));
+  CHECK(none(1, field));
+  const auto end = [](int, const ScalarField&) { return false; };
+  const core::IterationCallback all = end;
+  CHECK(all);
+  CHECK(all.wants(1));
+  CHECK_FALSE(all(1, field));
+  const core::IterationCallback second(end, [](int iteration) { return iteration == 2; });
+  CHECK_FALSE(second.wants(1));
+  CHECK(second(1, field));
+  CHECK_FALSE(second(2, field));
 }
 
 TEST_CASE("conditions to stop are checked when the method is made") {

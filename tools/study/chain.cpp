@@ -86,18 +86,18 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
   ChainOutcome outcome{field, {}, {}};
   for (const MethodStep& step : chain.steps) {
     const bool is_last = &step == &chain.steps.back();
-    const bool told = is_last && options.on_iteration;
+    const core::IterationCallback told = is_last ? options.on_iteration : core::IterationCallback();
     std::optional<TargetSearch> search;
     if (options.target && is_last)
       search.emplace(outcome.field, *options.target, !step.method->traits().cancels_pairs, progress);
     StepWatcher watcher(options.tracker, search ? &*search : nullptr);
-    context.on_iteration = {};
-    if (watcher.wanted() || told)
+    context.on_iteration = told;
+    if (watcher.wanted())
       context.on_iteration = [&](int number, const core::ScalarField& passed) {
-        const bool go_on = !watcher.wanted() || watcher.iteration(number, passed);
-        return !(told && !options.on_iteration(number, passed)) && go_on;
+        const bool go_on = watcher.iteration(number, passed);
+        return told(number, passed) && go_on;
       };
-    if (told) options.on_iteration(0, outcome.field);
+    told(0, outcome.field);
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
     outcome.steps.push_back(

@@ -3,7 +3,6 @@
 /// number.
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,7 +34,7 @@ struct ChainOptions {
   morse::CriticalPointTracker* tracker =
       nullptr;  ///< made for the input; told every field that is passed through
   /// As core::MethodContext's, of the last step alone; told its input first, as iteration 0.
-  std::function<bool(int iteration, const core::ScalarField& field)> on_iteration = {};
+  core::IterationCallback on_iteration = {};
 };
 
 struct ChainOutcome {

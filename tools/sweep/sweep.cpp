@@ -166,11 +166,11 @@ class SweepRun {
     };
     ++open_runs_;
     core::MethodContext context = method_context(loaded_, *function_, silent_);
-    context.tells_iteration = [&](int iteration) { return by_iterations.contains(iteration); };
-    context.on_iteration = [&](int iteration, const ScalarField& field) {
-      read(iteration, field);
-      return true;
-    };
+    context.on_iteration = {[&](int iteration, const ScalarField& field) {
+                              read(iteration, field);
+                              return true;
+                            },
+                            [&](int iteration) { return by_iterations.contains(iteration); }};
     core::MethodResult result =
         named(longest, [&] { return chain.steps.front().method->apply(input, context); });
     StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
