@@ -22,7 +22,7 @@ class Table : public tools::ComparisonSink {
 
 int main(int, char** arguments) {
   const core::LoadedMesh loaded = core::read_mesh(arguments[1]);
-  const tools::PreparedComparison comparison = tools::prepare(
+  const tools::ComparisonPlan comparison = tools::prepare(
       {.field = "mean-curvature",
        .methods = {"conventional", "salient", "salient:iterations=5+tps:count=150", "gaussian:sigma=4eps"},
        .target = {}});

@@ -25,7 +25,6 @@ FLOORS = (
     ("study",),
     ("molecule",),
     ("report",),
-    ("sweep",),
     ("export", "html"),
     ("plot", "render"),
     ("batch", "reproduce"),

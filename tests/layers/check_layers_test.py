@@ -102,7 +102,7 @@ class CheckLayers(unittest.TestCase):
                 self.assertEqual(len(found), 1, found)
                 self.assertIn(said, found[0])
         self.assertEqual(complaints({"tools/batch/a.h": '#pragma once\n#include "morsel/tools/plot/b.h"\n',
-                                     "tools/plot/CMakeLists.txt": "x(DEPENDS morsel::sweep morsel::core)\n"}), [])
+                                     "tools/plot/CMakeLists.txt": "x(DEPENDS morsel::report morsel::core)\n"}), [])
 
     def test_links(self):
         found = complaints({"morse/CMakeLists.txt": "# morsel::persistence\nx(\nDEPENDS morsel::core morsel::mscomplex)\n"})

@@ -15,10 +15,12 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/study/iteration_levels.h"
 #include "morsel/tools/study/persistence_levels.h"
+#include "support/counted_method.h"
 #include "support/fields.h"
 #include "support/made.h"
 #include "support/meshes.h"
 #include "support/random_surfaces.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -403,8 +405,8 @@ TEST_CASE("requests for hierarchies are checked and completed") {
   };
   CHECK(prepared(HierarchyKind::iteration, "").iterations == std::vector<int>{1, 5, 10});
   CHECK(prepared(HierarchyKind::iteration, "30,0,2").iterations == std::vector<int>{0, 2, 30});
-  CHECK(prepared(HierarchyKind::iteration, "").recipe.chain.name == "salient");
-  CHECK(prepared(HierarchyKind::persistence, "").recipe.chain.name == "conventional");
+  CHECK(prepared(HierarchyKind::iteration, "").field.chain.name == "salient");
+  CHECK(prepared(HierarchyKind::persistence, "").field.chain.name == "conventional");
   CHECK(prepared(HierarchyKind::persistence, "").thresholds.size() == 3);
   CHECK(prepared(HierarchyKind::persistence, "", "9,3").counts == std::vector<std::size_t>{9, 3});
   CHECK(prepared(HierarchyKind::persistence, "", "9,3").thresholds.empty());
@@ -416,4 +418,27 @@ TEST_CASE("requests for hierarchies are checked and completed") {
     CHECK_THROWS_AS(prepared(HierarchyKind::persistence, "", counts), core::InvalidArgument);
   CHECK_THROWS_AS(prepared(HierarchyKind::persistence, "1%", "5"), core::InvalidArgument);
   CHECK_THROWS_AS(prepared(HierarchyKind::iteration, "", "5"), core::InvalidArgument);
+}
+
+TEST_CASE("a hierarchy is made with a method of one's own") {
+  Counts counts;
+  const tools::Registry registry = registry_with_counted(counts);
+  tools::HierarchyRequest request{
+      .field = {.field = "height", .method = "counted", .target = {}}, .levels = "0,2,3", .counts = {}};
+  CHECK_THROWS_AS(tools::prepare(request), core::InvalidArgument);
+  struct Kept : tools::HierarchySink {
+    void begin(const tools::HierarchyBasis&) override {}
+    void level(const Level& level) override { extents.push_back(level.field->extent()); }
+    std::vector<double> extents;
+  } kept;
+  run_hierarchy({jittered(sphere(2).mesh(), 0.01, 3), {}}, tools::prepare(request, registry), {&kept});
+  CHECK(counts.iterations == 3);
+  REQUIRE(kept.extents.size() == 3);
+  CHECK(kept.extents[1] == Approx(kept.extents[0] / 4));
+  CHECK(kept.extents[2] == Approx(kept.extents[0] / 8));
+
+  CHECK(tools::with_iterations("tps+counted", 7, registry) == "tps+counted:iterations=7");
+  CHECK_THROWS_WITH(tools::with_iterations("tps", 7, registry), Catch::Contains("counted"));
+  request.field.method = "counted:iterations=2";
+  CHECK_THROWS_WITH(tools::prepare(request, registry), Catch::Contains("level 3 is never reached"));
 }

@@ -1,15 +1,19 @@
-#include "morsel/tools/sweep/sweep.h"
+#include "morsel/tools/study/sweep.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/sweep_row.h"
 #include "morsel/tools/study/comparison.h"
+#include "support/counted_method.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
@@ -34,9 +38,9 @@ std::vector<SweepRow> sweep(const core::LoadedMesh& mesh, const SweepRequest& re
   return run_sweep(mesh, tools::prepare(request));
 }
 
-Texts methods_of(const tools::PreparedSweep& prepared) {
+Texts methods_of(const tools::SweepPlan& plan) {
   Texts texts;
-  for (const tools::Combination& combination : prepared.combinations)
+  for (const tools::Combination& combination : plan.combinations)
     texts.push_back(to_string(combination.field) + " " + to_string(combination.steps));
   return texts;
 }
@@ -59,7 +63,7 @@ Json by_itself(const core::LoadedMesh& mesh, const tools::Combination& combinati
 }
 
 Json comparable(const SweepRow& row) {
-  const Json& result = row.result;
+  const Json result = row_section(row);
   return {{"field", result["field"]},
           {"parameters", result["method"]["parameters"]},
           {"min", result["method"]["min"]},
@@ -213,12 +217,12 @@ TEST_CASE("rows are what each combination gives by itself") {
            {"mean-curvature", "denoise", {"iterations=3,1", "kind=bilateral,laplacian"}},
            {"mean-curvature", "tps", {"threshold=0%..20%..5%", "estimator=taubin,cotangent"}},
            {"height", "conventional", {"axis=x,y,z"}}}) {
-    const tools::PreparedSweep prepared = tools::prepare(request);
-    const std::vector<SweepRow> rows = run_sweep(mesh, prepared);
-    REQUIRE(rows.size() == prepared.combinations.size());
+    const tools::SweepPlan plan = tools::prepare(request);
+    const std::vector<SweepRow> rows = run_sweep(mesh, plan);
+    REQUIRE(rows.size() == plan.combinations.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       CAPTURE(request.method, request.vary.front(), i);
-      CHECK(comparable(rows[i]) == by_itself(mesh, prepared.combinations[i]));
+      CHECK(comparable(rows[i]) == by_itself(mesh, plan.combinations[i]));
     }
   }
 }
@@ -227,36 +231,114 @@ TEST_CASE("the iterations that ran are told, of all steps together") {
   const std::vector<SweepRow> rows = sweep(
       bumpy(),
       {"mean-curvature", "gaussian:iterations=2+laplacian:until-count=20", {"laplacian.iterations=1,2,500"}});
-  CHECK(rows[0].result["iterations_run"] == 3);
-  CHECK(rows[0].result["critical_points"]["total"].get<int>() > 20);
-  CHECK(rows[1].result["iterations_run"] == 4);
-  CHECK(rows[2].result["iterations_run"].get<int>() < 502);
-  CHECK(rows[2].result["critical_points"]["total"].get<int>() <= 20);
-  CHECK(sweep(bumpy(), {"height", "tps", {"threshold=1%"}})[0].result["iterations_run"].is_null());
+  CHECK(rows[0].iterations_run == 3);
+  CHECK(rows[0].critical_points.total() > 20);
+  CHECK(rows[1].iterations_run == 4);
+  CHECK(rows[2].iterations_run.value() < 502);
+  CHECK(rows[2].critical_points.total() <= 20);
+  CHECK_FALSE(sweep(bumpy(), {"height", "tps", {"threshold=1%"}})[0].iterations_run);
 }
 
 TEST_CASE("iterations of one run are run once") {
-  std::size_t steps = 0;
-  const core::Progress counting(
-      [&](std::string_view step, double) { steps += step == "Laplacian smoothing"; });
-  const tools::PreparedSweep prepared =
-      tools::prepare({"mean-curvature", "laplacian+tps", {"iterations=1..20", "threshold=1%,5%"}});
-  run_sweep(bumpy(), prepared, {}, counting);
-  CHECK(steps == 20);
+  Counts counts;
+  const tools::SweepPlan plan =
+      tools::prepare({"mean-curvature", "counted+tps", {"iterations=2..20..2", "threshold=1%,5%"}},
+                     registry_with_counted(counts));
+  const std::vector<SweepRow> rows = run_sweep(bumpy(), plan);
+  CHECK(counts.applications == 1);
+  CHECK(counts.iterations == 20);
+  CHECK(counts.fields == 10);
+  REQUIRE(rows.size() == 20);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    CHECK(rows[i].iterations_run == static_cast<std::int64_t>(2 + i / 2 * 2));
+}
+
+TEST_CASE("a method of one's own takes part in a sweep, and what follows it is swept, too") {
+  const core::LoadedMesh mesh = bumpy();
+  Counts counts;
+  const tools::Registry registry = registry_with_counted(counts);
+  const SweepRequest request{"height", "counted", {"iterations=0,3"}};
+  CHECK_THROWS_WITH(tools::prepare(request), Contains("there is no method \"counted\""));
+  const std::vector<SweepRow> rows = run_sweep(mesh, tools::prepare(request, registry));
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].method_name() == "counted");
+  CHECK(rows[0].min == rows[0].field.min);
+  CHECK(rows[0].max == rows[0].field.max);
+  CHECK(rows[1].min == rows[1].field.min);
+  CHECK(rows[1].max - rows[1].min == Approx((rows[0].max - rows[0].min) / 8));
+  // Halving keeps the order, and a share of the extent stays one.
+  CHECK(rows[1].critical_points.total() == rows[0].critical_points.total());
+  CHECK(rows[1].persistence.above == rows[0].persistence.above);
+}
+
+TEST_CASE("a plan outlives the registry that it was made with") {
+  Counts counts;
+  const auto plan = [&] {
+    return tools::prepare({"height", "counted", {"iterations=1,2"}}, registry_with_counted(counts));
+  }();
+  run_sweep(bumpy(), plan);
+  CHECK(counts.iterations == 2);
+}
+
+TEST_CASE("a row is read back from what documents hold of it") {
+  const auto written = [](const SweepRow& row) {
+    return std::pair(tools::row_section(row), tools::seconds_section(row.seconds));
+  };
+  const auto read = [](const std::pair<Json, Json>& sections) {
+    return tools::read_row(tools::JsonView(sections.first, "row"), tools::JsonView(sections.second, "row"));
+  };
+  std::vector<SweepRow> rows =
+      sweep(bumpy(), {"mean-curvature", "salient+tps", {"iterations=0,2", "threshold=1%"}});
+  rows.push_back(sweep(bumpy(), {"height", "conventional", {"axis=z"}}).front());
+  rows.back().field.parameters.emplace_back("none", std::numeric_limits<double>::infinity());
+  for (const SweepRow& row : rows) {
+    const auto sections = written(row);
+    const SweepRow again = read(sections);
+    CHECK(written(again) == sections);
+    CHECK(again.method_name() == row.method_name());
+    CHECK(again.iterations_run == row.iterations_run);
+    CHECK(again.critical_points.total() == row.critical_points.total());
+    CHECK(again.seconds.sum() == row.seconds.sum());
+  }
+  CHECK(read(written(rows[0])).steps[1].parameters == rows[0].steps[1].parameters);
+  const auto refused = [&](const std::string& pointer, const Json& value) {
+    auto sections = written(rows[0]);
+    sections.first[Json::json_pointer(pointer)] = value;
+    CAPTURE(pointer);
+    CHECK_THROWS_AS(read(sections), core::BadInput);
+  };
+  refused("/more", 1);
+  refused("/field/name", 5);
+  refused("/field/parameters", Json::array());
+  refused("/field/parameters/list", Json::array());
+  refused("/field/parameters/large", 18446744073709551615U);
+  refused("/method/name", "salient");
+  refused("/method/min", 1e300);
+  refused("/method/parameters/steps", Json::array());
+  refused("/iterations_run", -1);
+  refused("/iterations_run", 1.5);
+  refused("/critical_points/total", 1);
+  refused("/persistence/above/1/percent", 2);
+  refused("/persistence/pairs", nullptr);
+  auto sections = written(rows[0]);
+  sections.second["field"] = -1;
+  CHECK_THROWS_AS(read(sections), core::BadInput);
+  sections.second = {{"field", 1}, {"method", 1}};
+  CHECK_THROWS_AS(read(sections), core::BadInput);
 }
 
 TEST_CASE("rows that are known are not made again") {
   const core::LoadedMesh mesh = bumpy();
-  const tools::PreparedSweep prepared =
+  const tools::SweepPlan plan =
       tools::prepare({"mean-curvature", "salient", {"sigma=4eps,8eps", "iterations=1..3"}});
-  const std::vector<SweepRow> rows = run_sweep(mesh, prepared);
+  const std::vector<SweepRow> rows = run_sweep(mesh, plan);
   tools::SweepOptions options;
   options.known = {rows[0], std::nullopt, rows[2], std::nullopt, std::nullopt, std::nullopt};
   std::vector<std::size_t> made;
   options.on_row = [&](std::size_t i, const SweepRow&) { made.push_back(i); };
-  const std::vector<SweepRow> again = run_sweep(mesh, prepared, options);
+  const std::vector<SweepRow> again = run_sweep(mesh, plan, options);
   CHECK(made == std::vector<std::size_t>{1, 3, 4, 5});
-  for (std::size_t i = 0; i < rows.size(); ++i) CHECK(again[i].result == rows[i].result);
+  for (std::size_t i = 0; i < rows.size(); ++i) CHECK(row_section(again[i]) == row_section(rows[i]));
 }
 
 TEST_CASE("a sweep gives the same at any number of threads") {
@@ -265,7 +347,7 @@ TEST_CASE("a sweep gives the same at any number of threads") {
   const auto results = [&](int threads) {
     const core::ThreadLimit limit(threads);
     Json all = Json::array();
-    for (const SweepRow& row : sweep(mesh, request)) all.push_back(row.result);
+    for (const SweepRow& row : sweep(mesh, request)) all.push_back(row_section(row));
     return all;
   };
   const Json one = results(1);
@@ -281,8 +363,10 @@ TEST_CASE("an error of a sweep names its combination") {
 namespace {
 
 SweepRow row_with(std::size_t total) {
-  return {{{"critical_points", {{"minima", total - 2}, {"saddles", 0}, {"maxima", 2}, {"total", total}}}},
-          {}};
+  SweepRow row;
+  row.critical_points.minima = total - 2;
+  row.critical_points.maxima = 2;
+  return row;
 }
 
 }  // namespace
@@ -290,8 +374,8 @@ SweepRow row_with(std::size_t total) {
 TEST_CASE("plots of a sweep show lines, names or what most combinations do") {
   using tools::plot::sweep_plot;
   {
-    const tools::PreparedSweep prepared = tools::prepare({"height", "gaussian", {"sigma=8eps,1eps,100eps"}});
-    const auto plot = sweep_plot(prepared, {row_with(20), row_with(40), row_with(10)}, 0);
+    const tools::SweepPlan plan = tools::prepare({"height", "gaussian", {"sigma=8eps,1eps,100eps"}});
+    const auto plot = sweep_plot(plan, {row_with(20), row_with(40), row_with(10)}, 0);
     REQUIRE(plot);
     CHECK(plot->x.unit == "eps");
     CHECK(plot->x.scale == tools::plot::Scale::log);
@@ -302,26 +386,25 @@ TEST_CASE("plots of a sweep show lines, names or what most combinations do") {
     CHECK(series[0].y == std::vector<double>{40, 20, 10});
   }
   {
-    const tools::PreparedSweep prepared =
+    const tools::SweepPlan plan =
         tools::prepare({"height", "salient", {"range=local,1std", "iterations=1,2,3", "support=2"}});
     std::vector<SweepRow> rows;
     for (std::size_t i = 0; i < 6; ++i) rows.push_back(row_with(10 + i));
-    const auto by_range = sweep_plot(prepared, rows, 0);
+    const auto by_range = sweep_plot(plan, rows, 0);
     CHECK(by_range->x.names == Texts{"local", "1std"});
     REQUIRE(by_range->panels[0].series.size() == 3);
     CHECK(by_range->panels[0].series[1].name == "iterations=2");
     CHECK(by_range->panels[0].series[1].y == std::vector<double>{11, 14});
-    const auto by_iterations = sweep_plot(prepared, rows, 1);
+    const auto by_iterations = sweep_plot(plan, rows, 1);
     CHECK(by_iterations->panels[0].series[1].name == "range=1std");
     CHECK(by_iterations->panels[0].series[1].y == std::vector<double>{13, 14, 15});
-    CHECK_FALSE(sweep_plot(prepared, rows, 2));
+    CHECK_FALSE(sweep_plot(plan, rows, 2));
   }
   {
-    const tools::PreparedSweep prepared =
-        tools::prepare({"height", "gaussian", {"sigma=1..15", "iterations=1,2"}});
+    const tools::SweepPlan plan = tools::prepare({"height", "gaussian", {"sigma=1..15", "iterations=1,2"}});
     std::vector<SweepRow> rows;
     for (std::size_t i = 0; i < 30; ++i) rows.push_back(row_with(10 + i));
-    const auto plot = sweep_plot(prepared, rows, 1);
+    const auto plot = sweep_plot(plan, rows, 1);
     const auto& series = plot->panels[0].series;
     REQUIRE(series.size() == 3);
     CHECK(series[0].y == std::vector<double>{38, 39});

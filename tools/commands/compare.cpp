@@ -130,7 +130,7 @@ class Outputs {
   }
 
   /// `sinks` are told, too. Refers to `input`.
-  void run(const PreparedComparison& comparison, const HashedMesh& input, double load_seconds,
+  void run(const ComparisonPlan& comparison, const HashedMesh& input, double load_seconds,
            std::vector<ComparisonSink*> sinks, const core::Progress& progress) {
     const core::LoadedMesh& loaded = input.loaded;
     const ReportInput about{options_.mesh, input.sha256, common_.repair, !options_.no_items, load_seconds};
@@ -202,7 +202,7 @@ class Outputs {
 
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
-  const PreparedComparison comparison = prepare(options.request);
+  const ComparisonPlan comparison = prepare(options.request);
   options.figure.check();
   Outputs outputs(options, common, console.stop_token());
 

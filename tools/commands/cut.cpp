@@ -62,7 +62,7 @@ std::string table(const CutOutcome& outcome) {
 }
 
 int cut(const Options& options, const CommonOptions& common, Console& console) {
-  const FieldRecipe recipe = prepare(options.request);
+  const FieldPlan recipe = prepare(options.request);
   check_cut_mesh_path(options.output);
   if (!options.graph.empty()) check_cut_graph_path(options.graph);
   RunFiles()

@@ -21,7 +21,7 @@ struct Options {
 };
 
 int write(const Options& options, const CommonOptions& common, Console& console) {
-  const FieldRecipe recipe = prepare(options.request);
+  const FieldPlan recipe = prepare(options.request);
   RunFiles()
       .reads("MESH", options.mesh)
       .reads_of_field(options.request.field)

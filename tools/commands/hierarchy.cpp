@@ -39,7 +39,7 @@ class TargetTeller : public HierarchySink {
 
 int make_hierarchy(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
-  const PreparedHierarchy prepared = prepare(options.request);
+  const HierarchyPlan prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
   RunFiles files;
   files.reads("MESH", options.mesh).reads_of_field(request.field.field);

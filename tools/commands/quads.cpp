@@ -27,8 +27,8 @@ struct Options {
 };
 
 int make(const Options& options, const CommonOptions& common, Console& console) {
-  const FieldRecipe recipe = prepare(options.field);
-  const QuadRecipe quads = prepare(options.quads);
+  const FieldPlan recipe = prepare(options.field);
+  const QuadPlan quads = prepare(options.quads);
   if (core::file_extension(options.output) != ".obj")
     throw core::InvalidArgument("quads are written as .obj, not to " + options.output);
   RunFiles()

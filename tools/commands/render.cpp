@@ -50,7 +50,7 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
     if (!region.empty()) render::parse_inset(region);
   if (!options.close_up.empty() && !(options.frame.empty() && options.camera.inset.empty()))
     throw core::InvalidArgument("--close-up does not go with --inset or --frame");
-  const FieldRecipe recipe = prepare(options.field);
+  const FieldPlan recipe = prepare(options.field);
   RunFiles()
       .reads("MESH", options.mesh)
       .reads_of_field(options.field.field)

@@ -60,7 +60,7 @@ std::string described(const MadeSegments& made) {
 
 int segment(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
-  const FieldRecipe recipe = prepare(options.request);
+  const FieldPlan recipe = prepare(options.request);
   const SegmentRequest request = segment_request(options);
   RunFiles files;
   files.reads("MESH", options.mesh).reads_of_field(options.request.field);

@@ -27,7 +27,7 @@ struct Options {
 
 int measure_stability(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
-  const PreparedStability prepared = prepare(options.request);
+  const StabilityPlan prepared = prepare(options.request);
   const StabilityRequest request = with_defaults(options.request);
   RunFiles files;
   files.reads("MESH", options.mesh);

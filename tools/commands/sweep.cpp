@@ -15,9 +15,9 @@
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/input_files.h"
+#include "morsel/tools/report/row_journal.h"
+#include "morsel/tools/report/sweep_writer.h"
 #include "morsel/tools/results/result_folder.h"
-#include "morsel/tools/sweep/row_journal.h"
-#include "morsel/tools/sweep/sweep_writer.h"
 
 namespace morsel::tools {
 namespace {
@@ -29,7 +29,7 @@ struct Options {
   std::string figure_folder;
 };
 
-std::vector<std::string> fields_of(const PreparedSweep& prepared) {
+std::vector<std::string> fields_of(const SweepPlan& prepared) {
   std::set<std::string> fields;
   for (const Combination& combination : prepared.combinations) fields.insert(to_string(combination.field));
   return {fields.begin(), fields.end()};
@@ -37,15 +37,15 @@ std::vector<std::string> fields_of(const PreparedSweep& prepared) {
 
 std::vector<plot::NamedPlot> plots_of(const SweepReport& report) {
   std::vector<plot::NamedPlot> plots;
-  for (std::size_t k = 0; k < report.prepared.variations.size(); ++k)
-    if (std::optional<plot::Plot> plot = plot::sweep_plot(report.prepared, report.rows, k))
-      plots.emplace_back(report.prepared.variations[k].key, std::move(*plot));
+  for (std::size_t k = 0; k < report.plan.variations.size(); ++k)
+    if (std::optional<plot::Plot> plot = plot::sweep_plot(report.plan, report.rows, k))
+      plots.emplace_back(report.plan.variations[k].key, std::move(*plot));
   return plots;
 }
 
 int sweep(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
-  const PreparedSweep prepared = prepare(options.request);
+  const SweepPlan prepared = prepare(options.request);
   RunFiles named;
   named.reads("MESH", options.mesh);
   for (const std::string& field : fields_of(prepared)) named.reads_of_field(field);

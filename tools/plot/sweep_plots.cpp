@@ -14,9 +14,11 @@ namespace {
 constexpr std::size_t kMostLines = 14;
 constexpr double kWideSpread = 30;
 
-double count_of(const SweepRow& row, const char* count) {
-  return row.result.at("critical_points").at(count).get<double>();
-}
+using Count = std::size_t (*)(const morse::CriticalPoints&);
+
+std::size_t total_of(const morse::CriticalPoints& points) { return points.total(); }
+
+double count_of(const SweepRow& row, Count count) { return static_cast<double>(count(row.critical_points)); }
 
 /// Where the values of a variation stand, and in which order lines go through them.
 class ValueAxis {
@@ -59,21 +61,21 @@ class ValueAxis {
 };
 
 /// For each choice of the other variations, in their order: its name and the rows by the values of the k-th.
-std::map<std::vector<std::size_t>, std::vector<std::size_t>> rows_by_others(const PreparedSweep& prepared,
+std::map<std::vector<std::size_t>, std::vector<std::size_t>> rows_by_others(const SweepPlan& plan,
                                                                             std::size_t k) {
   std::map<std::vector<std::size_t>, std::vector<std::size_t>> lines;
-  for (std::size_t i = 0; i < prepared.combinations.size(); ++i) {
-    std::vector<std::size_t> others = prepared.combinations[i].choices;
+  for (std::size_t i = 0; i < plan.combinations.size(); ++i) {
+    std::vector<std::size_t> others = plan.combinations[i].choices;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
     lines[others].push_back(i);
   }
   return lines;
 }
 
-std::string name_of(const PreparedSweep& prepared, const Combination& combination, std::size_t k) {
+std::string name_of(const SweepPlan& plan, const Combination& combination, std::size_t k) {
   std::string name;
-  for (std::size_t v = 0; v < prepared.variations.size(); ++v) {
-    const Variation& variation = prepared.variations[v];
+  for (std::size_t v = 0; v < plan.variations.size(); ++v) {
+    const Variation& variation = plan.variations[v];
     if (v == k || variation.values.size() == 1) continue;
     name += (name.empty() ? "" : ", ") + variation.key + "=" + variation.values[combination.choices[v]];
   }
@@ -81,7 +83,7 @@ std::string name_of(const PreparedSweep& prepared, const Combination& combinatio
 }
 
 std::vector<double> counts_of(const std::vector<SweepRow>& rows, const std::vector<std::size_t>& line,
-                              const char* count) {
+                              Count count) {
   std::vector<double> counts;
   counts.reserve(line.size());
   for (const std::size_t row : line) counts.push_back(count_of(rows[row], count));
@@ -90,9 +92,8 @@ std::vector<double> counts_of(const std::vector<SweepRow>& rows, const std::vect
 
 }  // namespace
 
-std::optional<Plot> sweep_plot(const PreparedSweep& prepared, const std::vector<SweepRow>& rows,
-                               std::size_t k) {
-  const Variation& variation = prepared.variations[k];
+std::optional<Plot> sweep_plot(const SweepPlan& plan, const std::vector<SweepRow>& rows, std::size_t k) {
+  const Variation& variation = plan.variations[k];
   if (variation.values.size() < 2) return std::nullopt;
   const ValueAxis values(variation);
   Plot plot;
@@ -104,23 +105,28 @@ std::optional<Plot> sweep_plot(const PreparedSweep& prepared, const std::vector<
     set_line_style(line, series.size());
     series.push_back(std::move(line));
   };
-  const auto lines = rows_by_others(prepared, k);
+  const auto lines = rows_by_others(plan, k);
   if (lines.size() == 1) {
     const std::vector<std::size_t>& line = lines.begin()->second;
-    for (const char* count : {"total", "minima", "saddles", "maxima"}) {
+    const std::pair<const char*, Count> kinds[] = {
+        {"total", total_of},
+        {"minima", [](const morse::CriticalPoints& points) { return points.minima; }},
+        {"saddles", [](const morse::CriticalPoints& points) { return points.saddles; }},
+        {"maxima", [](const morse::CriticalPoints& points) { return points.maxima; }}};
+    for (const auto& [name, count] : kinds) {
       const std::vector<double> counts = counts_of(rows, line, count);
       // A logarithmic axis has no 0.
-      if (std::ranges::min(counts) > 0) add(count, counts);
+      if (std::ranges::min(counts) > 0) add(name, counts);
     }
   } else if (lines.size() <= kMostLines) {
     for (const auto& [others, line] : lines)
-      add(name_of(prepared, prepared.combinations[line.front()], k), counts_of(rows, line, "total"));
+      add(name_of(plan, plan.combinations[line.front()], k), counts_of(rows, line, total_of));
   } else {
     std::vector<double> median, least, most;
     for (std::size_t i = 0; i < variation.values.size(); ++i) {
       std::vector<double> counts;
       counts.reserve(lines.size());
-      for (const auto& [others, line] : lines) counts.push_back(count_of(rows[line[i]], "total"));
+      for (const auto& [others, line] : lines) counts.push_back(count_of(rows[line[i]], total_of));
       std::ranges::sort(counts);
       median.push_back(counts[(counts.size() - 1) / 2]);
       least.push_back(counts.front());

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "morsel/tools/plot/plot.h"
-#include "morsel/tools/sweep/sweep.h"
+#include "morsel/tools/study/sweep.h"
 
 namespace morsel::tools::plot {
 
@@ -13,7 +13,6 @@ namespace morsel::tools::plot {
 /// factor of 30, where its values have one unit; else on one of names, in the order given. Where nothing else
 /// varies there is a line for the total and one for each type; where the others have up to 14 combinations, a
 /// line for each; else the median, the least and the most of them. None if the variation has only one value.
-std::optional<Plot> sweep_plot(const PreparedSweep& prepared, const std::vector<SweepRow>& rows,
-                               std::size_t k);
+std::optional<Plot> sweep_plot(const SweepPlan& plan, const std::vector<SweepRow>& rows, std::size_t k);
 
 }  // namespace morsel::tools::plot

@@ -20,7 +20,7 @@ void begin_field_document(JsonSink& json, std::string_view schema, const Json& r
   json.member("request", request);
   json.member("mesh", mesh_section(source.mesh.path, source.mesh.sha256, source.loaded.mesh, file.repairs));
   json.member("field", field_section(source.made.input));
-  json.member("method", method_section(source.recipe, source.made, file.numbering));
+  json.member("method", method_section(source.plan, source.made, file.numbering));
 }
 
 }  // namespace morsel::tools

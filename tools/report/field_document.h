@@ -15,7 +15,7 @@ namespace morsel::tools {
 struct FieldSource {
   const HashedFile& mesh;
   const core::LoadedMesh& loaded;
-  const FieldRecipe& recipe;
+  const FieldPlan& plan;
   const MadeField& made;
 };
 

@@ -7,11 +7,11 @@
 namespace morsel::tools {
 
 void HierarchyTable::begin(const HierarchyBasis& basis) {
-  headline_ = field_line(basis.made.input) + "; " + prepared_.recipe.chain.name + ", levels by " +
-              std::string(to_string(prepared_.kind));
-  const char* const first = prepared_.kind == HierarchyKind::iteration ? "iteration"
-                            : prepared_.counts.empty()                 ? "threshold"
-                                                                       : "count";
+  headline_ = field_line(basis.made.input) + "; " + plan_.field.chain.name + ", levels by " +
+              std::string(to_string(plan_.kind));
+  const char* const first = plan_.kind == HierarchyKind::iteration ? "iteration"
+                            : plan_.counts.empty()                 ? "threshold"
+                                                                   : "count";
   rows_ = {
       {first, "minima", "saddles", "(mult.)", "maxima", "total", "arcs", "cells", "kept", "moved", "new"}};
 }

@@ -11,15 +11,15 @@ namespace morsel::tools {
 /// Collects a row a level.
 class HierarchyTable : public HierarchySink {
  public:
-  /// Refers to `prepared`.
-  explicit HierarchyTable(const PreparedHierarchy& prepared) : prepared_(prepared) {}
+  /// Refers to `plan`.
+  explicit HierarchyTable(const HierarchyPlan& plan) : plan_(plan) {}
   void begin(const HierarchyBasis& basis) override;
   void level(const Level& level) override;
   /// The table, with a line on the field above it, and below it where levels are not what was asked for.
   std::string text() const;
 
  private:
-  const PreparedHierarchy& prepared_;
+  const HierarchyPlan& plan_;
   std::string headline_;
   std::vector<std::vector<std::string>> rows_;
   std::string notes_;

@@ -44,10 +44,10 @@ Json request_section(const HierarchyRequest& request, const ReportInput& input) 
 }
 
 HierarchyWriter::HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
-                                 const HierarchyRequest& request, const PreparedHierarchy& prepared)
+                                 const HierarchyRequest& request, const HierarchyPlan& plan)
     : json_(json),
       loaded_(loaded),
-      prepared_(prepared),
+      plan_(plan),
       items_(input.items),
       timings_({{"load", input.load_seconds}}) {
   json_.begin_object();
@@ -59,7 +59,7 @@ HierarchyWriter::HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded,
 
 void HierarchyWriter::begin(const HierarchyBasis& basis) {
   json_.member("field", field_section(basis.made.input));
-  json_.member("method", method_section(prepared_.recipe, basis.made, loaded_.source.numbering));
+  json_.member("method", method_section(plan_.field, basis.made, loaded_.source.numbering));
   timings_["field"] = basis.made.input.seconds;
   timings_["method"] = basis.made.method_seconds;
   if (basis.hierarchy != nullptr) {

@@ -16,7 +16,7 @@ class HierarchyWriter : public HierarchySink {
  public:
   /// Refers to all but `input`, which must outlive the writer. `request` with its defaults.
   HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded, const ReportInput& input,
-                  const HierarchyRequest& request, const PreparedHierarchy& prepared);
+                  const HierarchyRequest& request, const HierarchyPlan& plan);
   void begin(const HierarchyBasis& basis) override;
   void level(const Level& level) override;
   /// Closes the document; nothing may follow.
@@ -33,7 +33,7 @@ class HierarchyWriter : public HierarchySink {
 
   JsonSink& json_;
   const core::LoadedMesh& loaded_;
-  const PreparedHierarchy& prepared_;
+  const HierarchyPlan& plan_;
   bool items_;
   Json timings_;
   Stopwatch watch_;

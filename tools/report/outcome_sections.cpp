@@ -53,12 +53,14 @@ Json to_json(const std::vector<core::IterationRecord>& iterations) {
 
 Json tool_section() { return {{"name", "morsel"}, {"version", kVersion}}; }
 
-Json field_section(const FieldOutcome& outcome) {
-  return {{"name", outcome.name},
-          {"parameters", to_json(outcome.parameters)},
-          {"min", outcome.field.min()},
-          {"max", outcome.field.max()}};
+Json field_section(const FieldSummary& field) {
+  return {{"name", field.name},
+          {"parameters", to_json(field.parameters)},
+          {"min", field.min},
+          {"max", field.max}};
 }
+
+Json field_section(const FieldOutcome& outcome) { return field_section(summary_of(outcome)); }
 
 Json counts_section(const morse::CriticalPoints& points) {
   return {{"minima", points.minima},
@@ -68,19 +70,19 @@ Json counts_section(const morse::CriticalPoints& points) {
           {"total", points.total()}};
 }
 
-Json persistence_section(const persistence::Diagram& diagram, double extent) {
-  std::size_t essential_saddles = 0;
-  for (const auto& saddle : diagram.essential_saddles) essential_saddles += saddle.count;
-  const std::size_t infinite = diagram.cap_pairs().size();
+Json persistence_section(const PersistenceSummary& summary) {
   Json above = Json::array();
-  for (const double percent : {0.1, 1.0, 5.0})
-    above.push_back(
-        {{"percent", percent}, {"pairs", diagram.count_above(percent / 100 * extent) + infinite}});
-  return {{"pairs", diagram.pairs.size()},
-          {"infinite_pairs", infinite},
-          {"essential_saddles", essential_saddles},
-          {"max", diagram.finite_count == 0 ? Json() : Json(diagram.largest())},
+  for (std::size_t i = 0; i < summary.above.size(); ++i)
+    above.push_back({{"percent", PersistenceSummary::kPercents[i]}, {"pairs", summary.above[i]}});
+  return {{"pairs", summary.pairs},
+          {"infinite_pairs", summary.infinite_pairs},
+          {"essential_saddles", summary.essential_saddles},
+          {"max", summary.largest ? Json(*summary.largest) : Json()},
           {"above", std::move(above)}};
+}
+
+Json persistence_section(const persistence::Diagram& diagram, double extent) {
+  return persistence_section(summary_of(diagram, extent));
 }
 
 Json complex_section(const mscomplex::MorseSmaleComplex& complex,
@@ -138,9 +140,8 @@ Json method_section(const MethodChain& chain, const ChainOutcome& outcome,
   return section;
 }
 
-Json method_section(const FieldRecipe& recipe, const MadeField& made,
-                    const core::VertexNumbering& numbering) {
-  return method_section(recipe.chain, made.outcome, numbering);
+Json method_section(const FieldPlan& plan, const MadeField& made, const core::VertexNumbering& numbering) {
+  return method_section(plan.chain, made.outcome, numbering);
 }
 
 }  // namespace morsel::tools

@@ -8,6 +8,7 @@
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/made_field.h"
+#include "morsel/tools/study/summary.h"
 
 namespace morsel::tools {
 
@@ -20,11 +21,13 @@ Json to_json(const std::vector<core::IterationRecord>& iterations);
 /// {"name", "version"} of the program.
 Json tool_section();
 /// {"name", "parameters", "min", "max"}
+Json field_section(const FieldSummary& field);
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);
 /// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the field's
 /// extent is what the percentages are of.
+Json persistence_section(const PersistenceSummary& summary);
 Json persistence_section(const persistence::Diagram& diagram, double extent);
 /// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending",
 /// "morse_smale"}}
@@ -42,6 +45,6 @@ Json target_section(const TargetOutcome& target, const core::VertexNumbering& nu
 /// "min", "max"}
 Json method_section(const MethodChain& chain, const ChainOutcome& outcome,
                     const core::VertexNumbering& numbering);
-Json method_section(const FieldRecipe& recipe, const MadeField& made, const core::VertexNumbering& numbering);
+Json method_section(const FieldPlan& plan, const MadeField& made, const core::VertexNumbering& numbering);
 
 }  // namespace morsel::tools

@@ -1,8 +1,9 @@
 #include "morsel/tools/report/result_shapes.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
+
+#include "morsel/tools/study/summary.h"
 
 namespace morsel::tools {
 namespace {
@@ -37,7 +38,7 @@ void check_persistence(const JsonView& persistence) {
   check_members(persistence, {"pairs", "infinite_pairs", "essential_saddles", "max", "above"});
   check_counts(persistence, {"pairs", "infinite_pairs", "essential_saddles"});
   if (const JsonView max = persistence["max"]; !max.is_null()) static_cast<void>(max.number(0));
-  constexpr std::array kPercents = {0.1, 1.0, 5.0};
+  constexpr auto& kPercents = PersistenceSummary::kPercents;
   const std::vector<JsonView> above = persistence["above"].list(kPercents.size(), kPercents.size());
   for (std::size_t i = 0; i < kPercents.size(); ++i) {
     check_counts(above[i], {"pairs"});

@@ -21,18 +21,16 @@ std::string width(const Estimate& estimate) {
 
 class Tables {
  public:
-  Tables(const PreparedStability& prepared, const StabilityResult& result)
-      : prepared_(prepared), result_(result) {}
+  Tables(const StabilityPlan& plan, const StabilityResult& result) : plan_(plan), result_(result) {}
 
   std::string text() const {
     std::string text;
     for (const FieldOutcome& field : result_.fields) text += field_line(field) + "\n";
-    text += std::to_string(prepared_.trials) + (prepared_.trials == 1 ? " trial" : " trials") + ", seed " +
-            std::to_string(prepared_.seed) + "; " +
-            (prepared_.points == PointChoice::all ? "points" : "extrema") + " matched within " +
-            formatted(result_.radius, "%.6g") + "; mean edge length " +
+    text += std::to_string(plan_.trials) + (plan_.trials == 1 ? " trial" : " trials") + ", seed " +
+            std::to_string(plan_.seed) + "; " + (plan_.points == PointChoice::all ? "points" : "extrema") +
+            " matched within " + formatted(result_.radius, "%.6g") + "; mean edge length " +
             formatted(result_.mean_edge_length, "%.6g") + ", the unit of noise and drift\n";
-    for (const std::optional<std::size_t>& target : prepared_.targets)
+    for (const std::optional<std::size_t>& target : plan_.targets)
       text += (target ? "\nTarget " + std::to_string(*target) : "\nEach method's own count") + "\n" +
               text_table(clean_rows(target)) + "\n" + text_table(perturbed_rows(target));
     return text;
@@ -40,9 +38,9 @@ class Tables {
 
  private:
   std::string name(const StabilityOutcome& outcome) const {
-    const std::string& method = prepared_.chains[outcome.method].specification;
-    if (prepared_.functions.size() == 1) return method;
-    return prepared_.functions[outcome.field].specification + ", " + method;
+    const std::string& method = plan_.chains[outcome.method].specification;
+    if (plan_.functions.size() == 1) return method;
+    return plan_.functions[outcome.field].specification + ", " + method;
   }
 
   Rows clean_rows(const std::optional<std::size_t>& target) const {
@@ -61,7 +59,7 @@ class Tables {
   Rows perturbed_rows(const std::optional<std::size_t>& target) const {
     Rows rows = {
         {"perturbation", "method", "points", "F", "\u00b1", "recall", "precision", "drift", "chance"}};
-    for (std::size_t p = 0; p < prepared_.perturbations.size(); ++p)
+    for (std::size_t p = 0; p < plan_.perturbations.size(); ++p)
       for (const StabilityOutcome& outcome : result_.outcomes) {
         if (outcome.target != target) continue;
         const PerturbationOutcome& perturbed = outcome.perturbations[p];
@@ -74,14 +72,14 @@ class Tables {
     return rows;
   }
 
-  const PreparedStability& prepared_;
+  const StabilityPlan& plan_;
   const StabilityResult& result_;
 };
 
 }  // namespace
 
-std::string stability_table(const PreparedStability& prepared, const StabilityResult& result) {
-  return Tables(prepared, result).text();
+std::string stability_table(const StabilityPlan& plan, const StabilityResult& result) {
+  return Tables(plan, result).text();
 }
 
 }  // namespace morsel::tools

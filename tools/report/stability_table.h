@@ -9,6 +9,6 @@ namespace morsel::tools {
 
 /// For each count (the methods' own, the wanted one) the clean points, then a row for each perturbation and
 /// method.
-std::string stability_table(const PreparedStability& prepared, const StabilityResult& result);
+std::string stability_table(const StabilityPlan& plan, const StabilityResult& result);
 
 }  // namespace morsel::tools

@@ -89,12 +89,12 @@ void write_perturbation(JsonSink& json, const PerturbationOutcome& perturbed, do
 
 void write_outcome(JsonSink& json, const StabilityReport& report, const StabilityOutcome& outcome) {
   json.begin_object();
-  json.member("field", report.prepared.functions[outcome.field].specification);
-  json.member("method", report.prepared.chains[outcome.method].specification);
+  json.member("field", report.plan.functions[outcome.field].specification);
+  json.member("method", report.plan.chains[outcome.method].specification);
   json.member("target", outcome.target ? Json(*outcome.target) : Json());
   json.begin_object("clean");
   Json made =
-      method_section(report.prepared.chains[outcome.method], outcome.clean, report.loaded.source.numbering);
+      method_section(report.plan.chains[outcome.method], outcome.clean, report.loaded.source.numbering);
   made.erase("iterations");  // they are not counted
   for (const auto& [key, value] : made.items()) json.member(key, value);
   json.member("critical_points", counts_section(outcome.points));
@@ -146,7 +146,7 @@ void write_stability(JsonSink& json, const StabilityReport& report) {
                            {"placements", kPlacements}});
   json.begin_array("fields");
   for (std::size_t f = 0; f < result.fields.size(); ++f) {
-    Json section = {{"specification", report.prepared.functions[f].specification}};
+    Json section = {{"specification", report.plan.functions[f].specification}};
     section.update(field_section(result.fields[f]));
     json.begin_object();
     for (const auto& [key, value] : section.items()) json.member(key, value);
@@ -179,12 +179,12 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(kVersion);
       line.add_path(report.input.mesh_path);
       line.add(report.input.mesh_sha256);
-      line.add(std::uint64_t{report.prepared.seed});
+      line.add(std::uint64_t{report.plan.seed});
       line.add(result.radius);
-      line.add(to_string(report.prepared.points));
-      line.add(report.prepared.functions[outcome.field].specification);
+      line.add(to_string(report.plan.points));
+      line.add(report.plan.functions[outcome.field].specification);
       line.add_json(to_json(result.fields[outcome.field].parameters));
-      line.add(report.prepared.chains[outcome.method].specification);
+      line.add(report.plan.chains[outcome.method].specification);
       line.add_json(parameters_section(outcome.clean.steps));
       line.add(outcome.target ? std::to_string(*outcome.target) : "");
       line.add(std::uint64_t{outcome.with_reference.found});

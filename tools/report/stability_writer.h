@@ -16,7 +16,7 @@ struct StabilityReport {
   const core::LoadedMesh& loaded;
   const ReportInput& input;
   const StabilityRequest& request;  ///< with its defaults
-  const PreparedStability& prepared;
+  const StabilityPlan& plan;
   const StabilityResult& result;
 };
 

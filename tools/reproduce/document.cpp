@@ -28,9 +28,9 @@ Json model_section(const Model& model, const PictureOptions& pictures) {
 
 /// A method on the field, with all its parameters, and what it left.
 Json run_section(const Model& model, const MethodRun& run) {
-  return {{"specification", run.recipe.chain.specification},
+  return {{"specification", run.plan.chain.specification},
           {"field", field_section(run.made.input)},
-          {"method", method_section(run.recipe, run.made, model.loaded().source.numbering)},
+          {"method", method_section(run.plan, run.made, model.loaded().source.numbering)},
           {"critical_points", counts_section(run.measurement.critical_points)},
           {"ms_complex", complex_section(run.measurement.complex, run.measurement.segmentation)}};
 }

@@ -155,7 +155,7 @@ std::string panel_png(const render::Image& image, const PanelOutcome& panel, con
   Provenance provenance(
       shaping_command(panel.command),
       tools::request_section(FieldRequest{std::string(kField), panel.method, {}}, options.repair),
-      {mesh, model.loaded(), panel.run->recipe, panel.run->made});
+      {mesh, model.loaded(), panel.run->plan, panel.run->made});
   provenance.set("picture",
                  render::picture_section(request, options.camera, "", model.loaded().source.numbering));
   return drawing::with_png_comment(render::encode_png(image), provenance.json());
@@ -205,7 +205,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     panel.caption = caption_of(panel, figure);
     const render::Subject subject{
         panel.run->made.field(), &panel.run->measurement,
-        render::quantity_of(std::string(kField), panel.run->recipe.chain.steps.back().name), ""};
+        render::quantity_of(std::string(kField), panel.run->plan.chain.steps.back().name), ""};
     render::Image image = model.studio().take(view, subject, request, progress);
     panel.png = panel_png(image, panel, model, options, request);
     core::write_file(folder.claim(panel.file), panel.png, core::Sync::never);

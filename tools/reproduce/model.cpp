@@ -20,14 +20,14 @@ Model Model::read(const ModelRecipe& recipe, const MeshFile& file, bool repair,
 const MethodRun& Model::run(const std::string& method, const core::Progress& progress) {
   std::unique_ptr<const MethodRun>& run = runs_[method];
   if (run) return *run;
-  FieldRecipe recipe = prepare(FieldRequest{std::string(kField), method, {}});
-  MadeField made = make_field(recipe, loaded_, progress);
+  FieldPlan plan = prepare(FieldRequest{std::string(kField), method, {}});
+  MadeField made = make_field(plan, loaded_, progress);
   Timings timings;
   Measurement measurement = measure(made.field(), timings, progress);
   const double seconds =
       made.method_seconds + timings.front().second;  // the first step is the classification
   run = std::make_unique<const MethodRun>(
-      MethodRun{std::move(recipe), std::move(made), std::move(measurement), seconds});
+      MethodRun{std::move(plan), std::move(made), std::move(measurement), seconds});
   return *run;
 }
 

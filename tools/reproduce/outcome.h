@@ -20,7 +20,7 @@ namespace morsel::tools::reproduce {
 
 /// A method on the field of one model, measured.
 struct MethodRun {
-  FieldRecipe recipe;
+  FieldPlan plan;
   MadeField made;
   Measurement measurement;
   double seconds = 0;  ///< of the method and of finding the critical points, as the paper counts

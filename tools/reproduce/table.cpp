@@ -41,7 +41,7 @@ std::string table_csv(const std::vector<TableRowOutcome>& table) {
       text += std::string(row.model->recipe().name) + "," +
               csv_path(row.model->file().path.filename().string()) + "," +
               std::to_string(row.model->mesh().vertex_count()) + "," + std::string(row.recipe->figure) + "," +
-              std::to_string(row.recipe->iterations) + "," + csv_field(cell.run->recipe.chain.specification) +
+              std::to_string(row.recipe->iterations) + "," + csv_field(cell.run->plan.chain.specification) +
               "," + std::to_string(cell.run->total()) + "," +
               (row.recipe->paper_points ? std::to_string(*row.recipe->paper_points) : "") + "," +
               core::shortest(cell.run->seconds) + "," +

@@ -48,29 +48,28 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
   return {std::move(points), std::move(diagram), std::move(complex), std::move(segments)};
 }
 
-PreparedComparison prepare(const ComparisonRequest& request, const Registry& registry) {
+ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry) {
   check_target(request.target);
-  PreparedComparison comparison{registry.make_function(request.field), {}, request.target, request.snap};
-  for (const std::string& method : request.methods) comparison.chains.push_back(registry.make_method(method));
-  return comparison;
+  ComparisonPlan plan{registry.make_function(request.field), {}, request.target, request.snap};
+  for (const std::string& method : request.methods) plan.chains.push_back(registry.make_method(method));
+  return plan;
 }
 
-void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
+void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress) {
-  const auto shared =
-      std::make_shared<const FieldOutcome>(evaluate_field(loaded, comparison.function, progress));
+  const auto shared = std::make_shared<const FieldOutcome>(evaluate_field(loaded, plan.function, progress));
   const FieldOutcome& input = *shared;
   for (ComparisonSink* sink : sinks) sink->field(input);
   const double radius = matching_radius(loaded.mesh);
   const morse::CriticalPointTracker at_input(std::shared_ptr<const core::ScalarField>(shared, &input.field),
                                              radius, progress.unreported());
   std::optional<morse::CriticalPoints> first;
-  for (const MethodChain& chain : comparison.chains) {
+  for (const MethodChain& chain : plan.chains) {
     for (ComparisonSink* sink : sinks) sink->begin_method(chain.name);
     const Stopwatch watch;
     std::optional<morse::CriticalPointTracker> tracker = at_input;
-    ChainOutcome made = apply_chain(chain, loaded, comparison.function, input.field,
-                                    {comparison.target, true, &*tracker}, progress);
+    ChainOutcome made =
+        apply_chain(chain, loaded, plan.function, input.field, {plan.target, true, &*tracker}, progress);
     std::vector<core::Index> origins(tracker->origins().begin(), tracker->origins().end());
     tracker.reset();  // its field is not needed while the result is measured
     Timings timings = {{"method", watch.seconds()}};
@@ -79,8 +78,8 @@ void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& co
     Matching matching = match_critical_points(loaded.mesh, *first, measurement.critical_points, radius);
     std::vector<core::Index> places(origins.size());
     for (std::size_t i = 0; i < places.size(); ++i)
-      places[i] = comparison.snap && origins[i] != core::kNone ? origins[i]
-                                                               : measurement.critical_points.points[i].vertex;
+      places[i] =
+          plan.snap && origins[i] != core::kNone ? origins[i] : measurement.critical_points.points[i].vertex;
     const MethodOutcome outcome{chain.specification,    chain.name,
                                 std::move(made.steps),  std::move(made.field),
                                 std::move(made.target), std::move(measurement),

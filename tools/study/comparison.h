@@ -85,7 +85,7 @@ class ComparisonSink {
 };
 
 /// A comparison whose names have been looked up.
-struct PreparedComparison {
+struct ComparisonPlan {
   NamedFunction function;
   std::vector<MethodChain> chains;
   std::optional<std::size_t> target;
@@ -93,11 +93,11 @@ struct PreparedComparison {
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
-PreparedComparison prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
+ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
 
 /// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods
 /// and sinks throw.
-void run_comparison(const core::LoadedMesh& loaded, const PreparedComparison& comparison,
+void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress = {});
 
 /// Seconds since it was made.

@@ -71,13 +71,13 @@ std::vector<std::size_t> parse_counts(const std::string& text) {
 }
 
 /// As make_field(), with the levels that the method passes through.
-std::pair<MadeField, std::vector<LevelSeed>> make_iterations(const PreparedHierarchy& prepared,
+std::pair<MadeField, std::vector<LevelSeed>> make_iterations(const HierarchyPlan& plan,
                                                              const core::LoadedMesh& loaded,
                                                              const core::Progress& progress) {
-  FieldOutcome input = evaluate_field(loaded, prepared.recipe.function, progress);
+  FieldOutcome input = evaluate_field(loaded, plan.field.function, progress);
   const Stopwatch watch;
-  IterationLevels levels = iteration_levels(prepared.recipe.chain, loaded, prepared.recipe.function,
-                                            input.field, prepared.iterations, progress);
+  IterationLevels levels =
+      iteration_levels(plan.field.chain, loaded, plan.field.function, input.field, plan.iterations, progress);
   MadeField made{std::move(input), std::move(levels.outcome), watch.seconds()};
   return {std::move(made), std::move(levels.seeds)};
 }
@@ -96,7 +96,7 @@ HierarchyRequest with_defaults(HierarchyRequest request) {
   return request;
 }
 
-PreparedHierarchy prepare(const HierarchyRequest& given) {
+HierarchyPlan prepare(const HierarchyRequest& given, const Registry& registry) {
   const bool by_iteration = given.kind == HierarchyKind::iteration;
   if (by_iteration && !given.counts.empty())
     throw InvalidArgument("--counts are levels by persistence: give them with --by persistence");
@@ -107,37 +107,37 @@ PreparedHierarchy prepare(const HierarchyRequest& given) {
   if (!given.levels.empty() && !given.counts.empty())
     throw InvalidArgument("levels by persistence are given by --levels or by --counts, not by both");
   HierarchyRequest request = with_defaults(given);
-  PreparedHierarchy prepared{{}, request.kind, {}, {}, {}};
+  HierarchyPlan plan{{}, request.kind, {}, {}, {}};
   if (by_iteration) {
-    prepared.iterations = parse_iterations(request.levels);
-    request.field.method = with_iterations(request.field.method, prepared.iterations.back());
+    plan.iterations = parse_iterations(request.levels);
+    request.field.method = with_iterations(request.field.method, plan.iterations.back(), registry);
   } else if (request.counts.empty()) {
-    prepared.thresholds = parse_thresholds(request.levels);
+    plan.thresholds = parse_thresholds(request.levels);
   } else {
-    prepared.counts = parse_counts(request.counts);
+    plan.counts = parse_counts(request.counts);
   }
-  prepared.recipe = prepare(request.field);
-  return prepared;
+  plan.field = prepare(request.field, registry);
+  return plan;
 }
 
-void run_hierarchy(const core::LoadedMesh& loaded, const PreparedHierarchy& prepared,
+void run_hierarchy(const core::LoadedMesh& loaded, const HierarchyPlan& plan,
                    const std::vector<HierarchySink*>& sinks, const core::Progress& progress) {
   const auto begin = [&](const HierarchyBasis& basis) {
     for (HierarchySink* sink : sinks) sink->begin(basis);
   };
   std::vector<LevelSeed> seeds;
-  if (prepared.kind == HierarchyKind::iteration) {
-    auto [made, found] = make_iterations(prepared, loaded, progress);
+  if (plan.kind == HierarchyKind::iteration) {
+    auto [made, found] = make_iterations(plan, loaded, progress);
     begin({made, nullptr, 0});
     seeds = std::move(found);
   } else {
-    const MadeField made = make_field(prepared.recipe, loaded, progress);
+    const MadeField made = make_field(plan.field, loaded, progress);
     const Stopwatch watch;
     const FieldHierarchy from{std::make_shared<core::ScalarField>(made.field()),
                               std::make_shared<mscomplex::PersistenceHierarchy>(made.field(), progress)};
     begin({made, from.hierarchy.get(), watch.seconds()});
-    seeds = prepared.counts.empty() ? levels_by_threshold(from, prepared.thresholds)
-                                    : levels_by_count(from, prepared.counts);
+    seeds =
+        plan.counts.empty() ? levels_by_threshold(from, plan.thresholds) : levels_by_count(from, plan.counts);
   }
   build_levels(
       std::move(seeds),

@@ -32,8 +32,8 @@ struct HierarchyRequest {
 };
 
 /// A request whose names and numbers have been looked up.
-struct PreparedHierarchy {
-  FieldRecipe recipe;
+struct HierarchyPlan {
+  FieldPlan field;
   HierarchyKind kind = HierarchyKind::iteration;
   std::vector<int> iterations;  ///< ascending
   std::vector<persistence::Threshold> thresholds;
@@ -47,7 +47,7 @@ HierarchyRequest with_defaults(HierarchyRequest request);
 /// Throws InvalidArgument on unknown names and keys, bad values, a level that is given twice, what does not
 /// go together, and a method that has no iterations or fewer than the levels need. Levels may come in any
 /// order. Touches no file.
-PreparedHierarchy prepare(const HierarchyRequest& request);
+HierarchyPlan prepare(const HierarchyRequest& request, const Registry& registry = Registry::standard());
 
 /// What the levels are made of.
 struct HierarchyBasis {
@@ -66,7 +66,7 @@ class HierarchySink {
 
 /// Makes the field, and then level by level. Throws what functions, methods, sinks and iteration_levels()
 /// throw.
-void run_hierarchy(const core::LoadedMesh& loaded, const PreparedHierarchy& prepared,
+void run_hierarchy(const core::LoadedMesh& loaded, const HierarchyPlan& plan,
                    const std::vector<HierarchySink*>& sinks, const core::Progress& progress = {});
 
 }  // namespace morsel::tools

@@ -18,14 +18,14 @@ using core::Index;
 using core::InvalidArgument;
 using core::ScalarField;
 
-bool is_iterative(const std::string& method) {
-  return std::ranges::count(Registry::standard().keys_of_method(method), "iterations") > 0;
+bool is_iterative(const std::string& method, const Registry& registry) {
+  return std::ranges::count(registry.keys_of_method(method), "iterations") > 0;
 }
 
-std::string iterative_methods() {
+std::string iterative_methods(const Registry& registry) {
   std::string names;
-  for (const MethodEntry& entry : Registry::standard().methods())
-    if (is_iterative(std::string(entry.name))) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  for (const MethodEntry& entry : registry.methods())
+    if (is_iterative(entry.name, registry)) names += (names.empty() ? "" : ", ") + entry.name;
   return names;
 }
 
@@ -112,13 +112,13 @@ std::string stopped_by(const StepOutcome& step) {
 
 }  // namespace
 
-std::string with_iterations(const std::string& method, int needed) {
-  Registry::standard().make_method(method);  // refuses unknown names and keys before anything else is said
+std::string with_iterations(const std::string& method, int needed, const Registry& registry) {
+  registry.make_method(method);  // refuses unknown names and keys before anything else is said
   const std::vector<core::Specification> chain = core::parse_chain(method, "--method");
   const core::Specification& last = chain.back();
-  if (!is_iterative(last.name))
-    throw InvalidArgument(
-        last.name + " has no iterations that could be levels; the methods that have: " + iterative_methods());
+  if (!is_iterative(last.name, registry))
+    throw InvalidArgument(last.name + " has no iterations that could be levels; the methods that have: " +
+                          iterative_methods(registry));
   for (const auto& [key, value] : last.given) {
     if (key != "iterations") continue;
     if (core::parse_integer(core::unescape(value), last.name + ":iterations") < needed)

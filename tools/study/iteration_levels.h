@@ -15,7 +15,8 @@ namespace morsel::tools {
 /// The text of a method or chain whose last step runs `needed` iterations: `method` itself if it says how
 /// many, else with that number added. Throws InvalidArgument if the last step has no iterations, listing
 /// those that have, or if it is given fewer; and whatever make_method() throws.
-std::string with_iterations(const std::string& method, int needed);
+std::string with_iterations(const std::string& method, int needed,
+                            const Registry& registry = Registry::standard());
 
 struct IterationLevels {
   ChainOutcome outcome;  ///< up to the last level; its field is that level's

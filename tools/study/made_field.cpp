@@ -4,17 +4,16 @@
 
 namespace morsel::tools {
 
-FieldRecipe prepare(const FieldRequest& request, const Registry& registry) {
+FieldPlan prepare(const FieldRequest& request, const Registry& registry) {
   check_target(request.target);
   return {registry.make_function(request.field), registry.make_method(request.method), request.target};
 }
 
-MadeField make_field(const FieldRecipe& recipe, const core::LoadedMesh& loaded,
-                     const core::Progress& progress) {
-  FieldOutcome input = evaluate_field(loaded, recipe.function, progress);
+MadeField make_field(const FieldPlan& plan, const core::LoadedMesh& loaded, const core::Progress& progress) {
+  FieldOutcome input = evaluate_field(loaded, plan.function, progress);
   const Stopwatch watch;
   ChainOutcome outcome =
-      apply_chain(recipe.chain, loaded, recipe.function, input.field, {.target = recipe.target}, progress);
+      apply_chain(plan.chain, loaded, plan.function, input.field, {.target = plan.target}, progress);
   return {std::move(input), std::move(outcome), watch.seconds()};
 }
 

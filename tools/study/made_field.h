@@ -19,14 +19,14 @@ struct FieldRequest {
 };
 
 /// A request whose names have been looked up.
-struct FieldRecipe {
+struct FieldPlan {
   NamedFunction function;
   MethodChain chain;
   std::optional<std::size_t> target;
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
-FieldRecipe prepare(const FieldRequest& request, const Registry& registry = Registry::standard());
+FieldPlan prepare(const FieldRequest& request, const Registry& registry = Registry::standard());
 
 /// The field before the method and after it.
 struct MadeField {
@@ -38,7 +38,7 @@ struct MadeField {
 };
 
 /// Takes the function and applies the chain. Throws what functions and methods throw.
-MadeField make_field(const FieldRecipe& recipe, const core::LoadedMesh& loaded,
+MadeField make_field(const FieldPlan& plan, const core::LoadedMesh& loaded,
                      const core::Progress& progress = {});
 
 }  // namespace morsel::tools

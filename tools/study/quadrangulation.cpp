@@ -17,10 +17,9 @@ struct Simplified {
   mscomplex::MorseSmaleComplex complex;
 };
 
-Simplified simplify(const core::ScalarField& field, const QuadRecipe& recipe,
-                    const core::Progress& progress) {
-  if (!recipe.persistence) return {0, 0, mscomplex::MorseSmaleComplex(field, progress)};
-  const double threshold = recipe.persistence->on(field);
+Simplified simplify(const core::ScalarField& field, const QuadPlan& plan, const core::Progress& progress) {
+  if (!plan.persistence) return {0, 0, mscomplex::MorseSmaleComplex(field, progress)};
+  const double threshold = plan.persistence->on(field);
   const mscomplex::PersistenceHierarchy hierarchy(field, progress);
   const core::Index level = hierarchy.level_above(threshold);
   return {threshold, level, mscomplex::MorseSmaleComplex(field, hierarchy.gradient(level), progress)};
@@ -38,32 +37,32 @@ std::string number(double value, int decimals) {
 
 }  // namespace
 
-QuadRecipe prepare(const QuadRequest& request) {
-  QuadRecipe recipe;
+QuadPlan prepare(const QuadRequest& request) {
+  QuadPlan plan;
   if (!request.persistence.empty())
-    recipe.persistence = persistence::parse_threshold(request.persistence, "--persistence");
+    plan.persistence = persistence::parse_threshold(request.persistence, "--persistence");
   if (request.resolution < 2) throw core::InvalidArgument("--resolution must be 2 or more");
   if (request.relaxation < 0) throw core::InvalidArgument("--relaxation must be 0 or more");
-  recipe.resolution = request.resolution;
-  recipe.relaxation = request.relaxation;
-  return recipe;
+  plan.resolution = request.resolution;
+  plan.relaxation = request.relaxation;
+  return plan;
 }
 
-Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
+Quadrangulation quadrangulate(const core::ScalarField& field, const QuadPlan& plan,
                               const core::Progress& progress) {
-  if (!field.mesh().is_closed() && (recipe.resolution % 2 != 0 || recipe.resolution < 4))
+  if (!field.mesh().is_closed() && (plan.resolution % 2 != 0 || plan.resolution < 4))
     throw core::InvalidArgument(
         "--resolution must be 4 or more and even on a surface with boundary loops, where patches have five "
         "sides and are cut into five at their middles");
   const Stopwatch layout_watch;
-  Simplified simplified = simplify(field, recipe, progress);
+  Simplified simplified = simplify(field, plan, progress);
   mscomplex::RepairedComplex repaired =
       mscomplex::repair_dangling(field, std::move(simplified.complex), progress);
   mscomplex::QuadLayout layout =
-      mscomplex::embed_layout(repaired.complex, {.relaxation = recipe.relaxation}, progress);
+      mscomplex::embed_layout(repaired.complex, {.relaxation = plan.relaxation}, progress);
   const double layout_seconds = layout_watch.seconds();
   const Stopwatch sampling_watch;
-  mscomplex::QuadMesh mesh = mscomplex::sample(layout, recipe.resolution, progress);
+  mscomplex::QuadMesh mesh = mscomplex::sample(layout, plan.resolution, progress);
   mscomplex::validate(mesh, field.mesh().euler_characteristic(), field.mesh().boundary_loop_count());
   const double sampling_seconds = sampling_watch.seconds();
   const Stopwatch measuring_watch;

@@ -18,14 +18,14 @@ struct QuadRequest {
 };
 
 /// A request whose values have been read.
-struct QuadRecipe {
+struct QuadPlan {
   std::optional<persistence::Threshold> persistence;
   core::Index resolution = 0;
   int relaxation = 0;
 };
 
 /// Throws InvalidArgument on values out of range.
-QuadRecipe prepare(const QuadRequest& request);
+QuadPlan prepare(const QuadRequest& request);
 
 struct Quadrangulation {
   double threshold = 0;       ///< of persistence, in the field's unit
@@ -42,7 +42,7 @@ struct Quadrangulation {
 /// The quads are checked to be a manifold of the surface's Euler characteristic and boundary loops before
 /// they are handed out. Throws BadInput where the field gives no layout, and InvalidArgument for an odd
 /// resolution on a bounded surface.
-Quadrangulation quadrangulate(const core::ScalarField& field, const QuadRecipe& recipe,
+Quadrangulation quadrangulate(const core::ScalarField& field, const QuadPlan& plan,
                               const core::Progress& progress = {});
 
 /// Patches at boundary loops, which have five sides.

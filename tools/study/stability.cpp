@@ -93,15 +93,14 @@ double ratio(std::size_t part, std::size_t whole) {
 /// The trials of one run, all perturbations' in a row.
 class Trials {
  public:
-  Trials(const core::LoadedMesh& clean, const PreparedStability& prepared, StabilityResult& result,
+  Trials(const core::LoadedMesh& clean, const StabilityPlan& plan, StabilityResult& result,
          std::vector<CleanPoints> points, TrialStore* store)
-      : clean_(clean), prepared_(prepared), result_(result), points_(std::move(points)), store_(store) {
-    for (std::size_t p = 0; p < prepared.perturbations.size(); ++p)
-      for (std::size_t t = 0; t < prepared.trials_of(prepared.perturbations[p]); ++t)
-        trials_.emplace_back(p, t);
+      : clean_(clean), plan_(plan), result_(result), points_(std::move(points)), store_(store) {
+    for (std::size_t p = 0; p < plan.perturbations.size(); ++p)
+      for (std::size_t t = 0; t < plan.trials_of(plan.perturbations[p]); ++t) trials_.emplace_back(p, t);
     for (StabilityOutcome& outcome : result.outcomes)
-      for (const Perturbation& perturbation : prepared.perturbations)
-        outcome.perturbations.push_back({perturbation, std::vector<Trial>(prepared.trials_of(perturbation))});
+      for (const Perturbation& perturbation : plan.perturbations)
+        outcome.perturbations.push_back({perturbation, std::vector<Trial>(plan.trials_of(perturbation))});
   }
 
   /// Of several errors the first trial's is thrown: trials before one that failed are always run.
@@ -131,7 +130,7 @@ class Trials {
 
  private:
   void run_trial(std::size_t p, std::size_t t, const core::Progress& progress) {
-    const Perturbation& perturbation = prepared_.perturbations[p];
+    const Perturbation& perturbation = plan_.perturbations[p];
     if (const std::optional<std::vector<Trial>> known =
             store_ == nullptr ? std::nullopt : store_->find(perturbation, t)) {
       take(p, t, *known);
@@ -142,15 +141,15 @@ class Trials {
     if (perturbation.is_random()) where += ", trial " + std::to_string(t + 1);
     try {
       progress.throw_if_cancelled();
-      const PerturbedMesh mesh = perturb(clean_, perturbation, prepared_.seed, t);
-      for (std::size_t f = 0; f < prepared_.functions.size(); ++f) {
-        const NamedFunction& function = prepared_.functions[f];
+      const PerturbedMesh mesh = perturb(clean_, perturbation, plan_.seed, t);
+      for (std::size_t f = 0; f < plan_.functions.size(); ++f) {
+        const NamedFunction& function = plan_.functions[f];
         where += ", " + function.specification;
         const core::ScalarField field = evaluate_field(mesh.loaded, function, progress).field;
         for (std::size_t i = 0; i < result_.outcomes.size(); ++i) {
           const StabilityOutcome& outcome = result_.outcomes[i];
           if (outcome.field != f) continue;
-          const MethodChain& chain = prepared_.chains[outcome.method];
+          const MethodChain& chain = plan_.chains[outcome.method];
           const std::size_t length = where.size();
           where += ", " + chain.specification;
           trials[i] = measured(mesh, function, field, outcome, points_[i], perturbation, t, progress);
@@ -175,15 +174,15 @@ class Trials {
   Trial measured(const PerturbedMesh& mesh, const NamedFunction& function, const core::ScalarField& field,
                  const StabilityOutcome& outcome, const CleanPoints& clean, const Perturbation& perturbation,
                  std::size_t t, const core::Progress& progress) const {
-    const ChainOutcome made = apply_chain(prepared_.chains[outcome.method], mesh.loaded, function, field,
+    const ChainOutcome made = apply_chain(plan_.chains[outcome.method], mesh.loaded, function, field,
                                           {.target = outcome.target}, progress);
     Trial trial;
     trial.points = morse::classify(made.field, progress);
-    const PointsByType found = by_type(trial.points, prepared_.points, mesh.places);
+    const PointsByType found = by_type(trial.points, plan_.points, mesh.places);
     trial.points.points = {};
     trial.agreement = clean.match(found);
     const RandomStream random(
-        prepared_.seed, RandomUse::placement,
+        plan_.seed, RandomUse::placement,
         {std::uint64_t(perturbation.kind), std::bit_cast<std::uint64_t>(perturbation.amount), t});
     trial.chance = 2 * matches_by_chance(clean, found, mesh.places, random) /
                    static_cast<double>(trial.agreement.reference + trial.agreement.found);
@@ -191,7 +190,7 @@ class Trials {
   }
 
   const core::LoadedMesh& clean_;
-  const PreparedStability& prepared_;
+  const StabilityPlan& plan_;
   StabilityResult& result_;
   std::vector<CleanPoints> points_;  // by outcome
   TrialStore* store_;                // or null
@@ -199,30 +198,29 @@ class Trials {
 };
 
 /// All outcomes on the clean surface, and their points to be matched with.
-std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const PreparedStability& prepared,
+std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const StabilityPlan& plan,
                                    StabilityResult& result, const core::Progress& progress) {
-  for (const NamedFunction& function : prepared.functions)
+  for (const NamedFunction& function : plan.functions)
     result.fields.push_back(evaluate_field(clean, function, progress));
-  const core::ScalarField reference_input =
-      evaluate_field(clean, prepared.reference_function, progress).field;
+  const core::ScalarField reference_input = evaluate_field(clean, plan.reference_function, progress).field;
   std::vector<CleanPoints> points;
-  for (const std::optional<std::size_t>& target : prepared.targets)
-    for (std::size_t f = 0; f < prepared.functions.size(); ++f)
-      for (std::size_t m = 0; m < prepared.chains.size(); ++m) {
-        ChainOutcome made = apply_chain(prepared.chains[m], clean, prepared.functions[f],
-                                        result.fields[f].field, {.target = target}, progress);
+  for (const std::optional<std::size_t>& target : plan.targets)
+    for (std::size_t f = 0; f < plan.functions.size(); ++f)
+      for (std::size_t m = 0; m < plan.chains.size(); ++m) {
+        ChainOutcome made = apply_chain(plan.chains[m], clean, plan.functions[f], result.fields[f].field,
+                                        {.target = target}, progress);
         morse::CriticalPoints critical = morse::classify(made.field, progress);
-        const PointsByType compared = by_type(critical, prepared.points, clean.mesh.positions());
+        const PointsByType compared = by_type(critical, plan.points, clean.mesh.positions());
         const morse::CriticalPoints reference =
-            morse::classify(apply_chain(prepared.reference, clean, prepared.reference_function,
-                                        reference_input, {.target = critical.total()}, progress)
+            morse::classify(apply_chain(plan.reference, clean, plan.reference_function, reference_input,
+                                        {.target = critical.total()}, progress)
                                 .field);
-        const CleanPoints of_reference(by_type(reference, prepared.points, clean.mesh.positions()),
+        const CleanPoints of_reference(by_type(reference, plan.points, clean.mesh.positions()),
                                        result.radius);
         points.emplace_back(compared, result.radius);
         const Agreement agreement = of_reference.match(compared);
         const double chance = matches_by_chance(of_reference, compared, clean.mesh.positions(),
-                                                {prepared.seed, RandomUse::placement, {}}) /
+                                                {plan.seed, RandomUse::placement, {}}) /
                               static_cast<double>(agreement.found);
         result.outcomes.push_back(
             {f, m, target, std::move(made), std::move(critical), agreement, chance, {}});
@@ -275,53 +273,53 @@ StabilityRequest with_defaults(StabilityRequest request) {
   return request;
 }
 
-PreparedStability prepare(const StabilityRequest& given, const Registry& registry) {
+StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
   const StabilityRequest request = with_defaults(given);
   check_target(request.target);
   if (request.trials < 1) throw core::InvalidArgument("there must be at least one trial");
   if (request.fields.empty() || request.methods.empty())
     throw core::InvalidArgument("a field and a method are needed");
-  PreparedStability prepared{{},
-                             {},
-                             {},
-                             {std::nullopt},
-                             request.trials,
-                             request.seed,
-                             parse_radius(request.radius),
-                             request.points,
-                             registry.make_function(request.reference_field),
-                             registry.make_method(request.reference)};
-  const MatchingRadius& radius = prepared.radius;
+  StabilityPlan plan{{},
+                     {},
+                     {},
+                     {std::nullopt},
+                     request.trials,
+                     request.seed,
+                     parse_radius(request.radius),
+                     request.points,
+                     registry.make_function(request.reference_field),
+                     registry.make_method(request.reference)};
+  const MatchingRadius& radius = plan.radius;
   if (!(radius.share.value_or(radius.length.value) >= 0))
     throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
-  if (request.target) prepared.targets.push_back(request.target);
-  for (const std::string& field : request.fields) prepared.functions.push_back(registry.make_function(field));
-  for (const std::string& method : request.methods) prepared.chains.push_back(registry.make_method(method));
+  if (request.target) plan.targets.push_back(request.target);
+  for (const std::string& field : request.fields) plan.functions.push_back(registry.make_function(field));
+  for (const std::string& method : request.methods) plan.chains.push_back(registry.make_method(method));
   for (const double amount : request.noise)
-    prepared.perturbations.push_back({PerturbationKind::noise, amount, request.noise_kind});
+    plan.perturbations.push_back({PerturbationKind::noise, amount, request.noise_kind});
   for (const double amount : request.decimate)
-    prepared.perturbations.push_back({PerturbationKind::decimation, amount, NoiseKind::normal});
+    plan.perturbations.push_back({PerturbationKind::decimation, amount, NoiseKind::normal});
   for (const double amount : request.subdivide)
-    prepared.perturbations.push_back({PerturbationKind::subdivision, amount, NoiseKind::normal});
-  for (const Perturbation& perturbation : prepared.perturbations) check(perturbation);
-  for (const NamedFunction& function : prepared.functions)
+    plan.perturbations.push_back({PerturbationKind::subdivision, amount, NoiseKind::normal});
+  for (const Perturbation& perturbation : plan.perturbations) check(perturbation);
+  for (const NamedFunction& function : plan.functions)
     if (!request.subdivide.empty() && function.name == "vertex-scalar")
       throw core::InvalidArgument("vertex-scalar has no values for the vertices that --subdivide adds");
-  return prepared;
+  return plan;
 }
 
-StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
+StabilityResult run_stability(const core::LoadedMesh& clean, const StabilityPlan& plan,
                               const core::Progress& progress, TrialStore* store) {
   StabilityResult result;
-  result.radius = prepared.radius.on(clean.mesh);
+  result.radius = plan.radius.on(clean.mesh);
   result.mean_edge_length = core::mean_edge_length(clean.mesh);
   if (!(result.mean_edge_length > 0))
     throw core::BadInput("there is no noise in units of the mean edge length: all vertices coincide");
   const Stopwatch clean_watch;
-  std::vector<CleanPoints> points = run_clean(clean, prepared, result, progress);
+  std::vector<CleanPoints> points = run_clean(clean, plan, result, progress);
   result.clean_seconds = clean_watch.seconds();
   const Stopwatch trial_watch;
-  Trials(clean, prepared, result, std::move(points), store).run(progress);
+  Trials(clean, plan, result, std::move(points), store).run(progress);
   result.trial_seconds = trial_watch.seconds();
   return result;
 }

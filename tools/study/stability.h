@@ -50,7 +50,7 @@ struct MatchingRadius {
 };
 
 /// A request whose names and numbers have been looked up.
-struct PreparedStability {
+struct StabilityPlan {
   std::vector<NamedFunction> functions;
   std::vector<MethodChain> chains;
   std::vector<Perturbation> perturbations;
@@ -69,7 +69,7 @@ struct PreparedStability {
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values and what cannot go together. Touches no file.
-PreparedStability prepare(const StabilityRequest& request, const Registry& registry = Registry::standard());
+StabilityPlan prepare(const StabilityRequest& request, const Registry& registry = Registry::standard());
 
 /// What the clean surface's points (the reference) and those found on another one have in common.
 struct Agreement {
@@ -162,7 +162,7 @@ class TrialStore {
 /// is the same whatever else runs and at any number of threads. Throws what functions and methods throw; an
 /// error in a trial names the perturbation, trial, field and method, and of several it is that of the first.
 /// What the `store`, if there is one, has of trials is taken from it.
-StabilityResult run_stability(const core::LoadedMesh& clean, const PreparedStability& prepared,
+StabilityResult run_stability(const core::LoadedMesh& clean, const StabilityPlan& plan,
                               const core::Progress& progress = {}, TrialStore* store = nullptr);
 
 }  // namespace morsel::tools

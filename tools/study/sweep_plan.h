@@ -1,11 +1,12 @@
 #pragma once
-/// The combinations that a sweep runs through.
+/// A field and a method with every combination of some of their parameters' values: the combinations.
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "morsel/core/text/specification.h"
+#include "morsel/tools/study/registry.h"
 #include "morsel/tools/study/variation.h"
 
 namespace morsel::tools {
@@ -26,9 +27,10 @@ struct Combination {
 
 /// A request whose names and values have been looked up: all combinations, those next to each other that
 /// differ in the last variation alone.
-struct PreparedSweep {
+struct SweepPlan {
   std::vector<Variation> variations;
   std::vector<Combination> combinations;
+  Registry registry;  ///< a copy of the one that it was made with
 };
 
 /// The most combinations of one sweep.
@@ -40,6 +42,6 @@ inline constexpr std::size_t kMostCombinations = 1'000'000;
 /// Throws InvalidArgument if nothing varies, on keys that nothing or more than one thing has, that vary twice
 /// or are given a value besides, on what make_function() and make_method() refuse of any combination, and on
 /// more than kMostCombinations. Touches no file.
-PreparedSweep prepare(const SweepRequest& request);
+SweepPlan prepare(const SweepRequest& request, const Registry& registry = Registry::standard());
 
 }  // namespace morsel::tools

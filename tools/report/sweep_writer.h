@@ -10,7 +10,7 @@
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/report/report_writer.h"
-#include "morsel/tools/sweep/sweep.h"
+#include "morsel/tools/study/sweep.h"
 
 namespace morsel::tools {
 
@@ -19,12 +19,12 @@ struct SweepReport {
   const core::LoadedMesh& loaded;
   const ReportInput& input;
   const SweepRequest& request;
-  const PreparedSweep& prepared;
+  const SweepPlan& plan;
   const std::vector<SweepRow>& rows;
 };
 
 /// What was asked for, and with which ranges.
-Json request_section(const SweepRequest& request, const PreparedSweep& prepared, bool repair);
+Json request_section(const SweepRequest& request, const SweepPlan& plan, bool repair);
 
 /// What rows follow from, besides their combination: the key of their journal. `files` are those that fields
 /// read.

@@ -2,10 +2,12 @@
 /// The rows of an interrupted sweep.
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "morsel/tools/formats/journal.h"
-#include "morsel/tools/sweep/sweep.h"
+#include "morsel/tools/study/sweep.h"
 
 namespace morsel::tools {
 
@@ -13,7 +15,7 @@ namespace morsel::tools {
 class RowJournal {
  public:
   /// Refers to both. Entries that are not rows, all of one, are dropped.
-  RowJournal(Journal& journal, const PreparedSweep& prepared);
+  RowJournal(Journal& journal, const SweepPlan& plan);
 
   /// Rows of this sweep that the journal has.
   std::size_t count() const { return count_; }
@@ -24,7 +26,7 @@ class RowJournal {
   std::string name(std::size_t combination) const;
 
   Journal& journal_;
-  const PreparedSweep& prepared_;
+  const SweepPlan& plan_;
   std::vector<std::optional<SweepRow>> rows_;
   std::size_t count_ = 0;
 };

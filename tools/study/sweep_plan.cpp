@@ -1,4 +1,4 @@
-#include "morsel/tools/study/grid.h"
+#include "morsel/tools/study/sweep_plan.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,6 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/listed.h"
-#include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
 namespace {
@@ -24,13 +23,12 @@ struct Place {
 /// The field followed by the steps, and the keys of each.
 class Links {
  public:
-  explicit Links(const SweepRequest& request) {
+  Links(const SweepRequest& request, const Registry& registry) {
     links_ = {core::parse_specification(request.field, "--field")};
     for (core::Specification& step : core::parse_chain(request.method, "--method"))
       links_.push_back(std::move(step));
-    keys_ = {Registry::standard().keys_of_function(links_.front().name)};
-    for (std::size_t i = 1; i < links_.size(); ++i)
-      keys_.push_back(Registry::standard().keys_of_method(links_[i].name));
+    keys_ = {registry.keys_of_function(links_.front().name)};
+    for (std::size_t i = 1; i < links_.size(); ++i) keys_.push_back(registry.keys_of_method(links_[i].name));
   }
 
   Place place(const std::string& key) const {
@@ -119,17 +117,17 @@ class Links {
 
 }  // namespace
 
-PreparedSweep prepare(const SweepRequest& request) {
+SweepPlan prepare(const SweepRequest& request, const Registry& registry) {
   if (request.vary.empty())
     throw InvalidArgument(
         "nothing varies: say what, as in --vary iterations=1..20 or --vary sigma=4eps,8eps,16eps");
-  const Links links(request);
-  PreparedSweep prepared;
+  const Links links(request, registry);
+  SweepPlan plan{{}, {}, registry};
   std::vector<Place> places;
   std::size_t count = 1;
   for (const std::string& text : request.vary) {
-    prepared.variations.push_back(parse_variation(text));
-    const Variation& variation = prepared.variations.back();
+    plan.variations.push_back(parse_variation(text));
+    const Variation& variation = plan.variations.back();
     Place place = links.place(variation.key);
     if (std::ranges::count(places, place) > 0)
       throw InvalidArgument("--vary varies \"" + variation.key + "\" twice: give all its values at once");
@@ -141,15 +139,15 @@ PreparedSweep prepare(const SweepRequest& request) {
                           " combinations; sweep in parts");
   std::vector<std::size_t> choices(places.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
-    prepared.combinations.push_back(links.combination(places, prepared.variations, choices));
-    Registry::standard().make_function(to_string(prepared.combinations.back().field));
-    Registry::standard().make_method(to_string(prepared.combinations.back().steps));
+    plan.combinations.push_back(links.combination(places, plan.variations, choices));
+    registry.make_function(to_string(plan.combinations.back().field));
+    registry.make_method(to_string(plan.combinations.back().steps));
     for (std::size_t k = places.size(); k-- > 0;) {
-      if (++choices[k] < prepared.variations[k].values.size()) break;
+      if (++choices[k] < plan.variations[k].values.size()) break;
       choices[k] = 0;
     }
   }
-  return prepared;
+  return plan;
 }
 
 }  // namespace morsel::tools

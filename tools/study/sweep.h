@@ -1,23 +1,43 @@
 #pragma once
 /// A field and a method with every combination of some of their parameters' values.
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/parallel/progress.h"
-#include "morsel/tools/formats/json_stream.h"
-#include "morsel/tools/study/grid.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/tools/study/chain.h"
+#include "morsel/tools/study/summary.h"
+#include "morsel/tools/study/sweep_plan.h"
 
 namespace morsel::tools {
 
-/// What came of a combination, as documents hold it.
-struct SweepRow {  // NOLINT(bugprone-exception-escape): of the JSON library
-  /// {"field", "method", "iterations_run", "critical_points", "persistence"}, see sweep.schema.json
-  Json result;
-  /// {"field", "method", "measuring"}: seconds that the combination would have taken by itself
-  Json seconds;
+/// Seconds that a combination would have taken by itself.
+struct SweepSeconds {
+  double field = 0;
+  double method = 0;
+  double measuring = 0;
+  double sum() const { return field + method + measuring; }
+};
+
+/// What came of a combination.
+struct SweepRow {
+  FieldSummary field;              ///< before the method
+  std::vector<StepOutcome> steps;  ///< without records of their iterations
+  double min = 0;                  ///< of the field that the method made
+  double max = 0;
+  std::optional<std::int64_t> iterations_run = {};  ///< of all steps together; none if no step iterates
+  morse::CriticalPoints critical_points;            ///< counts only
+  PersistenceSummary persistence;
+  SweepSeconds seconds;
+
+  /// "salient+tps"
+  std::string method_name() const;
 };
 
 struct SweepOptions {
@@ -37,7 +57,7 @@ struct SweepOptions {
 ///
 /// Seconds of a row that was read out are those up to its iteration. Throws what functions and methods throw;
 /// an error names its combination.
-std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const PreparedSweep& prepared,
+std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const SweepPlan& plan,
                                 const SweepOptions& options = {}, const core::Progress& progress = {});
 
 }  // namespace morsel::tools

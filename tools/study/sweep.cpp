@@ -1,4 +1,4 @@
-#include "morsel/tools/sweep/sweep.h"
+#include "morsel/tools/study/sweep.h"
 
 #include <algorithm>
 #include <map>
@@ -12,7 +12,6 @@
 #include "morsel/core/text/parameters.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/persistence/pairing.h"
-#include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/study/chain.h"
 #include "morsel/tools/study/comparison.h"
 
@@ -73,14 +72,10 @@ class HeldWatch {
 
 class SweepRun {
  public:
-  SweepRun(const core::LoadedMesh& loaded, const PreparedSweep& prepared, const SweepOptions& options,
+  SweepRun(const core::LoadedMesh& loaded, const SweepPlan& plan, const SweepOptions& options,
            const core::Progress& progress)
-      : loaded_(loaded),
-        prepared_(prepared),
-        options_(options),
-        progress_(progress),
-        silent_(progress.unreported()) {
-    rows_.resize(prepared.combinations.size());
+      : loaded_(loaded), plan_(plan), options_(options), progress_(progress), silent_(progress.unreported()) {
+    rows_.resize(plan.combinations.size());
     for (std::size_t i = 0; i < options.known.size(); ++i)
       if (options.known[i]) {
         rows_[i] = *options.known[i];
@@ -92,10 +87,10 @@ class SweepRun {
     Members members;
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (options_.known.empty() || !options_.known[i]) members.push_back(i);
-    const auto field_text = [&](std::size_t i) { return to_string(prepared_.combinations[i].field); };
+    const auto field_text = [&](std::size_t i) { return to_string(plan_.combinations[i].field); };
     for (const Members& group : grouped_by(members, field_text)) {
       show_progress();
-      const NamedFunction function = Registry::standard().make_function(field_text(group.front()));
+      const NamedFunction function = plan_.registry.make_function(field_text(group.front()));
       const FieldOutcome field =
           named(group.front(), [&] { return evaluate_field(loaded_, function, silent_); });
       function_ = &function;
@@ -107,28 +102,23 @@ class SweepRun {
 
  private:
   /// What is known of a combination before its row is whole.
-  struct Draft {  // NOLINT(bugprone-exception-escape): of the JSON library
-    std::vector<StepOutcome> steps;
+  struct Draft {
+    SweepRow row;
     std::vector<double> seconds;  // of each step
-    Json measured;
-    double measuring_seconds = 0;
   };
 
   /// The step and those after it, on `input`.
   void descend(const ScalarField& input, const Members& members, std::size_t step) {
-    if (step == prepared_.combinations[members.front()].steps.size()) {
+    if (step == plan_.combinations[members.front()].steps.size()) {
       measure(input, members.front());
       return;
     }
     const auto specification = [&](std::size_t i) -> const core::Specification& {
-      return prepared_.combinations[i].steps[step];
+      return plan_.combinations[i].steps[step];
     };
     const auto readable = [&](std::size_t i) {
-      return iterations_of(specification(i)) && Registry::standard()
-                                                    .make_method(to_string(specification(i)))
-                                                    .steps.front()
-                                                    .method->traits()
-                                                    .tells_results;
+      return iterations_of(specification(i)) &&
+             make_step(specification(i)).steps.front().method->traits().tells_results;
     };
     const auto text = [&](std::size_t i) {
       return to_string(readable(i) ? without_iterations(specification(i)) : specification(i));
@@ -137,10 +127,14 @@ class SweepRun {
       readable(group.front()) ? read_out(input, group, step) : apply(input, group, step);
   }
 
+  MethodChain make_step(const core::Specification& step) const {
+    return plan_.registry.make_method(to_string(step));
+  }
+
   void apply(const ScalarField& input, const Members& members, std::size_t step) {
     show_progress();
-    const core::Specification& specification = prepared_.combinations[members.front()].steps[step];
-    const MethodChain chain = Registry::standard().make_method(to_string(specification));
+    const core::Specification& specification = plan_.combinations[members.front()].steps[step];
+    const MethodChain chain = make_step(specification);
     const HeldWatch watch;
     core::MethodResult result = named(members.front(), [&] {
       return chain.steps.front().method->apply(input, method_context(loaded_, *function_, silent_));
@@ -153,11 +147,11 @@ class SweepRun {
   /// One run with the largest number of iterations.
   void read_out(const ScalarField& input, const Members& members, std::size_t step) {
     std::map<int, Members> by_iterations;
-    const auto specification = [&](std::size_t i) { return prepared_.combinations[i].steps[step]; };
+    const auto specification = [&](std::size_t i) { return plan_.combinations[i].steps[step]; };
     for (const std::size_t i : members) by_iterations[*iterations_of(specification(i))].push_back(i);
     show_progress();
     const std::size_t longest = by_iterations.rbegin()->second.front();
-    const MethodChain chain = Registry::standard().make_method(to_string(specification(longest)));
+    const MethodChain chain = make_step(specification(longest));
     HeldWatch watch;
     std::map<int, double> seconds;
     const auto read = [&](int iterations, const ScalarField& field) {
@@ -194,22 +188,21 @@ class SweepRun {
   /// Steps are finished in any order: those inside a run that is read out come first.
   void finish_step(std::size_t i, std::size_t step, const StepOutcome& outcome, double seconds) {
     Draft& draft = drafts_[i];
-    draft.steps.resize(prepared_.combinations[i].steps.size());
-    draft.seconds.resize(draft.steps.size());
-    draft.steps[step] = outcome;
+    draft.row.steps.resize(plan_.combinations[i].steps.size());
+    draft.seconds.resize(draft.row.steps.size());
+    draft.row.steps[step] = outcome;
     draft.seconds[step] = seconds;
   }
 
   void measure(const ScalarField& field, std::size_t i) {
     const Stopwatch watch;
-    const morse::CriticalPoints points = morse::classify(field, silent_);
-    const persistence::Diagram diagram = persistence::pair_extrema(field, silent_);
-    Draft& draft = drafts_[i];
-    draft.measured = {{"min", field.min()},
-                      {"max", field.max()},
-                      {"critical_points", counts_section(points)},
-                      {"persistence", persistence_section(diagram, field.extent())}};
-    draft.measuring_seconds = watch.seconds();
+    SweepRow& row = drafts_[i].row;
+    row.min = field.min();
+    row.max = field.max();
+    row.critical_points = morse::classify(field, silent_);
+    row.critical_points.points = {};
+    row.persistence = summary_of(persistence::pair_extrema(field, silent_), field.extent());
+    row.seconds.measuring = watch.seconds();
     emit();
   }
 
@@ -217,28 +210,13 @@ class SweepRun {
   void emit() {
     if (open_runs_ > 0) return;
     for (auto& [i, draft] : drafts_) {
-      std::int64_t iterations = 0;
-      bool iterates = false;
-      for (const StepOutcome& step : draft.steps)
-        if (const std::optional<int> run = iterations_run(step)) {
-          iterations += *run;
-          iterates = true;
-        }
-      std::string name;
-      for (const StepOutcome& step : draft.steps) name += (name.empty() ? "" : "+") + step.name;
-      SweepRow& row = rows_[i];
-      row.result = {{"field", field_section(*field_)},
-                    {"method",
-                     {{"name", name},
-                      {"parameters", parameters_section(draft.steps)},
-                      {"min", draft.measured["min"]},
-                      {"max", draft.measured["max"]}}},
-                    {"iterations_run", iterates ? Json(iterations) : Json()},
-                    {"critical_points", draft.measured["critical_points"]},
-                    {"persistence", draft.measured["persistence"]}};
-      row.seconds = {{"field", field_->seconds},
-                     {"method", std::reduce(draft.seconds.begin(), draft.seconds.end())},
-                     {"measuring", draft.measuring_seconds}};
+      SweepRow& row = rows_[i] = std::move(draft.row);
+      row.field = summary_of(*field_);
+      for (const StepOutcome& step : row.steps)
+        if (const std::optional<int> run = iterations_run(step))
+          row.iterations_run = row.iterations_run.value_or(0) + *run;
+      row.seconds.field = field_->seconds;
+      row.seconds.method = std::reduce(draft.seconds.begin(), draft.seconds.end());
       ++done_;
       if (options_.on_row) options_.on_row(i, row);
     }
@@ -248,7 +226,7 @@ class SweepRun {
   /// Does the work; an error of it names the combination, unless work within it has named its own.
   template <class Work>
   std::invoke_result_t<const Work&> named(std::size_t i, const Work& work) {
-    const Combination& combination = prepared_.combinations[i];
+    const Combination& combination = plan_.combinations[i];
     try {
       return work();
     } catch (const core::Error& error) {
@@ -262,7 +240,7 @@ class SweepRun {
   }
 
   const core::LoadedMesh& loaded_;
-  const PreparedSweep& prepared_;
+  const SweepPlan& plan_;
   const SweepOptions& options_;
   const core::Progress& progress_;
   core::Progress silent_;  // of a combination: the sweep reports itself
@@ -277,9 +255,15 @@ class SweepRun {
 
 }  // namespace
 
-std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const PreparedSweep& prepared,
+std::string SweepRow::method_name() const {
+  std::string name;
+  for (const StepOutcome& step : steps) name += (name.empty() ? "" : "+") + step.name;
+  return name;
+}
+
+std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const SweepPlan& plan,
                                 const SweepOptions& options, const core::Progress& progress) {
-  return SweepRun(loaded, prepared, options, progress).run();
+  return SweepRun(loaded, plan, options, progress).run();
 }
 
 }  // namespace morsel::tools

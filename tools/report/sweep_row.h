@@ -1,0 +1,18 @@
+#pragma once
+/// A row of a sweep as documents and journals hold it, written and read back.
+
+#include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/study/sweep.h"
+
+namespace morsel::tools {
+
+/// {"field", "method", "iterations_run", "critical_points", "persistence"}, see sweep.schema.json
+Json row_section(const SweepRow& row);
+/// {"field", "method", "measuring"}
+Json seconds_section(const SweepSeconds& seconds);
+
+/// The row that both sections were made of, but for the details of its steps, which no section holds. Throws
+/// BadInput (json_view.h) on other shapes.
+SweepRow read_row(const JsonView& row, const JsonView& seconds);
+
+}  // namespace morsel::tools
