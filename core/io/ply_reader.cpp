@@ -295,7 +295,7 @@ class BinaryBody {
   std::size_t values_ = 0;  // since progress was reported
 };
 
-/// What becomes of the elements, however they are encoded.
+/// Stores the elements, in either encoding.
 template <class Body>
 class BodyReader {
  public:
