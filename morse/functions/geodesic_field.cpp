@@ -31,7 +31,7 @@ Source parse_source(const std::string& text, const std::string& what) {
   return {vertex, 0, false};
 }
 
-/// The smallest vertex that is lowest or highest.
+/// The lowest or highest vertex, the smallest in a tie.
 Index end_of(const TriangleMesh& mesh, int axis, bool highest) {
   Index best = 0;
   for (Index v = 1; v < mesh.vertex_count(); ++v) {

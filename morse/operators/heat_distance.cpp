@@ -98,7 +98,7 @@ struct HeatDistance::Operators {
   double unit;
   double time;  // in the mesh's unit
   std::vector<Element> elements;
-  std::optional<Cholesky> free, cold;  // heat
+  std::optional<Cholesky> free, cold;  // heat with Neumann and with Dirichlet conditions
   std::optional<Cholesky> poisson;
 
   void check(std::span<const Index> sources) const;
@@ -106,7 +106,7 @@ struct HeatDistance::Operators {
   std::vector<double> divergence(const std::vector<double>& heat) const;
 };
 
-/// Every component must get some heat.
+/// Throws if a component receives no heat.
 void HeatDistance::Operators::check(std::span<const Index> sources) const {
   std::vector<bool> reached(mesh.component_count());
   std::vector<bool> lost(mesh.component_count());
