@@ -71,9 +71,8 @@ class Salient final : public core::Method {
   core::ScalarField at_scale(const core::ScalarField& given, const core::MethodContext& context) const {
     if (!context.morse_function)
       throw core::InvalidArgument(
-          "salient with a scale takes the Morse function again on the smoothed surface, and there is none "
-          "for this "
-          "field");
+          "salient with a scale evaluates the Morse function on the smoothed surface, but this field has "
+          "none");
     const core::TriangleMesh surface = low_pass(given.mesh(), scale_, context.progress);
     try {
       const core::ScalarField field = context.morse_function(surface);
