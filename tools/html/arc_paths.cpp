@@ -12,7 +12,7 @@ using core::Index;
 using core::kNone;
 using core::TriangleMesh;
 
-/// The saddles, the one with the largest reach first; among equals as the complex has them.
+/// The saddles by falling reach; equal ones in the complex's order.
 std::vector<Index> by_falling_reach(std::span<const double> reach) {
   std::vector<Index> order(reach.size());
   std::iota(order.begin(), order.end(), Index{0});

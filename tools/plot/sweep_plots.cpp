@@ -18,7 +18,7 @@ double count_of(const SweepRow& row, const char* count) {
   return row.result.at("critical_points").at(count).get<double>();
 }
 
-/// Where the values of a variation stand, and in which order lines go through them.
+/// The positions of a variation's values, and the order in which lines go through them.
 class ValueAxis {
  public:
   explicit ValueAxis(const Variation& variation) : places_(numbers_of(variation.values, unit_)) {

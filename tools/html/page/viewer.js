@@ -144,7 +144,7 @@ class Viewer {
     const columns = this.columns(shown.length);
     element('views').style.setProperty('--columns', columns);
     const first = this.page.methods[0].values;
-    const isSigned = bothSigns(first.range);  // of one field, of all that methods make of it
+    const isSigned = bothSigns(first.range);  // one choice for the fields of all methods
     for (const view of this.views) {
       view.area.hidden = !state.shown[view.number];
       if (view.area.hidden) continue;
