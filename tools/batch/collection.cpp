@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What cannot be asked about is read as a list, which says why.
+/// A path whose status is unknown is read as a list, which reports the error.
 bool is_folder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(path, error);
