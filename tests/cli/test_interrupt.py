@@ -183,7 +183,7 @@ class Setting:
 
     @staticmethod
     def problem(arguments, code, errors, left):
-        """What is not as it must be after an interruption; none: ''."""
+        """What is wrong after an interruption; '' if nothing is."""
         if code == 0:
             return ""
         if code != 130:

@@ -137,7 +137,7 @@ def wrong_children(fault, folder):
 
 
 def run(fault, prepared, folder, tell=None):
-    """Whether the fault came about, and what was wrong then."""
+    """Whether the fault occurred, and what was wrong then."""
     ready = prepared[fault.scenario]
     place = ready.copy(folder / "place")
     mark = folder / "mark"
@@ -162,7 +162,7 @@ def run(fault, prepared, folder, tell=None):
     wrong += wrong_words(fault, result.returncode, errors)
     if fault.scenario.startswith("batch"):
         wrong += wrong_children(fault, place)
-    # Names are swept by the next run where they could not be removed or nobody was left to do it.
+    # Files left over are removed by the next run.
     swept = (r"\.morsel-[0-9]+-[0-9]+\.tmp$",
              ) if fault.kind == "remove" or fault.code == signal.SIGKILL else ()
     if result.returncode == 0 and fault.kind != "remove":

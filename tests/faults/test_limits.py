@@ -34,7 +34,7 @@ class LimitTest(unittest.TestCase):
                               check=False, **options)
 
     def check_end(self, ready, folder, result, codes):
-        """One sentence for an error, old files or new ones, nothing else; and the next run is as ever."""
+        """One sentence for an error, old files or new ones, nothing else; and the next run succeeds."""
         self.assertIn(result.returncode, codes, result.stderr)
         if result.returncode in (3, 4, 5):
             self.assertRegex(result.stderr, r"\A(morsel: warning: .*\n)*morsel: (?!warning).*\n\Z")
@@ -154,7 +154,7 @@ class Limits(LimitTest):
 
 
 class Outputs(LimitTest):
-    def test_what_prints_fails_if_it_cannot_be_printed(self):
+    def test_commands_that_print_fail_if_that_fails(self):
         (self.folder / "mesh.off").write_text(OCTAHEDRON)
         for arguments in (["--help"], ["--version"], ["compare", "--help"], ["info", "mesh.off"],
                           ["info", "mesh.off", "--json"],
@@ -239,7 +239,7 @@ class Signals(LimitTest):
 
 
 class Sweeping(LimitTest):
-    def test_only_what_is_nobodys_goes(self):
+    def test_only_files_left_over_are_removed(self):
         mesh = self.folder / "mesh.off"
         mesh.write_text(OCTAHEDRON)
         keep = [".morsel-1-x.tmp", ".morsel-1-2.tmp.bak", "morsel-1-2.tmp", ".morsel--2.tmp",

@@ -1,5 +1,5 @@
 #pragma once
-/// Seeded fields for the tests, kind ones and nasty ones.
+/// Seeded fields for the tests, generic and degenerate ones.
 
 #include <string>
 #include <vector>
