@@ -53,7 +53,7 @@ std::string mesh_extensions(std::string_view last = " or ");
 /// about 200 MB of text a second and thread (OFF and OBJ are read in parallel), and 500 MB of binary PLY.
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress = {});
 
-/// The same for a file that is in memory; `name` stands for it in errors.
+/// The same for a file that is in memory; errors call it `name`.
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
                               const Progress& progress = {});
 

@@ -70,7 +70,7 @@ int lock(int file, int how) {
   return result;
 }
 
-/// Removes the entry if it is a temporary file that nobody is writing.
+/// Removes the entry if it is a temporary file that no process is writing.
 void remove_if_left(int folder, const char* name) {
   struct stat found {};
   if (::fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode) ||
@@ -103,7 +103,7 @@ void remove_left_once(const fs::path& folder) {
     if (is_temporary_name(entry->d_name)) remove_if_left(::dirfd(entries.get()), entry->d_name);
 }
 
-/// The path by which the system knows an open file, with or without a name.
+/// The system's path of an open file, with or without a name.
 std::array<char, 40> path_of(int file) {
   std::array<char, 40> path{};
   std::snprintf(path.data(), path.size(), "/proc/self/fd/%d", file);

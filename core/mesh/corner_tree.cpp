@@ -66,7 +66,7 @@ struct CornerTree::Search {
   const Tree& tree;
   std::array<Index, 64> pending = {0};  // a tree is as deep as the number of sites has bits
   std::size_t count = 1;
-  std::uint64_t steps = 0;  // boxes and corners looked at so far
+  std::uint64_t steps = 0;  // boxes and corners tested so far
 };
 
 CornerTree::CornerTree(std::span<const Point> positions, const Point& normal,

@@ -29,7 +29,7 @@ class CornerTree {
   void remove(std::size_t corner);
 
   /// Whether one of the corners lies in the triangle, its side ca included. Corners at the position of a, b
-  /// or c do not count: the polygon touches itself there. Adds the number of boxes and corners looked at to
+  /// or c do not count: the polygon touches itself there. Adds the number of boxes and corners tested to
   /// `tests`.
   bool any_in(std::size_t a, std::size_t b, std::size_t c, std::uint64_t& tests);
 

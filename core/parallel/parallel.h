@@ -28,7 +28,7 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
-/// Elements a chunk has when the caller does not say: small enough to balance the load, large enough to
+/// Elements of a chunk by default: small enough to balance the load, large enough to
 /// outweigh the overhead.
 inline constexpr std::size_t kGrain = 2048;
 

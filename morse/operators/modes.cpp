@@ -110,7 +110,7 @@ Modes lanczos(ShiftedInverse& inverse, Index count, std::mt19937& random) {
   VectorXd start(n);
   for (double& x : start) x = static_cast<double>(random()) / 4294967296.0 - 0.5;
   inverse.project(start);
-  const Index space = std::min(n, count + count / 2 + 20);  // as seen to take least time
+  const Index space = std::min(n, count + count / 2 + 20);  // fastest in measurements
   Spectra::SymEigsSolver<ShiftedInverse> solver(inverse, count, space);
   solver.init(start.data());
   solver.compute(Spectra::SortRule::LargestAlge, kRestarts, kAccuracy, Spectra::SortRule::LargestAlge);

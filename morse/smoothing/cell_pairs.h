@@ -20,7 +20,7 @@ struct CellLayer {
   std::size_t points = 0;             ///< a cell holds, about
   std::vector<std::uint32_t> firsts;  ///< cell c has the blocks firsts[c] … firsts[c + 1] − 1
   std::vector<std::uint32_t> pair_ends;
-  std::vector<std::uint32_t> partners;  ///< of cell c: up to pair_ends[c]; pairs stand in both lists
+  std::vector<std::uint32_t> partners;  ///< of cell c: up to pair_ends[c]; each pair is in both lists
 
   std::size_t size() const { return pair_ends.size(); }
   std::span<const std::uint32_t> partners_of(std::size_t cell) const {

@@ -38,11 +38,11 @@ struct LaplacianDenoising {
 /// sampling of its ball, and so do one-ring curvatures of the result: on clean, unevenly sampled meshes they
 /// may have more critical points than before.
 ///
-/// The mean edge says little about neighbourhoods where few long edges meet many short ones, as at a vertex
-/// of very large degree: balls of the default σ_c could hold all vertices each. So with the default, and
-/// where the balls of the first surface hold more than kMostInBall vertices on average, a ball's radius is at
-/// most the distance to the kMostInBall-th nearest vertex (its centre counts). A σ_c that is given is taken
-/// as it is.
+/// The mean edge does not determine the size of neighbourhoods where few long edges meet many short ones, as
+/// at a vertex of very large degree: balls of the default σ_c could hold all vertices each. So with the
+/// default, and where the balls of the first surface hold more than kMostInBall vertices on average, a ball's
+/// radius is at most the distance to the kMostInBall-th nearest vertex (its centre counts). A σ_c that is
+/// given is taken as it is.
 ///
 /// Laplacian: v ← v + λ (Σ w x / Σ w − v) over the neighbours, with edge_weights() of the current surface. It
 /// shrinks closed surfaces; boundary vertices stay, or boundaries would shrink to points. A vertex whose

@@ -2,7 +2,7 @@
 /// The inner loops of the bilateral filter, one set of functions for each instruction set.
 ///
 /// The files that implement them are compiled with different flags, so they must share nothing that a linker
-/// could merge: here and in pair_kernels.inc stand plain structs only, no function is defined outside an
+/// could merge: here and in pair_kernels.inc are plain structs only, no function is defined outside an
 /// unnamed namespace, and nothing of the standard library but its integers is used.
 
 #include <cstddef>

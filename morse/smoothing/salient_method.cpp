@@ -128,8 +128,9 @@ SalientResult run_salient(const core::ScalarField& input, SalientOptions options
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   const bool robust =
-      reader.choice("preset", kPaper.name, {kPaper.name, kRobust.name},
-                    "what keys that are not given have: robust ones by measurement, for noisy surfaces") ==
+      reader.choice(
+          "preset", kPaper.name, {kPaper.name, kRobust.name},
+          "the defaults of the other keys: the paper's, or those measured as robust on noisy surfaces") ==
       kRobust.name;
   const Preset& preset = robust ? kRobust : kPaper;
   SalientOptions options;

@@ -60,8 +60,8 @@ class SharedSums {
   struct Grid {
     double first;  // value of the first place
     int panels;
-    double low, high;  // the values that it serves
-    double outside;    // how many it does not
+    double low, high;  // the values within it
+    double outside;    // the number of values outside
   };
   struct Point;
   class Pass;

@@ -3,12 +3,12 @@
 program.
 
     run.py [RUNS] [--seed S] [--seconds T]     RUNS faults drawn at random (default 300), at most T seconds
-    run.py --one SCENARIO SCOPE KIND AT ALL CODE NAMED    one of them, as a violation names it, and what came
-    of it
+    run.py --one SCENARIO SCOPE KIND AT ALL CODE NAMED    one of them, as a violation names it, and its
+    outcome
 
 The environment names the program (MORSEL_PROGRAM) and the library that makes calls fail (MORSEL_FAULTS,
 inject.c). Promised are, whatever fails: a documented exit code, that of what failed; one sentence on standard
-error; files that were there are as they were or complete new ones; nothing else is left; and the next run
+error; existing files are unchanged or complete new ones; nothing else is left; and the next run
 succeeds with equal results. Ends with 1 if there was a violation.
 """
 

@@ -92,7 +92,7 @@ class Limits(LimitTest):
 
     @unittest.skipIf(os.geteuid() != 0, "only root can become a user whose processes are counted")
     def test_threads_and_processes(self):
-        # The limit counts all processes of the user: one that nobody else has.
+        # The limit counts all processes of the user: one of these tests alone.
         user = NOBODY - os.getpid() % 10000
         least = 1 + self.threads_of_libraries()
         self.folder.chmod(0o777)

@@ -16,7 +16,7 @@ struct CollectionMesh {
 
 /// Of a folder: all .off, .obj, .ply and .stl files in it and the folders in it, by name. Of any other file:
 /// a mesh on each line, in the order of the lines; relative paths begin at the list's folder; empty lines and
-/// those that begin with # are passed over.
+/// those that begin with # are skipped.
 ///
 /// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws
 /// BadInput where the folder or list cannot be read or has no mesh, where two meshes have one name, and where

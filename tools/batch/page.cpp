@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShownFirst = 500;  // rows; the others when all are asked for
+constexpr std::size_t kShownFirst = 500;  // rows; the others on request
 
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {

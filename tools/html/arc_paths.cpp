@@ -44,7 +44,7 @@ ArcPaths descending_paths(const mscomplex::MorseSmaleComplex& complex, std::span
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
     for (const Index start : complex.mesh().edge_vertices(saddle.cell)) {
       const std::size_t first = paths.cells.size();
-      if (start == saddle.vertex && walked[start]) continue;  // a multiple saddle goes down here once
+      if (start == saddle.vertex && walked[start]) continue;  // a multiple saddle descends here once
       if (start != saddle.vertex) paths.cells.push_back(saddle.vertex);
       Index v = start;
       for (; v != kNone && !walked[v]; v = gradient.descend(v)) {

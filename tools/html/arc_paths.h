@@ -20,7 +20,7 @@ struct ArcPaths {
   std::vector<std::uint32_t> saddle;  ///< per polyline: the saddle's vertex
   std::vector<double> reach;          ///< per polyline: the persistence up to which it is shown
   std::vector<std::uint32_t> length;  ///< per polyline: its number of cells
-  std::vector<std::uint8_t> end;      ///< per polyline: where it goes from its last cell (kEnd…)
+  std::vector<std::uint8_t> end;      ///< per polyline: its end after its last cell (kEnd…)
   std::vector<std::uint32_t> cells;   ///< of all polylines, one after the other
 
   static constexpr std::uint8_t kEndThere = 0;   ///< nowhere

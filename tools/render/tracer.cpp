@@ -121,7 +121,7 @@ class Shader {
     for (std::uint32_t i = first * sky_rays; i < (first + 1) * sky_rays; ++i) {
       const Eigen::Vector2f d = on_disc(sky(i));
       Vec3 out = frame.at(d[0], d[1], std::sqrt(std::max(0.f, 1 - d.squaredNorm())));
-      const float height = out.dot(s.facet);  // the smooth surface sees a little below the facet's horizon
+      const float height = out.dot(s.facet);  // the smooth surface's horizon is slightly below the facet's
       if (height < 0) out -= 2 * height * s.facet;
       const float reach = kSkyReach * std::sqrt(sky.line(i)) + 0.01f;
       if (!rays_.any(start, out, 0, reach)) result.diffuse += 0.80f + 0.26f * out.dot(lights.up);

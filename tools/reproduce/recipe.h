@@ -51,7 +51,7 @@ struct FigureRecipe {
   int number = 0;
   std::size_t model = 0;  ///< in models()
   std::string_view title;
-  std::string_view paper;  ///< what the paper says should be seen
+  std::string_view paper;  ///< what the paper says about it
   std::vector<PanelRecipe> panels;
   /// Two panels (by number): their region is where the first keeps most points and the second fewest.
   std::optional<std::array<std::size_t, 2>> compared = {};

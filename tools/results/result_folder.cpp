@@ -299,11 +299,11 @@ void ResultFolder::remove_left_work(const fs::path& around) {
        at != list_->entries().end() && at->starts_with(prefix); ++at)
     if (at->ends_with('/')) left.push_back(*at);
   for (const std::string& entry : left)
-    if (nobody_works_in(entry.substr(0, entry.size() - 1))) remove_listed_work(around, entry);
+    if (is_abandoned(entry.substr(0, entry.size() - 1))) remove_listed_work(around, entry);
 }
 
 /// Whether no process uses a work folder. False if that is unknown, or if it is no longer a folder.
-bool ResultFolder::nobody_works_in(const fs::path& work) const {
+bool ResultFolder::is_abandoned(const fs::path& work) const {
   try {
     const Descriptor folder = open_below(root_.number(), work, Missing::tell, path_);
     if (!folder.is_open()) return true;

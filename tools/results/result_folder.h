@@ -101,7 +101,7 @@ class ResultFolder {
   /// The folder that a path is in. Not open if it is missing.
   Descriptor parent_of(const std::filesystem::path& relative, Missing missing) const;
   void refuse_foreign(const std::filesystem::path& file) const;
-  bool nobody_works_in(const std::filesystem::path& work) const;
+  bool is_abandoned(const std::filesystem::path& work) const;
   bool remove_listed_work(const std::filesystem::path& around, const std::string& entry);
 
   std::filesystem::path path_;

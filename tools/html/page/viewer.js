@@ -36,7 +36,7 @@ class View {
   }
 
   arcsOf(kind) {
-    if (!(kind in this.arcs)) {  // made when first asked for
+    if (!(kind in this.arcs)) {  // made when first needed
       const color = kind === 'descending' ? [0.05, 0.16, 0.45] : [0.50, 0.04, 0.10];
       this.arcs[kind] = new Arcs(arcPieces(this.mesh, this.method, kind), color);
       this.scene.add(this.arcs[kind].object);
