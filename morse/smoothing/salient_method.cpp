@@ -148,13 +148,13 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
                                           "the field to return: f, or the last S instead") == "saliency";
   if (reader.choice(
           "precision", "double", {"double", "single"},
-          "of weights and sums; single is faster, up to 2e-6 of the extent off after 10 iterations") ==
+          "of weights and sums; single is faster, up to 2e-6 of the field's range off after 10 iterations") ==
       "single")
     options.precision = Precision::float32;
-  options.accuracy =
-      reader.number("accuracy", 0, {0, false, 1},
-                    "share of the field's extent by which the "
-                    "result may be off, so that large meshes take less time; 0 for an exact result");
+  options.accuracy = reader.number(
+      "accuracy", 0, {0, false, 1},
+      "share of the field's range by which the result may be off, so that large meshes take less time; 0 for "
+      "an exact result");
   read_neighbors(reader, options);
   const core::Length scale = read_scale(reader, preset.scale);
   check(options);
