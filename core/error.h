@@ -6,9 +6,9 @@
 
 namespace morsel::core {
 
-/// What went wrong, coarsely; the program maps each to an exit code.
+/// Kinds of errors; the program maps each to an exit code.
 enum class ErrorKind {
-  invalid_argument,  ///< a parameter out of range, an unknown name or key: the caller's to mend (exit code 2)
+  invalid_argument,  ///< a parameter out of range, an unknown name or key: the caller's mistake (exit code 2)
   bad_input,         ///< a file or mesh or field that is missing, damaged or refused (exit code 3)
   write_failed,      ///< an output could not be written whole (exit code 4)
   cancelled          ///< the caller asked, through Progress, to stop (exit codes 130 and 143)
@@ -43,7 +43,7 @@ class WriteFailed : public Error {
   explicit WriteFailed(const std::string& message) : Error(ErrorKind::write_failed, message) {}
 };
 
-/// Thrown out of a running computation after its Progress was told to stop.
+/// Thrown by a computation whose stop was requested.
 class Cancelled : public Error {
  public:
   Cancelled() : Error(ErrorKind::cancelled, "cancelled") {}

@@ -1,5 +1,5 @@
 #pragma once
-/// How the validate() functions speak up.
+/// The checks of the validate() functions.
 
 #include <stdexcept>
 #include <string>
@@ -8,12 +8,11 @@
 
 namespace morsel::core {
 
-/// What a check demands: require(holds, what, where) throws std::logic_error "CHECK: WHAT WHERE" unless it
-/// holds. For contradictions within the library, which no input may bring about. Costs nothing where all is
-/// well.
+/// require(holds, what, where) throws std::logic_error "CHECK: WHAT WHERE" if `holds` is false: for
+/// contradictions within the library, which no input may cause.
 class Require {
  public:
-  /// `check` names the function that demands; it must outlive this.
+  /// `check` names the function that checks; it must outlive this.
   explicit constexpr Require(const char* check) : check_(check) {}
 
   void operator()(bool holds, const char* what) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// Saying where an error came up.
+/// Adds to an error's message where it occurred.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace morsel::core {
 
-/// Throws the error again, of the same kind, with where it came up before its sentence: "WHERE: …".
+/// Throws an error of the same kind whose message begins with where it occurred: "WHERE: …".
 [[noreturn]] void rethrow_at(const Error& error, const std::string& where);
 
 }  // namespace morsel::core

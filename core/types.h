@@ -1,5 +1,5 @@
 #pragma once
-/// The small types that every module speaks in.
+/// The small types that every module uses.
 
 #include <Eigen/Core>
 #include <array>

@@ -59,10 +59,10 @@ bool has_record(std::string_view line, std::string_view name) {
   throw BadInput(file + ", line " + std::to_string(line) + ": " + what);
 }
 
-/// Reads the records of models and atoms line by line; the others say nothing about atoms, or are often
-/// wrong. Fields are gemmi's to read; but it takes a coordinate that is no number for 0, so these are checked
-/// here. Atoms of a residue come together, where its first atom is, as far as one stretch of a chain goes.
-/// O(n log n).
+/// Reads the records of models and atoms line by line; the others do not concern atoms, or are often wrong.
+/// Fields are gemmi's to read; but it takes a coordinate that is no number for 0, so these are checked here.
+/// Atoms of a residue come together, where its first atom is, as far as one stretch of a chain goes. O(n log
+/// n).
 class PdbReader {
  public:
   PdbReader(const std::string& file, const Progress& progress) : file_(file), progress_(progress) {}

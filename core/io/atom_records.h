@@ -26,7 +26,8 @@ struct AtomRecords {
 AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress);
 AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress);
 
-/// Those that the options take, as read_molecule() says. Throws BadInput and InvalidArgument as it does.
+/// The atoms that the options select, as read_molecule() describes. Throws BadInput and InvalidArgument as it
+/// does.
 Molecule choose_atoms(AtomRecords all, const std::string& file, const MoleculeOptions& options);
 
 }  // namespace morsel::core

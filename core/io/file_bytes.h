@@ -1,5 +1,5 @@
 #pragma once
-/// A file in memory: what all readers begin with. Internal.
+/// The bytes of a file in memory, for all readers. Internal.
 
 #include <cstddef>
 #include <filesystem>
@@ -9,7 +9,8 @@
 
 namespace morsel::core {
 
-/// All bytes of a file. Read, not mapped: a mapped file that is cut while it is parsed kills the program.
+/// All bytes of a file. Read, not mapped: a mapped file that is truncated while it is parsed ends the program
+/// (SIGBUS).
 class FileBytes {
  public:
   /// Throws BadInput, naming the file as `name`, if it is missing, unreadable or not a regular file.

@@ -1,5 +1,5 @@
 #pragma once
-/// What a file is by its name.
+/// The extension of a file's name.
 
 #include <filesystem>
 #include <string>

@@ -90,7 +90,7 @@ struct FileWriter::Output {
 
   fs::path shown;  // as the caller named it
   TemporaryFile temporary;
-  int device = -1;   // or else this is written to
+  int device = -1;   // written to instead, if there is one
   MadeFolders made;  // removed without commit()
   bool synced = false;
   std::vector<char> buffer;
@@ -120,7 +120,7 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
 }
 
 void FileWriter::Output::open_temporary(const fs::path& target) {
-  static_cast<void>(made.make(target.parent_path()));  // open() has the reason why it cannot be
+  static_cast<void>(made.make(target.parent_path()));  // if this fails, open() reports the reason
   if (const int error = temporary.open(target); error != 0) {
     made.remove();
     fail(shown, error);

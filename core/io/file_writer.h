@@ -10,18 +10,18 @@
 
 namespace morsel::core {
 
-/// Whether commit() waits for the disk. However a program ends, a target is whole or as it was without that;
-/// it is power failures that may lose what was only written.
+/// Whether commit() waits until the data are on disk. Even without that a target is whole or unchanged
+/// however the program ends; only a power failure may lose data.
 enum class Sync {
   when_replacing,  ///< so that a power failure never takes both the old file and the new
   never            ///< for large files that are easily made again
 };
 
 /// Writes to a file without a name in the target's folder (temporary_file.h); commit() makes it the target.
-/// Without commit() (an error, a Cancelled on its way up, the end of the process) the target stays as it was.
+/// Without commit() (an error, a Cancelled, the end of the process) the target stays as it was.
 /// Folders that the target is in are made; without commit() they are removed again if nothing is in them.
 /// A target that exists keeps its permissions, and a symbolic link to it stays a link. A device or pipe
-/// (/dev/stdout) cannot be renamed to: it is written as the data come.
+/// (/dev/stdout) cannot be replaced: it is written directly.
 ///
 /// All functions throw WriteFailed with the path and the system's reason. Buffered; not thread-safe.
 class FileWriter {

@@ -1,7 +1,7 @@
 #pragma once
-/// What this project asks of gemmi, without gemmi's headers. Internal.
+/// The functions of gemmi that this project uses, without gemmi's headers. Internal.
 ///
-/// For a source of its own in C++17, so with the standard library's types alone: in C++20, clang refuses
+/// Implemented in a source in C++17, so with the standard library's types alone: in C++20, clang refuses
 /// gemmi's vectors of incomplete types. Functions throw what gemmi throws, std::exception with a message.
 
 #include <array>
@@ -30,7 +30,7 @@ Residue find_residue(const std::string& name);
 /// A line of a PDB file: 78 columns and a 0.
 using PdbLine = std::array<char, 79>;
 
-/// What tells a residue from others in its chain.
+/// Identifies a residue in its chain.
 struct PdbResidue {
   int number = 0;
   char insertion = ' ';  ///< as a small letter
@@ -66,7 +66,7 @@ class CifFile {
   CifFile& operator=(const CifFile&) = delete;
 
   enum class Found { no, without_columns, yes };
-  /// Goes to the first block whose table `category` has rows, which row counts and texts are then of. Columns
+  /// Selects the first block whose table `category` has rows, to which rows() and text() then refer. Columns
   /// whose names begin with a ? may be missing.
   Found find(const std::string& category, const std::vector<std::string>& columns);
   /// Whether some block has the tag.

@@ -1,5 +1,5 @@
 #pragma once
-/// Folders that are made for something to be written in them, and removed again if nothing was.
+/// Folders that are made for output, and removed again if they stay empty.
 
 #include <filesystem>
 #include <system_error>
@@ -12,7 +12,7 @@ class MadeFolders {
  public:
   /// The folder, and those around it, as far as they are missing. Forgets what was made before.
   std::error_code make(const std::filesystem::path& folder);
-  /// What was made stays.
+  /// Keeps what was made.
   void keep() noexcept { made_.clear(); }
   /// Removes what was made, from the inside out, until one is not empty.
   void remove() noexcept;

@@ -4,8 +4,8 @@
 /// Each reads a whole file from memory. `file` names it in errors. A reader takes what its format allows and
 /// what programs commonly write, and refuses everything else with a BadInput that says what and where: a
 /// damaged file must not pass for a whole one. Vertices come out in the order of the file and positions with
-/// the precision the file has them in; corners are checked to name vertices that exist. No count in a header
-/// is believed before the file is seen to be long enough for it.
+/// the precision the file has them in; corners are checked to name vertices that exist. A count in a header
+/// is compared with the file's length before it is used.
 
 #include <cstddef>
 #include <string>
@@ -21,8 +21,8 @@ namespace morsel::core {
 inline constexpr std::size_t kTextChunk = std::size_t{1} << 16;
 
 /// OFF and its variants COFF, NOFF, STOFF and their combinations, comments, polygons; header word missing or
-/// grown together with the counts. A vertex or face a line. Colours, normals and texture coordinates are
-/// skipped. Binary OFF and 4OFF, nOFF (other dimensions than three) are refused.
+/// joined to the counts. A vertex or face a line. Colours, normals and texture coordinates are skipped.
+/// Binary OFF and 4OFF, nOFF (other dimensions than three) are refused.
 LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
                     std::size_t chunk = kTextChunk);
 

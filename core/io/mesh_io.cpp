@@ -71,7 +71,7 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
 
 namespace {
 
-/// Whatever is wrong names the file.
+/// build_mesh(), with the file named in its errors.
 LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const BuildOptions& options,
                  const Progress& progress) {
   try {

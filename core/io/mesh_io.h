@@ -17,7 +17,7 @@ struct VertexProperty {
   std::vector<double> values;
 };
 
-/// What the mesh's file said besides the mesh.
+/// What the mesh's file has besides the mesh.
 struct MeshSource {
   VertexNumbering numbering;
   std::vector<VertexProperty> properties;
@@ -39,9 +39,9 @@ struct LoadedSoup {
 
 enum class MeshFormat { off, obj, ply, stl };
 
-/// By the file's extension, any case. Throws BadInput, listing what there is, if it is another one.
+/// By the file's extension, any case. Throws BadInput, listing the known ones, if it is another one.
 MeshFormat mesh_format(const std::filesystem::path& path);
-/// Whether there is such a format.
+/// Whether the extension is that of a known format.
 bool has_mesh_extension(const std::filesystem::path& path);
 /// The extensions as a sentence lists them: ".off, .obj, .ply or .stl".
 std::string mesh_extensions(std::string_view last = " or ");
@@ -49,11 +49,11 @@ std::string mesh_extensions(std::string_view last = " or ");
 /// Reads the polygons of an .off, .obj, .ply or .stl file (by extension, any case) in double precision.
 /// Corners are checked to name vertices that exist; coordinates may be non-finite. Throws BadInput, naming
 /// the file and where possible the line, if it is missing, unreadable, damaged or of another kind. Memory:
-/// the file's size and twice the soup's; a header that lies does not make it more. Independent of locales;
+/// the file's size and twice the soup's; wrong counts in a header do not increase it. Independent of locales;
 /// about 200 MB of text a second and thread (OFF and OBJ are read in parallel), and 500 MB of binary PLY.
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress = {});
 
-/// The same for a file that is in memory; `name` stands for it in errors.
+/// The same for a file that is in memory; errors call it `name`.
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
                               const Progress& progress = {});
 
@@ -67,7 +67,7 @@ struct WholeMesh {
   std::vector<Point> input_positions;
 };
 
-/// read_mesh() for those who write in the input's vertex numbers.
+/// read_mesh() for callers that write in the input's vertex numbers.
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
                           const Progress& progress = {});
 

@@ -10,7 +10,7 @@
 namespace morsel::core {
 namespace {
 
-/// Statements of the format that say nothing about the mesh.
+/// Statements of the format that do not concern the mesh.
 bool is_skipped(std::string_view keyword) {
   static constexpr std::array kKeywords = std::to_array<std::string_view>(
       {"vt",        "vn",     "vp",     "g",    "o",      "s",        "mg",       "p",
@@ -128,7 +128,7 @@ class Reader {
   std::size_t highest_line_ = 0;  // 0: no face yet
 };
 
-/// Reads it in parallel, in pieces of `chunk` bytes; nothing if that does not pay or something is wrong.
+/// Reads it in parallel, in pieces of `chunk` bytes; nothing if it is too short for that or has an error.
 std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::string& file,
                                           const Progress& progress, std::size_t chunk) {
   const Progress silent = progress.unreported();

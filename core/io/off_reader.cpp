@@ -10,7 +10,7 @@
 namespace morsel::core {
 namespace {
 
-/// What the header says.
+/// The header's contents.
 struct Header {
   bool texture = false;
   bool color = false;
@@ -49,7 +49,7 @@ class Reader {
   }
 
  private:
-  /// Reads all that follows the header, in parallel. False if that does not pay or something is wrong.
+  /// Reads all that follows the header, in parallel. False if it is too short for that or has an error.
   bool read_in_chunks(std::size_t chunk) {
     const char terminator = scanner_.terminator();
     const std::vector<std::string_view> chunks = line_chunks(scanner_.rest(), terminator, chunk);

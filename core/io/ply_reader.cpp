@@ -295,7 +295,7 @@ class BinaryBody {
   std::size_t values_ = 0;  // since progress was reported
 };
 
-/// What becomes of the elements, however they are encoded.
+/// Stores the elements, in either encoding.
 template <class Body>
 class BodyReader {
  public:
@@ -443,7 +443,7 @@ void check(const Header& header, const std::string& file) {
 
 LoadedSoup read_ply(std::string_view bytes, const std::string& file, const Progress& progress) {
   if (bytes.empty()) fail_reading(file, "it is empty");
-  // The first line tells how lines end; in a binary body that question has no meaning.
+  // The first line determines the line terminator; a binary body has none.
   const std::size_t first = bytes.find_first_of("\r\n");
   const bool old_mac = first != std::string_view::npos && bytes[first] == '\r' &&
                        (first + 1 == bytes.size() || bytes[first + 1] != '\n');

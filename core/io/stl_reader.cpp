@@ -11,7 +11,7 @@
 namespace morsel::core {
 namespace {
 
-/// What HashIndex has to know of positions, whose entries are their numbers.
+/// The keys of a HashIndex of positions, whose entries are their numbers.
 struct PositionKeys {
   static constexpr Index kFree = kNone;
   const std::vector<Point>& positions;
@@ -31,7 +31,7 @@ struct PositionKeys {
   }
 };
 
-/// Numbers equal positions alike.
+/// Gives equal positions the same number.
 class Welder {
  public:
   explicit Welder(std::vector<Point>& positions) : positions_(positions), index_(PositionKeys{positions}) {}

@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = ".morsel-";
 constexpr std::string_view kSuffix = ".tmp";
 
-/// The names in use, where a signal handler can read them: in static memory. Names beyond the last slot are
-/// swept later.
+/// The names in use, where a signal handler can read them: in static memory. Files whose names have no slot
+/// are removed later.
 struct Slot {
   enum State : int { free, claimed, filled };
   std::atomic<int> state{free};
@@ -70,7 +70,7 @@ int lock(int file, int how) {
   return result;
 }
 
-/// Removes the entry if it is a temporary file that nobody is writing.
+/// Removes the entry if it is a temporary file that no process is writing.
 void remove_if_left(int folder, const char* name) {
   struct stat found {};
   if (::fstatat(folder, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(found.st_mode) ||
@@ -87,15 +87,15 @@ void remove_if_left(int folder, const char* name) {
   ::close(file);
 }
 
-/// Once a folder and process. What cannot be read or removed stays: it harms nobody.
-void sweep_once(const fs::path& folder) {
+/// Once a folder and process. What cannot be read or removed stays.
+void remove_left_once(const fs::path& folder) {
   static std::mutex mutex;
-  static std::set<std::pair<dev_t, ino_t>> swept;
+  static std::set<std::pair<dev_t, ino_t>> visited;
   struct stat status {};
   if (::stat(folder.c_str(), &status) != 0) return;
   {
     const std::lock_guard alone(mutex);
-    if (!swept.emplace(status.st_dev, status.st_ino).second) return;
+    if (!visited.emplace(status.st_dev, status.st_ino).second) return;
   }
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(::opendir(folder.c_str()), ::closedir);
   if (!entries) return;
@@ -103,7 +103,7 @@ void sweep_once(const fs::path& folder) {
     if (is_temporary_name(entry->d_name)) remove_if_left(::dirfd(entries.get()), entry->d_name);
 }
 
-/// The path by which the system knows an open file, with or without a name.
+/// The system's path of an open file, with or without a name.
 std::array<char, 40> path_of(int file) {
   std::array<char, 40> path{};
   std::snprintf(path.data(), path.size(), "/proc/self/fd/%d", file);
@@ -137,7 +137,7 @@ void unlink_temporary_files() noexcept {
 int TemporaryFile::open(const fs::path& target) {
   target_ = target;
   folder_ = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  sweep_once(folder_);
+  remove_left_once(folder_);
 #ifdef O_TMPFILE
   file_ = ::open(folder_.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (file_ >= 0) {
@@ -158,10 +158,10 @@ int TemporaryFile::open_named() {
       if (error == EEXIST) continue;
       return error;
     }
-    static_cast<void>(lock(file_, LOCK_EX));  // where there are no locks nothing is swept
+    static_cast<void>(lock(file_, LOCK_EX));  // without locks nothing is removed as left over
     struct stat status {};
     if (::fstat(file_, &status) != 0 || status.st_nlink > 0) return 0;
-    forget_name();  // somebody swept it before it was locked
+    forget_name();  // another process removed it before it was locked
     ::close(std::exchange(file_, -1));
   }
 }
@@ -202,8 +202,8 @@ int TemporaryFile::link_under_temporary_name() {
 }
 
 int TemporaryFile::rename_to_target(bool sync) {
-  // Opened before anything is replaced, so that running out of descriptors is told in time. Who may write in
-  // a folder need not be allowed to read it.
+  // Opened before anything is replaced, so that running out of descriptors is detected in time. Who may write
+  // in a folder need not be allowed to read it.
   const int folder = sync ? ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
   int error = sync && folder < 0 && errno != EACCES ? errno : 0;
   if (error == 0 && ::rename(name_.c_str(), target_.c_str()) != 0) error = errno;

@@ -7,10 +7,10 @@
 namespace morsel::core {
 
 /// A file that is being written and becomes the target by publish(). It has no name until then where the file
-/// system can do that (O_TMPFILE), so that no end of the process leaves anything. Elsewhere, and for the
+/// system can do that (O_TMPFILE), so that nothing is left however the process ends. Elsewhere, and for the
 /// moment of replacing a file, it is named `.morsel-PID-N.tmp` in the target's folder and locked (flock).
-/// What killed processes left under such a name, which nobody has locked, is removed when a process first
-/// opens a file in that folder: regular files of the same user only, never through a link.
+/// Unlocked files of such names, left by killed processes, are removed when a process first opens a file in
+/// that folder: regular files of the same user only, never through a link.
 ///
 /// Functions return 0 or the system's error number.
 class TemporaryFile {
@@ -24,8 +24,8 @@ class TemporaryFile {
   int open(const std::filesystem::path& target);
   /// −1 if nothing is open.
   int descriptor() const { return file_; }
-  /// Makes the file the target, in place of one that is there, and closes it. `sync`: what was written and
-  /// the folder's entry are on disk when this returns, the former before anything is replaced.
+  /// Makes the file the target, in place of one that is there, and closes it. `sync`: the data and the
+  /// folder's entry are on disk when this returns, the former before anything is replaced.
   int publish(bool sync);
   void discard() noexcept;
 
@@ -44,14 +44,14 @@ class TemporaryFile {
 };
 
 /// Whether the path names an open file by its descriptor (/dev/stdout, /dev/fd/3, /proc/self/fd/3): it is
-/// written as the data come, never replaced.
+/// written directly, never replaced.
 bool is_descriptor_path(const std::filesystem::path& path);
 
 /// fsync(), but for files that cannot be synced (pipes, some file systems). 0 or the error number.
 int sync_to_disk(int file);
 
-/// Removes the named temporary files of this process. Async-signal-safe, for ends of the process in which no
-/// destructor runs; nothing may be written afterwards.
+/// Removes the named temporary files of this process. Async-signal-safe, for exits in which no destructor
+/// runs; nothing may be written afterwards.
 void unlink_temporary_files() noexcept;
 
 }  // namespace morsel::core

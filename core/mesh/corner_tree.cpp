@@ -61,12 +61,12 @@ struct CornerTree::Triangle2 {
   }
 };
 
-/// Nodes of a tree that are still to be looked at.
+/// Nodes of a tree that are still to be visited.
 struct CornerTree::Search {
   const Tree& tree;
   std::array<Index, 64> pending = {0};  // a tree is as deep as the number of sites has bits
   std::size_t count = 1;
-  std::uint64_t steps = 0;  // boxes and corners looked at so far
+  std::uint64_t steps = 0;  // boxes and corners tested so far
 };
 
 CornerTree::CornerTree(std::span<const Point> positions, const Point& normal,
@@ -182,20 +182,21 @@ bool CornerTree::any_in(std::size_t a, std::size_t b, std::size_t c, std::uint64
                            {in_plane(a), in_plane(b), in_plane(c)}};
   std::array<Search, 2> searches = {Search{trees_[better_]}, Search{trees_[1 - better_]}};
   std::uint64_t steps = kFirstSteps;
-  Outcome outcome = go_on(searches[0], triangle, steps);
+  Outcome outcome = advance(searches[0], triangle, steps);
   while (outcome == Outcome::unfinished) {
-    outcome = go_on(searches[1], triangle, steps);
+    outcome = advance(searches[1], triangle, steps);
     if (outcome != Outcome::unfinished)
       better_ = 1 - better_;
     else
-      outcome = go_on(searches[0], triangle, steps *= 2);
+      outcome = advance(searches[0], triangle, steps *= 2);
   }
   tests += searches[0].steps + searches[1].steps;
   return outcome == Outcome::found;
 }
 
-/// Until so many steps were made altogether.
-CornerTree::Outcome CornerTree::go_on(Search& search, const Triangle2& triangle, std::uint64_t steps) const {
+/// Continues the search until it has made `steps` steps in total.
+CornerTree::Outcome CornerTree::advance(Search& search, const Triangle2& triangle,
+                                        std::uint64_t steps) const {
   const auto& [order, nodes] = search.tree;
   while (search.count > 0) {
     if (search.steps >= steps) return Outcome::unfinished;

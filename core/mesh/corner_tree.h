@@ -12,25 +12,25 @@
 
 namespace morsel::core {
 
-/// Corners of a polygon, of which any can be removed, and the question whether one of them lies in a
-/// triangle.
+/// The corners of a polygon, with removal and the query whether any of them lies in a triangle.
 ///
-/// Two binary trees of boxes, each box turned as its points lie, so that a chain of corners close to a
-/// straight side is a thin box (Gottschalk, Lin, Manocha 1996). One tree halves the corners as they are
-/// spread in the plane, the other as they follow one another in the polygon; a search goes on in both by
-/// turns until it is through with either. The first is good for spirals, the second for narrow spikes, in
-/// which a thin triangle would meet √n boxes of the first. O(n log n) for making them and for all removals; a
-/// question takes O(log n) as a rule.
+/// Two binary trees of oriented boxes, so that a chain of corners close to a straight side has a thin box
+/// (Gottschalk, Lin, Manocha 1996). One tree halves the corners as they are spread in the plane, the other as
+/// they follow one another in the polygon; a query alternates between both and ends as soon as either is
+/// searched completely. The first is good for spirals, the second for narrow spikes, in which a thin triangle
+/// would meet √n boxes of the first. O(n log n) for making them and for all removals; a query usually takes
+/// O(log n).
 class CornerTree {
  public:
-  /// Of these corners of a polygon that is seen against `normal`, of unit length; `positions` must outlive
+  /// Holds these corners of a polygon, projected along `normal` of unit length; `positions` must outlive
   /// this.
   CornerTree(std::span<const Point> positions, const Point& normal, std::span<const std::size_t> corners);
 
   void remove(std::size_t corner);
 
-  /// Whether one of the corners lies in the triangle, its side ca included. Corners at the place of a, b or c
-  /// do not: the polygon touches itself there. Adds the number of boxes and corners looked at to `tests`.
+  /// Whether one of the corners lies in the triangle, its side ca included. Corners at the position of a, b
+  /// or c do not count: the polygon touches itself there. Adds the number of boxes and corners tested to
+  /// `tests`.
   bool any_in(std::size_t a, std::size_t b, std::size_t c, std::uint64_t& tests);
 
  private:
@@ -62,7 +62,7 @@ class CornerTree {
   void build();
   void build_node(std::size_t tree, Index parent, Index first, Index last);
   void fit_box(Node& node, std::span<const Index> sites) const;
-  Outcome go_on(Search& search, const Triangle2& triangle, std::uint64_t steps) const;
+  Outcome advance(Search& search, const Triangle2& triangle, std::uint64_t steps) const;
 
   std::span<const Point> positions_;
   Point normal_, across_, up_;  // normal_ and two axes of the plane

@@ -45,7 +45,7 @@ class EarClipping {
       if (vertex(a) != vertex(c)) edges_.insert(vertex(a), vertex(c));
       next_[a] = c;
       previous_[c] = a;
-      previous_[b] = b;  // gone
+      previous_[b] = b;  // removed
       ears_.erase(b);
       reflex_->remove(b);
       for (const std::size_t end : {a, c})
@@ -58,15 +58,15 @@ class EarClipping {
   }
 
  private:
-  static constexpr std::size_t kPause = 1024;  // corners between two looks whether to stop
+  static constexpr std::size_t kPause = 1024;  // corners between two checks for a stop
   static constexpr int kSearches = 16;
 
-  /// A corner that might be cut off where there is no ear; the greatest is the best.
+  /// A candidate for cutting off if there is no ear; the greatest is the best.
   struct Candidate {
     enum Rank { degenerate, taken, free };
     Rank rank;
     long shape;         // in steps: rounding must not decide between equals
-    std::size_t place;  // in the order in which candidates came: earlier ones first
+    std::size_t place;  // in the order in which candidates were found: earlier ones first
     std::size_t corner, previous, next;
     bool operator<(const Candidate& o) const {
       return std::tuple(rank, shape, o.place) < std::tuple(o.rank, o.shape, place);
@@ -90,7 +90,7 @@ class EarClipping {
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < size_; ++i)
       if (is_reflex(i)) corners.push_back(i);
-    if (polygon_.normal.norm() < 0.5) corners.clear();  // it has no area, and no ear to lie in
+    if (polygon_.normal.norm() < 0.5) corners.clear();  // without area no corner lies in an ear
     reflex_.emplace(polygon_.positions, polygon_.normal, corners);
   }
 
@@ -102,7 +102,7 @@ class EarClipping {
     return is_empty;
   }
 
-  /// Looks for ears at all corners that are not known as ones.
+  /// Tests all corners that are not known to be ears.
   void look_for_ears() {
     for (std::size_t i = 0; i < size_ && tests_left_ > 0; ++i) {
       if (i % kPause == 0) progress_.throw_if_cancelled();
@@ -123,8 +123,8 @@ class EarClipping {
 
   std::size_t corner_to_cut(std::size_t start) {
     if (const std::size_t ear = next_ear(start); ear != IndexSet::kNone) return ear;
-    // Only rounding or crossing sides bring one about at a corner whose neighbours stayed. All searches
-    // together look at each corner some tens of times.
+    // A corner with unchanged neighbours becomes an ear only by rounding or crossing sides. All searches
+    // together test each corner some tens of times.
     if (searches_ < kSearches || cut_since_search_ > left_ / 8) {
       look_for_ears();
       if (const std::size_t ear = next_ear(start); ear != IndexSet::kNone) return ear;

@@ -1,5 +1,5 @@
 #pragma once
-/// Cutting polygons of many corners. Internal to the triangulation of polygons.
+/// Ear clipping of polygons with many corners. Internal to the triangulation of polygons.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,15 +23,15 @@ struct PlacedPolygon {
   double shape(std::size_t a, std::size_t b, std::size_t c) const;
 };
 
-/// Appends the triangles that are cut off from the polygon, the next ear in turn (Meisters 1975) as long as
-/// there is one: a corner whose diagonal no edge has yet and in whose triangle no reflex corner lies. In a
-/// simple polygon a cut makes or unmakes ears at its two ends only (O'Rourke 1998, 1.4), so that ears are
-/// kept in a set and looked for again there alone; reflex corners are kept in a CornerTree. O(n log n) as a
-/// rule for n corners; `tests_left` is lowered by the number of tests done, and cutting ends with false where
-/// it would become negative.
+/// Appends the triangles of the polygon by ear clipping (Meisters 1975), the next ear in turn. An ear is a
+/// corner whose diagonal is not an edge yet and whose triangle contains no reflex corner. In a simple polygon
+/// a cut changes which corners are ears at its two ends only (O'Rourke 1998, 1.4), so that ears are kept in a
+/// set and tested again only there; reflex corners are kept in a CornerTree. Usually O(n log n) for n
+/// corners; `tests_left` is lowered by the number of tests, and the function returns false if it would become
+/// negative.
 ///
-/// Where no corner is an ear, as in a polygon whose sides cross or whose corners lie on a line, one of the
-/// best shape is cut off, and the ears of the others are looked for again at times.
+/// If no corner is an ear, as in a polygon with crossing sides or collinear corners, a best shaped corner is
+/// cut off, and all corners are tested again from time to time.
 bool cut_large_polygon(const PlacedPolygon& polygon, EdgeSet& edges, std::uint64_t& tests_left,
                        std::vector<Triangle>& triangles, const Progress& progress);
 

@@ -20,7 +20,7 @@ struct BoundingBox {
 
 /// An orientable triangle surface, closed or bounded, of one or several components: edge- and vertex-manifold
 /// (no vertex on two boundary loops), no two faces on the same three vertices, all vertices used,
-/// consistently oriented, positions finite. What breaks this is refused when the mesh is made.
+/// consistently oriented, positions finite. The constructor refuses anything else.
 ///
 /// Immutable; copies share the data and cost nothing, so fields and results keep their mesh by value. All
 /// accessors may be called from any number of threads.
@@ -133,8 +133,8 @@ class TriangleMesh {
     return connectivity_ == other.connectivity_ && geometry_ == other.geometry_;
   }
 
-  /// Checks every rule and every table against the slowest definition, for tests; throws std::logic_error
-  /// that names the first contradiction.
+  /// Checks every rule and every table by brute force, for tests; throws std::logic_error that names the
+  /// first contradiction.
   void validate() const;
 
  private:

@@ -20,7 +20,7 @@ bool has_repeated_corner(std::span<const Index> polygon) {
   return false;
 }
 
-/// The polygon without corners that follow one on the same vertex.
+/// The polygon without consecutive corners on the same vertex.
 void merge_repeated(std::span<const Index> polygon, std::vector<Index>& result) {
   result.clear();
   for (const Index v : polygon)
@@ -28,8 +28,8 @@ void merge_repeated(std::span<const Index> polygon, std::vector<Index>& result) 
   while (result.size() > 1 && result.back() == result.front()) result.pop_back();
 }
 
-/// Turns polygons into triangles. What is wrong with a polygon as such becomes triangles with the same fault,
-/// so that find_defects() sees it, or is mended.
+/// Turns polygons into triangles. A defect of a polygon becomes triangles with the same defect, so that
+/// find_defects() reports it, or is repaired.
 class Triangulation {
  public:
   Triangulation(PolygonSoup soup, const BuildOptions& options, const Progress& progress)
@@ -185,7 +185,7 @@ class Triangulation {
 
 /// Defects of repaired triangles, in the input's numbers.
 std::vector<Defect> remaining(std::vector<Defect> defects, const VertexNumbering& numbering) {
-  // Where nothing can be oriented, edges between faces of opposite orientation are no news.
+  // A non-orientable component implies edges between faces of opposite orientation.
   const auto is = [](DefectKind kind) { return [kind](const Defect& d) { return d.kind == kind; }; };
   if (std::any_of(defects.begin(), defects.end(), is(DefectKind::non_orientable)))
     std::erase_if(defects, is(DefectKind::inconsistent_orientation));
@@ -219,7 +219,7 @@ BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progr
   progress.update("building the mesh", 0.5);
   const bool is_renumbered = !soup.faces.empty();
   try {
-    // Where triangles are not the input's faces, an error needs them once more.
+    // If triangles are not the input's faces, they are needed again to describe an error.
     TriangleMesh mesh = is_renumbered ? TriangleMesh(soup.positions, soup.triangles)
                                       : TriangleMesh(std::move(soup.positions), std::move(soup.triangles));
     return {std::move(mesh), std::move(numbering), counts.listed()};

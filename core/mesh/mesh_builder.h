@@ -1,5 +1,5 @@
 #pragma once
-/// From a polygon soup to a TriangleMesh: triangulation, repair, and the way back to the input's vertices.
+/// From a polygon soup to a TriangleMesh: triangulation, repair, and the map to the input's vertices.
 
 #include <cstddef>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace morsel::core {
 
-/// Polygons over shared vertices, exactly as a file holds them: nothing is checked yet.
+/// Polygons over shared vertices, exactly as in the file, unchecked.
 struct PolygonSoup {
   std::vector<Point> positions;
   /// Polygon p has the corners corners[offsets[p]] … corners[offsets[p + 1] − 1].
@@ -55,14 +55,14 @@ struct BuiltMesh {
 };
 
 struct BuildOptions {
-  bool repair = false;  ///< mend what can be mended instead of refusing it
+  bool repair = false;  ///< repair what can be repaired instead of refusing it
 };
 
 /// Makes the mesh: cuts polygons of four and more corners into triangles (polygon_triangulation.h), keeping
 /// their order, and checks every rule of TriangleMesh. Positions are never moved nor welded. Throws MeshError
 /// with every defect if a rule is broken; faces in it are numbered as the soup's polygons are. A polygon with
-/// fewer than three corners, or one after the other on the same vertex, is degenerate; polygons with the same
-/// sides are duplicates whichever way round they run.
+/// fewer than three corners, or with two consecutive ones on the same vertex, is degenerate; polygons with
+/// the same sides are duplicates whichever way round they run.
 ///
 /// With `options.repair` it does these repairs, in this order, lists those that changed anything, and throws
 /// MeshError only for what remains (faces that name missing vertices, non-finite positions in use, components
@@ -70,10 +70,10 @@ struct BuildOptions {
 ///
 /// | action | what |
 /// | --- | --- |
-/// | merged_repeated_corners | faces in which corners after one another on the same vertex became one |
+/// | merged_repeated_corners | faces in which consecutive corners on the same vertex became one |
 /// | removed_degenerate_faces | faces with fewer than three different vertices |
 /// | removed_duplicate_faces | faces on the same vertices as an earlier one, which is kept |
-/// | split_non_manifold_edges | edges of three or more faces: the faces are parted there |
+/// | split_non_manifold_edges | edges of three or more faces: the faces are separated there |
 /// | split_non_manifold_vertices | vertices whose faces form several fans: each gets a vertex of its own |
 /// | reoriented_faces | faces turned round so that all in a component agree |
 /// | removed_unreferenced_vertices | vertices that no face (any more) uses |
@@ -81,7 +81,8 @@ struct BuildOptions {
 /// Where a vertex is split, the fan of the first face keeps its number and the others get new vertices at the
 /// same position after all others. Faces that meet in a split edge stay joined where both its ends got the
 /// same new vertices. A component that has to be reoriented ends up with outward normals if it is closed,
-/// else as most of its faces were (as the first was, in a tie); one that agrees with itself is left alone.
+/// else with the orientation of most of its faces (of the first, in a tie); one that is consistent is left
+/// alone.
 ///
 /// O(n log n), deterministic.
 BuiltMesh build_mesh(PolygonSoup soup, const BuildOptions& options = {}, const Progress& progress = {});

@@ -185,8 +185,8 @@ class TriangleMesh::Builder {
       std::sort(group.begin(), group.end(), interruptible(less));
       return;
     }
-    // Most groups have about six entries: each goes where the number of smaller ones says, without a branch
-    // to mispredict. Equal ones, which are an error, leave a place free.
+    // Most groups have about six entries: the position of each is the number of smaller ones, without a
+    // branch to mispredict. Equal ones, which are an error, leave a position free.
     std::array<Entry, kFew> unsorted;
     std::array<Index, kFew> ends;
     ends.fill(kNone);
@@ -203,7 +203,7 @@ class TriangleMesh::Builder {
   }
 
   /// Chooses each vertex's first half-edge, and checks that the fans from there reach all corners and that no
-  /// two triangles lie on each other.
+  /// two triangles have the same vertices.
   bool link_vertices() {
     const Index n = vertex_count();
     data_.vertex_halfedge.resize(n);
@@ -226,8 +226,8 @@ class TriangleMesh::Builder {
             std::atomic_ref(data_.vertex_halfedge[origin(static_cast<Index>(h))])
                 .store(static_cast<Index>(h), std::memory_order_relaxed);
       });
-    // Turning is injective, so that a fan comes back to its start or ends at a boundary, and counts no corner
-    // twice.
+    // next_around() is injective, so that a fan returns to its start or ends at a boundary, and visits no
+    // corner twice.
     constexpr std::size_t kBroken = ~std::size_t{0} / 2;
     const std::size_t corners = parallel_reduce(
         0, n, kGrain, std::size_t{0},

@@ -17,7 +17,7 @@ struct Words {
   std::string_view singular;
   std::string_view plural;
   std::string_view repair;   // what repair does, or empty and
-  std::string_view lasting;  // what no repair mends
+  std::string_view lasting;  // what cannot be repaired
   int width;                 // numbers per element
 };
 
@@ -91,7 +91,7 @@ class FaceTally {
   Index last_ = kNone;
 };
 
-/// Marks the triangles that later checks leave out, and tallies why.
+/// Marks the triangles that later checks leave out, and counts them by reason.
 std::vector<bool> sound_faces(std::size_t vertices, std::span<const Triangle> triangles,
                               std::span<const Index> faces, std::vector<Defect>& defects) {
   std::vector<bool> sound(triangles.size(), true);
@@ -253,7 +253,7 @@ std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std:
   for (const Defect& d : defects) {
     found.push_back(describe(d));
     if (!words(d.kind).lasting.empty()) lasting.emplace_back(words(d.kind).lasting);
-    // Orienting what can be oriented is no use as long as something cannot.
+    // Orienting other components does not help while one cannot be oriented.
     if (d.kind == DefectKind::inconsistent_orientation && has(DefectKind::non_orientable)) continue;
     if (!repair_of(d.kind).empty()) mends.emplace_back(repair_of(d.kind));
   }
@@ -261,7 +261,7 @@ std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std:
   text += repair_tried && !has(DefectKind::empty) ? "still has " : "has ";
   text += listed(found, " and ");
   if (repair_tried || has(DefectKind::empty)) return text;
-  // A vertex with a bad coordinate goes away with repair if no face uses it, which is not known here.
+  // Repair removes a vertex with a non-finite coordinate if no face uses it, which is not known here.
   const bool may_go = has(DefectKind::unreferenced_vertex) && has(DefectKind::non_finite_position);
   if (lasting.empty() || (may_go && lasting.size() == 1)) {
     text += "; repair (--repair) would mend this by " + listed(mends, " and ");

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be wrong with a set of triangles: found, counted and put into words.
+/// What can be wrong with a set of triangles: found, counted and described.
 
 #include <cstddef>
 #include <span>
@@ -46,10 +46,10 @@ std::string describe(const Defect& defect);
 /// nothing.
 std::string_view repair_of(DefectKind kind);
 
-/// All that keeps these triangles from being a TriangleMesh, in the order of DefectKind; empty if nothing
-/// does. A face with one defect (out of range, degenerate, duplicate: the first that applies) does not count
-/// towards others. If the triangles are parts of larger faces, `faces` has the face of each, ascending, and
-/// faces are counted and named by those numbers. Time O(n log n), serial, deterministic.
+/// All defects that keep these triangles from being a TriangleMesh, in the order of DefectKind; empty if
+/// there are none. A face with one defect (out of range, degenerate, duplicate: the first that applies) does
+/// not count towards others. If the triangles are parts of larger faces, `faces` has the face of each,
+/// ascending, and faces are counted and named by those numbers. Time O(n log n), serial, deterministic.
 std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles,
                                  std::span<const Index> faces = {});
 

@@ -1,4 +1,4 @@
-// The mesh's tables against their slowest definitions.
+// The mesh's tables compared with their definitions by brute force.
 
 #include <map>
 #include <set>

@@ -11,7 +11,7 @@
 namespace morsel::core {
 namespace {
 
-/// The points as nanoflann wants to see them, scaled by a power of two so that squares stay in range. Such a
+/// The points as nanoflann's data set, scaled by a power of two so that squares stay in range. Such a
 /// scaling changes no digit (unless the points span 300 orders of magnitude), so distances compare as the
 /// unscaled ones would.
 struct Cloud {

@@ -1,5 +1,5 @@
 #pragma once
-/// Which points lie within a distance of a place.
+/// Radius search: the points within a distance of a position.
 
 #include <cstddef>
 #include <memory>
@@ -25,7 +25,7 @@ class PointSearch {
   void within(const Point& center, double radius, std::vector<Index>& found) const;
 
   /// The distance from `center` to the `count`-th nearest point (≥ 1; infinite if there are fewer): within()
-  /// finds at least `count` points at that radius, and more only where several are as far. O(log n + count
+  /// finds at least `count` points at that radius, and more only in a tie. O(log n + count
   /// log count), more where many points coincide.
   double reach(const Point& center, std::size_t count) const;
 

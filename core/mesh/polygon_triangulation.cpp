@@ -78,8 +78,8 @@ void PolygonTriangulator::cut_quad(std::span<const Index> polygon, std::vector<T
   }
 }
 
-/// Whether no corner lies in the ear abc or on its diagonal ca. A corner inside would bring a reflex one
-/// along, so only those are looked at.
+/// Whether no corner lies in the ear abc or on its diagonal ca. If any corner is inside, a reflex one is, so
+/// only those are tested.
 bool PolygonTriangulator::is_empty(std::size_t a, std::size_t b, std::size_t c) const {
   const auto side = [&](std::size_t from, std::size_t to, const Point& p) {
     return normal_.dot((local_[to] - local_[from]).cross(p - local_[from]));
@@ -135,7 +135,7 @@ void PolygonTriangulator::clip_ears(std::span<const Index> polygon, std::vector<
     if (polygon[a] != polygon[c]) edges_.insert(polygon[a], polygon[c]);
     next_[a] = c;
     previous_[c] = a;
-    previous_[b] = b;  // gone
+    previous_[b] = b;  // removed
     start = next_[c];
   }
   const std::size_t a = start;

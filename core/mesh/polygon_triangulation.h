@@ -35,19 +35,18 @@ class EdgeSet {
 
 /// Cuts one polygon at a time by diagonals, keeping its orientation.
 ///
-/// Polygons need be neither convex nor quite flat: they are seen along the normal of their best plane
+/// Polygons need be neither convex nor quite flat: they are projected along the normal of their best plane
 /// (Newell's). A quad gets the diagonal whose worse triangle is the better shaped one, the first corner's in
-/// a tie; a larger polygon loses the best shaped ear again and again (Meisters 1975), or, above 64 corners,
-/// the next ear in turn (large_polygon.h). An edge that the mesh already has is avoided as a diagonal as long
-/// as there is another: two faces on the same four corners, say, would otherwise share it. A polygon whose
-/// sides cross, or without an area, is cut in some way that names each corner's vertex.
+/// a tie; larger polygons are triangulated by ear clipping (Meisters 1975), the best shaped ear first or,
+/// above 64 corners, the next ear in turn (large_polygon.h). An edge that the mesh already has is avoided as
+/// a diagonal as long as there is another: two faces on the same four corners, say, would otherwise share it.
+/// A polygon with crossing sides or without area is cut in some way that uses each corner.
 ///
-/// Deterministic. O(n log n) tests for a polygon of n corners as a rule, and O(n^1.5) for one made to be
-/// costly.
+/// Deterministic. Usually O(n log n) tests for a polygon of n corners, and O(n^1.5) for an adversarial one.
 class PolygonTriangulator {
  public:
-  /// What is spent on polygons of more than 64 corners at most, altogether: so many tests, and more for each
-  /// corner. The default is some seconds.
+  /// The largest number of tests for all polygons of more than 64 corners together, `tests` and more for each
+  /// corner. The default takes some seconds.
   struct Limits {
     std::uint64_t tests = 300'000'000;
     std::uint64_t tests_per_corner = 200;
@@ -65,9 +64,9 @@ class PolygonTriangulator {
         tests_left_(limits.tests),
         tests_per_corner_(limits.tests_per_corner) {}
 
-  /// Appends the n − 2 triangles of a polygon of n ≥ 3 corners, all vertices of which exist and none of which
-  /// follows itself. Throws BadInput (`face` is for the message) where the limits are exceeded, Cancelled if
-  /// a stop was requested.
+  /// Appends the n − 2 triangles of a polygon of n ≥ 3 corners, whose vertices exist and differ between
+  /// consecutive corners. Throws BadInput (`face` is for the message) where the limits are exceeded,
+  /// Cancelled if a stop was requested.
   void triangulate(std::span<const Index> polygon, std::size_t face, std::vector<Triangle>& triangles);
 
  private:

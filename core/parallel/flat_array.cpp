@@ -17,7 +17,7 @@ void* allocate_large(std::size_t bytes) {
   // The part of the last page that is not needed stays in small pages, which are not made unless they are
   // touched.
   madvise(memory, bytes / kPage * kPage,
-          MADV_HUGEPAGE);  // advice: a system that cannot follow it loses speed only
+          MADV_HUGEPAGE);  // a hint: without it only speed is lost
 #endif
   return memory;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Long arrays: not touched before they are written, and in large pages where the system has them.
+/// Long arrays that are not initialised, in large pages where the system has them.
 
 #include <cstddef>
 #include <memory>

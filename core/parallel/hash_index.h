@@ -1,5 +1,5 @@
 #pragma once
-/// A hash table without a bad case.
+/// A hash table with a logarithmic worst case.
 
 #include <cstddef>
 #include <set>
@@ -12,9 +12,9 @@ namespace morsel::core {
 /// number of places; entries that find no free one there, as in a file made so that all its keys collide, go
 /// to an ordered tree. So a search takes O(1) as a rule and O(log n) at worst, whatever the keys.
 ///
-/// `Keys` tells what the entries' keys are:
+/// `Keys` defines the entries' keys:
 ///
-///     static constexpr Entry kFree;                 // an entry that is none
+///     static constexpr Entry kFree;                 // marks a free place
 ///     std::size_t hash(const Key&) const;           // its last bits are used
 ///     Key key(const Entry&) const;
 ///     bool less(const Key&, const Key&) const;      // a strict total order of the keys

@@ -1,5 +1,5 @@
 #pragma once
-/// A set of small whole numbers that knows its order.
+/// An ordered set of small whole numbers.
 
 #include <bit>
 #include <cstddef>
@@ -57,7 +57,7 @@ class IndexSet {
 
  private:
   std::vector<std::vector<std::uint64_t>>
-      levels_;  // a bit says that the word of this number one level below is not 0
+      levels_;  // a bit is set if the word of its number one level below is not 0
 };
 
 }  // namespace morsel::core

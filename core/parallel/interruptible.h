@@ -14,8 +14,8 @@ inline void throw_if_stopped_at_times() {
   if ((++calls & 1023) == 0) throw_if_stopped();
 }
 
-/// `less` for a sort of many elements, which throws Cancelled if a stop was requested that this thread
-/// listens to.
+/// `less` for a sort of many elements, which throws Cancelled if a stop of this thread was requested
+/// (stop.h).
 template <class Less = std::less<>>
 auto interruptible(Less less = {}) {
   return [less = std::move(less)](const auto& a, const auto& b) {

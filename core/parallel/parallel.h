@@ -28,7 +28,8 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
-/// Elements a chunk has when the caller does not say: small enough to balance, large enough to pay.
+/// Elements of a chunk by default: small enough to balance the load, large enough to
+/// outweigh the overhead.
 inline constexpr std::size_t kGrain = 2048;
 
 namespace detail {
@@ -72,7 +73,7 @@ T parallel_reduce(std::size_t begin, std::size_t end, std::size_t grain, T ident
   if (begin >= end) return identity;
   const std::size_t size = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = (end - begin + size - 1) / size;
-  struct Slot {  // keeps vector<bool> and its shared bytes away
+  struct Slot {  // avoids vector<bool>, whose elements share bytes
     T value;
   };
   std::vector<Slot> partial(chunks, Slot{identity});

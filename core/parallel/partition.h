@@ -18,7 +18,7 @@ struct Partition {
 
 /// Distributes the elements that `visit` emits for 0 … count − 1 into `buckets` buckets, keeping their order
 /// within each. visit(first, last, emit) calls emit(bucket, element) for consecutive inputs; it runs twice on
-/// each chunk and must say the same both times. O(count + buckets · count / grain) time, and memory for the
+/// each chunk and must emit the same both times. O(count + buckets · count / grain) time, and memory for the
 /// counts of all chunks; parallel, the same result for every number of threads.
 template <class T, class Visit>
 Partition<T> partition(std::size_t count, std::size_t buckets, std::size_t grain, const Visit& visit) {

@@ -1,5 +1,5 @@
 #pragma once
-/// How a computation tells where it is, and how it is told to stop.
+/// Progress and cancellation of a computation.
 
 #include <functional>
 #include <stop_token>
@@ -11,7 +11,7 @@
 namespace morsel::core {
 
 /// A hook for progress and cancellation, passed by reference to everything that may take long. The default
-/// one is silent and never stops. Copies share hook and token.
+/// one reports nothing and never stops. Copies share hook and token.
 class Progress {
  public:
   /// Called with the step's name and the fraction of it that is done, in [0, 1].
@@ -28,8 +28,8 @@ class Progress {
     throw_if_cancelled();
   }
 
-  /// Stops as this one and reports nothing: for the parts of a step that reports itself, which would
-  /// otherwise hide how far the step has come, and for other threads than the caller's.
+  /// The same stop token without reports: for the parts of a step that reports its own progress, which theirs
+  /// would hide, and for other threads than the caller's.
   Progress unreported() const { return Progress({}, stop_); }
 
   /// Throws Cancelled if a stop was requested. May be called from any thread.

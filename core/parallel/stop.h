@@ -1,13 +1,13 @@
 #pragma once
-/// A stop that a thread listens to in everything it does, where no Progress is handed down.
+/// A thread's stop token, for code that is given no Progress.
 
 #include <stop_token>
 
 namespace morsel::core {
 
-/// While it lives, the parallel loops that this thread starts, whichever threads run them, and
-/// throw_if_stopped() in it listen to the token, instead of one given further out. The program sets one for
-/// all it does; a library user need not, and then nothing but Progress stops anything.
+/// While it lives, the token replaces the thread's earlier one for throw_if_stopped() and for the parallel
+/// loops that this thread starts, whichever threads run them. The program sets one for everything it does;
+/// without one, only Progress stops a computation.
 class StopScope {
  public:
   explicit StopScope(std::stop_token token);
@@ -20,12 +20,12 @@ class StopScope {
   const std::stop_token* before_;
 };
 
-/// Throws Cancelled if a stop was requested that this thread listens to. For loops that may take long; costs
+/// Throws Cancelled if a stop was requested with this thread's token. For loops that may take long; costs
 /// nanoseconds.
 void throw_if_stopped();
 
 namespace detail {
-/// What this thread listens to; null: nothing.
+/// This thread's token; null if none is set.
 const std::stop_token*& current_stop();
 }  // namespace detail
 

@@ -25,7 +25,7 @@ class UnionFind {
     }
     return a;
   }
-  /// Returns whether they were apart.
+  /// Returns false if they are in the same set already.
   bool unite(Index a, Index b) {
     a = find(a);
     b = find(b);
@@ -53,7 +53,7 @@ class ConcurrentUnionFind {
       const Index up = load(a);
       if (up == a) return a;
       const Index above = load(up);
-      // Halving the path may lose against another thread that shortened it further; either is an ancestor.
+      // Path halving may overwrite a shorter path that another thread stored; either parent is an ancestor.
       if (above != up) std::atomic_ref(parent_[a]).store(above, std::memory_order_relaxed);
       a = above;
     }
@@ -65,7 +65,7 @@ class ConcurrentUnionFind {
       b = find(b);
       if (a == b) return;
       if (b < a) std::swap(a, b);
-      Index root = b;  // links only a root, and only below a smaller one: no cycle can come about
+      Index root = b;  // links only a root, and only below a smaller one: no cycle can form
       if (std::atomic_ref(parent_[b]).compare_exchange_strong(root, a, std::memory_order_relaxed)) return;
     }
   }
@@ -91,7 +91,7 @@ class ParityUnionFind {
       root = parent_[root];
     }
     const bool result = odd;
-    while (parent_[a] != a) {  // compress
+    while (parent_[a] != a) {  // path compression
       const Index up = parent_[a];
       const bool step = odd_[a];
       parent_[a] = root;
@@ -101,7 +101,7 @@ class ParityUnionFind {
     }
     return {root, result};
   }
-  /// Says that a and b have different (or equal) parities; returns false if that contradicts what is known.
+  /// Unites a and b with different (or equal) parities; returns false if that contradicts earlier unions.
   bool unite(Index a, Index b, bool different) {
     const auto [root_a, odd_a] = find(a);
     const auto [root_b, odd_b] = find(b);

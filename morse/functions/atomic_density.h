@@ -17,8 +17,8 @@ struct AtomicDensityOptions {
 };
 
 /// ρ(x) = Σ_i exp(−D ‖x − c_i‖² / r_i²) at each vertex x: over atoms with centers c_i and van der Waals radii
-/// r_i, both in Å, as the mesh must be. High where the surface lies in a pocket of the molecule, low on what
-/// sticks out. It serves to segment molecular surfaces after Natarajan, Wang, Bremer, Pascucci, Hamann 2006;
+/// r_i, both in Å, as the mesh must be. High where the surface lies in a pocket of the molecule, low on
+/// protrusions. It serves to segment molecular surfaces after Natarajan, Wang, Bremer, Pascucci, Hamann 2006;
 /// the width of the Gaussians is an option, and D = 1/2, which makes r_i their standard deviation, a choice
 /// made here. On a Gaussian surface whose blobbiness is D the density is constant but for the mesh's errors:
 /// choose another D there.
@@ -33,7 +33,7 @@ core::ScalarField atomic_density(const core::TriangleMesh& mesh, std::span<const
 
 /// Keys: structure=FILE (.pdb, .ent, .cif, .mmcif; read when the function is evaluated), decay=0.5,
 /// cutoff=1e-12, and which atoms to take: hetero, waters, hydrogens, altloc, chains, model (molecule.h). The
-/// parameters tell the number of atoms besides.
+/// resolved parameters also hold the number of atoms.
 std::unique_ptr<core::MorseFunction> make_atomic_density(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

@@ -21,9 +21,9 @@ namespace {
 using core::ScalarField;
 using core::TriangleMesh;
 
-/// What is made of the two curvatures of a vertex.
+/// A function of the two principal curvatures of a vertex.
 using Combination = std::vector<double> (*)(const PrincipalCurvatures&);
-/// A curvature that has a way of its own, without the principal ones.
+/// A curvature that is computed directly, not from the principal ones.
 using Direct = ScalarField (*)(const TriangleMesh&, const core::Progress&);
 
 template <class Term>
@@ -44,7 +44,7 @@ std::vector<double> product(const PrincipalCurvatures& k) {
 
 enum class Way : std::uint8_t { one_ring, quadric, diffused };
 
-/// From one-rings (in the curvature's own way or by Taubin's tensor), from fitted quadrics or diffused.
+/// From one-rings (directly or by Taubin's tensor), from fitted quadrics or diffused.
 class Curvature final : public core::MorseFunction {
  public:
   /// Without `direct`, one-rings are Taubin's. `reach`: the quadrics' radius, or the scale of diffusion.
@@ -116,7 +116,7 @@ class Curvature final : public core::MorseFunction {
   core::Parameters parameters_;
 };
 
-/// Noise that would ruin a diffused curvature's Laplacian is smoothed away if nothing else is asked for.
+/// The default, which smooths away noise that would falsify a diffused curvature's Laplacian.
 constexpr core::Length kScaleOfDiffused = core::Length::edges(0.6);
 
 struct Estimator {

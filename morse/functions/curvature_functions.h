@@ -14,13 +14,13 @@ std::vector<double> curvedness(const PrincipalCurvatures& curvatures);
 
 /// (2/π) atan((k1 + k2)/(k1 − k2)), in [−1, 1] and without unit (the same paper, whose sign is that of inward
 /// normals): 1 for a cap as on a sphere, ½ for a ridge, 0 for a symmetric saddle, −½ for a rut, −1 for a cup;
-/// 0 where both curvatures are 0, where the paper has none. O(n).
+/// 0 where both curvatures are 0, where the paper leaves it undefined. O(n).
 std::vector<double> shape_index(const PrincipalCurvatures& curvatures);
 
 // All have the key scale=8eps, scale=1.5edges or scale=0.25 (default 0): then they are those of
 // low_pass(mesh, scale), as fields on the mesh, and the resolved parameters hold the scale.
 //
-// Where a key estimator=quadric is named, radius=8eps or radius=0.25 says how far the fitted quadrics reach
+// Where a key estimator=quadric is named, radius=8eps or radius=0.25 is the radius of the fitted quadrics
 // (quadric_curvatures(); default 5eps); only quadrics have it. The resolved parameters then also hold how
 // many vertices took rings in place of too small a ball (widened_vertices), and how many could not be fitted
 // (unfitted_vertices).

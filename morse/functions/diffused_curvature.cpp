@@ -20,7 +20,7 @@ using core::Index;
 using core::Point;
 using core::TriangleMesh;
 
-constexpr double kFieldPart = 3;  // the field is diffused at this part of the scale
+constexpr double kFieldPart = 3;  // the field is diffused at the scale divided by this
 
 /// The surface's own Laplacian, M⁻¹L. Lengths are in multiples of `unit`.
 struct SurfaceLaplacian {

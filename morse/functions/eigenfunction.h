@@ -16,7 +16,7 @@ namespace morsel::morse {
 /// residual (as a share of it) and component. An index that the mesh does not have throws BadInput.
 std::unique_ptr<core::MorseFunction> make_eigenfunction(core::ParameterReader& reader);
 
-/// Modes that one may ask for: the time to find k grows with k², and the memory with k.
+/// The largest index: the time to find k modes grows with k², and the memory with k.
 inline constexpr int kMostModes = 1000;
 
 }  // namespace morsel::morse

@@ -24,8 +24,8 @@ struct GeodesicResult {
 
 /// The distance along the surface of every vertex to the nearest source, by the heat method
 /// (operators/heat_distance.h), in the mesh's unit; exactly 0 at sources, positive elsewhere. Throws
-/// InvalidArgument if there is no source or a source is no vertex of the mesh, and what HeatDistance throws:
-/// BadInput if a component has no source.
+/// InvalidArgument if there is no source or a source is not a vertex of the mesh, and what HeatDistance
+/// throws: BadInput if a component has no source.
 GeodesicResult geodesic_distance(const core::TriangleMesh& mesh, std::span<const core::Index> sources,
                                  const GeodesicOptions& options = {}, const core::Progress& progress = {});
 
@@ -35,8 +35,8 @@ struct AverageGeodesicResult {
   std::vector<core::Index> samples;  ///< the base points; fewer than asked for on a small mesh
 };
 
-/// How far every vertex is from all of the surface on average: low in the middle, high at the ends (Hilaga,
-/// Shinagawa, Kohmura, Kunii 2001, "Topology matching", 3.2):
+/// The average geodesic distance of each vertex from the surface: low in the middle, high at the ends
+/// (Hilaga, Shinagawa, Kohmura, Kunii 2001, "Topology matching", 3.2):
 ///
 ///   f(v) = Σ_i g(v, b_i) · area(b_i) / Σ_i area(b_i)
 ///
@@ -53,7 +53,7 @@ AverageGeodesicResult average_geodesic_distance(const core::TriangleMesh& mesh, 
                                                 const core::Progress& progress = {});
 
 /// Keys: mode=distance|average (default distance), source=12/40 (vertices of the input file) or the lowest or
-/// highest vertex along an axis, min-x … max-z (which distance must have), samples (average, default 50),
+/// highest vertex along an axis, min-x … max-z (required by distance), samples (average, default 50),
 /// time, boundary=average|neumann|dirichlet, delaunay=true|false. A vertex that does not exist throws
 /// BadInput.
 std::unique_ptr<core::MorseFunction> make_geodesic(core::ParameterReader& reader);

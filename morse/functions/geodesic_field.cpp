@@ -14,7 +14,7 @@ namespace {
 using core::Index;
 using core::TriangleMesh;
 
-/// A source as it is written: a vertex of the input, or the end of an axis.
+/// A source in the text form: a vertex of the input, or the end of an axis.
 struct Source {
   std::int64_t vertex = -1;  // −1 for an end
   int axis = 0;
@@ -31,7 +31,7 @@ Source parse_source(const std::string& text, const std::string& what) {
   return {vertex, 0, false};
 }
 
-/// The smallest vertex that is lowest or highest.
+/// The lowest or highest vertex, the smallest in a tie.
 Index end_of(const TriangleMesh& mesh, int axis, bool highest) {
   Index best = 0;
   for (Index v = 1; v < mesh.vertex_count(); ++v) {
@@ -116,13 +116,13 @@ std::unique_ptr<core::MorseFunction> make_geodesic(core::ParameterReader& reader
   GeodesicOptions options;
   options.time = reader.number("time", 1, core::kPositive,
                                "how long heat flows, in squared mean edge lengths: small is sharp");
-  const std::string boundary = reader.choice("boundary", "average", {"average", "neumann", "dirichlet"},
-                                             "what holds for heat there; average hardly feels the boundary");
+  const std::string boundary =
+      reader.choice("boundary", "average", {"average", "neumann", "dirichlet"},
+                    "the boundary condition of heat; average hardly depends on the boundary");
   if (boundary != "average")
     options.boundary = boundary == "neumann" ? HeatBoundary::neumann : HeatBoundary::dirichlet;
-  options.delaunay =
-      reader.flag("delaunay", true,
-                  "whether edges are flipped along the surface first, so that thin triangles do no harm");
+  options.delaunay = reader.flag(
+      "delaunay", true, "whether edges are flipped along the surface first, for meshes with thin triangles");
   if (average && reader.given("source"))
     throw core::InvalidArgument(reader.owner() + " takes source or mode=average, not both");
   if (!average && reader.given("samples"))

@@ -10,7 +10,7 @@
 
 namespace morsel::morse {
 
-/// What a fit needs, and twice that, so that noise is averaged rather than followed.
+/// Vertices that determine a quadric, and twice as many, which a fit takes so that noise is averaged.
 inline constexpr std::size_t kQuadricCoefficients = 6;
 inline constexpr std::size_t kLeastFitted = 2 * kQuadricCoefficients;
 
@@ -25,8 +25,8 @@ struct QuadricCurvatures {
 /// in the ball of the radius that are connected to the vertex there (see ConnectedBalls), z along the outward
 /// area-weighted normal and the origin in the vertex: the degree-2 jet of Cazals and Pouget, "Estimating
 /// differential quantities using polynomial fitting of osculating jets", 2003; Panozzo, Puppo, Rocca,
-/// "Efficient multi-scale curvature and crease estimation", 2010, leave out f, and with it let the noise of
-/// the vertex itself count in full. Curvatures are those of the graph of the quadric at x = y = 0, its slope
+/// "Efficient multi-scale curvature and crease estimation", 2010, leave out f, so that the noise of the
+/// vertex itself is not averaged. Curvatures are those of the graph of the quadric at x = y = 0, its slope
 /// included.
 ///
 /// With fewer than kLeastFitted vertices in the ball, whole rings around it are added until there are as

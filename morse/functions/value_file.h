@@ -17,7 +17,7 @@ namespace morsel::morse {
 /// need not be finite.
 class ValueFile {
  public:
-  /// Throws BadInput, naming the file as `name`, its line and what stands there, if a line is not one number.
+  /// Throws BadInput, naming the file as `name`, the line and its text, if a line is not one number.
   ValueFile(std::istream& stream, std::string name, const core::Progress& progress);
   /// Throws BadInput also if the file is missing or unreadable.
   static ValueFile read(const std::filesystem::path& path, const core::Progress& progress);

@@ -22,7 +22,7 @@ std::size_t input_vertex_count(const core::TriangleMesh& mesh, const core::Verte
   return same ? mesh.vertex_count() : numbering.input_count;
 }
 
-/// `place(i)` tells where value i stood.
+/// `place(i)` names the place of value i.
 template <class Place>
 core::ScalarField make_field(const core::TriangleMesh& mesh, const core::VertexNumbering& numbering,
                              std::span<const double> values, const std::string& origin, const Place& place) {

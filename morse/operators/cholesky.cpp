@@ -11,7 +11,7 @@ namespace morsel::morse {
 
 namespace {
 
-/// Eigen's factorisation, whose long loop hears of a stop: the same operations in the same order.
+/// Eigen's factorisation with checks for a stop in its long loop: the same operations in the same order.
 class Ldlt : public Eigen::SimplicialLDLT<SparseMatrix> {
  public:
   void factorize(const SparseMatrix& matrix, const char* what, const core::Progress& progress) {

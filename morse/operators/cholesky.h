@@ -14,9 +14,9 @@ namespace morsel::morse {
 /// Eigen. Copies share it. Solving may be done from several threads at once.
 class Cholesky {
  public:
-  /// `matrix` must be symmetric and definite, of either sign; of an indefinite one too (a shifted Laplacian)
-  /// the factorisation mostly exists. About n^1.5 on surfaces, serial. Throws BadInput, naming `what` is
-  /// solved, if it does not exist.
+  /// `matrix` must be symmetric and definite, of either sign; an indefinite one (a shifted Laplacian) usually
+  /// has a factorisation too. About n^1.5 on surfaces, serial. Throws BadInput, naming `what` is solved, if
+  /// there is none.
   explicit Cholesky(const SparseMatrix& matrix, const char* what, const core::Progress& progress = {});
 
   /// The solution of matrix · x = b; both have one entry per row. O(n log n).

@@ -1,5 +1,5 @@
 #pragma once
-/// The vertices within a ball that the surface connects there.
+/// The connected part of a surface within a ball.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ class ConnectedBalls {
   /// O(n), parallel.
   explicit ConnectedBalls(const core::TriangleMesh& mesh);
 
-  /// A search and what it remembers (4 bytes a vertex): make one for many balls. Not thread-safe.
+  /// A search and its buffers (4 bytes a vertex): make one for many balls. Not thread-safe.
   class Walk {
    public:
     explicit Walk(const ConnectedBalls& balls);

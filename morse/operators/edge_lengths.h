@@ -10,9 +10,8 @@ namespace morsel::morse {
 
 /// The lengths l_e, by edge, of triangles that all have an area: l_e = ‖p_i − p_j‖ + ε with the least ε ≥ 0
 /// for which the two shorter sides of every triangle are together longer than the third by a millionth of the
-/// mean length
-/// ("intrinsic mollification": Sharp, Crane 2020, "A Laplacian for nonmanifold triangle meshes", 4.5). ε is 0
-/// on meshes whose angles all exceed about 0.1°, and then nothing is changed.
+/// mean length ("intrinsic mollification": Sharp, Crane 2020, "A Laplacian for nonmanifold triangle meshes",
+/// 4.5). ε is 0 on meshes whose angles all exceed about 0.1°, and then nothing is changed.
 struct EdgeLengths {
   double unit = 1;              ///< a power of two near the box's diagonal, in the mesh's unit
   std::vector<double> lengths;  ///< l_e in multiples of `unit`

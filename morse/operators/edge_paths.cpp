@@ -16,7 +16,7 @@ using core::Index;
 using core::Point;
 using core::TriangleMesh;
 
-/// Distances that only fall.
+/// Tentative distances, which only decrease.
 class Front {
  public:
   explicit Front(const TriangleMesh& mesh) : mesh_(mesh), distance_(mesh.vertex_count(), HUGE_VAL) {}

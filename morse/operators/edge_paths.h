@@ -1,5 +1,5 @@
 #pragma once
-/// Distances along edges, and points that are far from one another in them.
+/// Distances along edges, and farthest-point sampling by them.
 
 #include <cstddef>
 #include <span>
@@ -22,7 +22,7 @@ struct FarthestPoints {
 
 /// Farthest-point sampling: the first point is the vertex farthest from the surface's centre of gravity, each
 /// next one the vertex farthest, along edges, from all points before; ties go to the smallest vertex. `count`
-/// points (≥ 1), fewer when every vertex is at one of them. Vertex numbers have no say but in ties. About O(n
+/// points (≥ 1), fewer when every vertex is at one of them. Vertex numbers matter in ties only. About O(n
 /// log n log count), serial.
 FarthestPoints farthest_points(const core::TriangleMesh& mesh, std::size_t count);
 

@@ -17,7 +17,7 @@ using core::Index;
 using core::TriangleMesh;
 using detail::Modes;
 
-/// Shares of the largest within which another is as large.
+/// Values within these shares of the largest count as equal to it.
 constexpr double kAsLarge = 1e-6;
 
 /// One component of the mesh with the area 1.

@@ -26,15 +26,13 @@ core::Index nonconstant_eigenfunction_count(const core::TriangleMesh& mesh);
 /// constants. At boundaries the conditions are natural (Neumann: no flux). Triangles without area get one as
 /// edge_lengths.h says.
 ///
-/// What is not given by the equation is settled so that mesh and vertex numbers alone determine the result:
-/// - Every function lives on one component. Equal eigenvalues (within 1e-8 of their size) of different
-/// components are
-///   ordered by component.
-/// - Of equal eigenvalues of one component, as symmetries bring, the functions are only a basis, and any
-/// other would
-///   do: here the first is the one that is largest at the vertex where the most is to be had, and what is
-///   left, 0 at that vertex, is treated alike. Most is the largest Σ φ² over the basis; within 1e-6 of it the
-///   smallest vertex counts. A single function is thus positive where it is largest in magnitude.
+/// What the equation leaves open is fixed so that mesh and vertex numbers alone determine the result:
+/// - Every function has its support on one component. Equal eigenvalues (within 1e-8 of their size) of
+///   different components are ordered by component.
+/// - Equal eigenvalues of one component, as symmetries cause, determine a space only; its basis is chosen so:
+///   v is the vertex with the largest Σ φ² over the basis (the smallest of those within 1e-6 of it), the
+///   first function is the one that is largest at v, and the rest, which is 0 at v, is treated likewise. A
+///   single function is thus positive where it is largest in magnitude.
 ///
 /// n^1.5 for a factorisation, then about n log n for each function and n `count`² for keeping them
 /// orthogonal; memory of some 20 n `count` bytes. Serial, the same bits each time. Throws BadInput if `count`

@@ -98,7 +98,7 @@ struct HeatDistance::Operators {
   double unit;
   double time;  // in the mesh's unit
   std::vector<Element> elements;
-  std::optional<Cholesky> free, cold;  // heat
+  std::optional<Cholesky> free, cold;  // heat with Neumann and with Dirichlet conditions
   std::optional<Cholesky> poisson;
 
   void check(std::span<const Index> sources) const;
@@ -106,7 +106,7 @@ struct HeatDistance::Operators {
   std::vector<double> divergence(const std::vector<double>& heat) const;
 };
 
-/// Every component must get some heat.
+/// Throws if a component receives no heat.
 void HeatDistance::Operators::check(std::span<const Index> sources) const {
   std::vector<bool> reached(mesh.component_count());
   std::vector<bool> lost(mesh.component_count());
@@ -117,9 +117,9 @@ void HeatDistance::Operators::check(std::span<const Index> sources) const {
   const auto missing = std::count(reached.begin(), reached.end(), false);
   if (missing == 0) return;
   if (std::find(lost.begin(), lost.end(), true) != lost.end())
-    throw core::BadInput("a boundary without heat leaves none at sources on it, which are the only ones of " +
+    throw core::BadInput("with boundary=dirichlet a source on the boundary emits no heat, and " +
                          std::to_string(missing) + " of " + std::to_string(mesh.component_count()) +
-                         " components: boundary=average or neumann would do");
+                         " components have no other source: use boundary=average or boundary=neumann");
   throw core::BadInput("geodesic distance is not defined on " + std::to_string(missing) + " of " +
                        std::to_string(mesh.component_count()) +
                        " components, which have no source: each needs one of its own");

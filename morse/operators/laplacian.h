@@ -28,11 +28,11 @@ std::string_view to_string(EdgeWeights weights);
 /// The key `weights` with one of these names.
 EdgeWeights read_edge_weights(core::ParameterReader& reader, EdgeWeights default_weights);
 
-/// What clamped weights are at least. An edge between two right angles has weight 0.
+/// The lower bound of clamped weights. An edge between two right angles has weight 0.
 inline constexpr double kLeastWeight = 1e-3;
 
 /// w_e of each edge, by number; no unit. Cotangents are those of edge_lengths.h, so that degenerate triangles
-/// do no harm; throws BadInput as edge_lengths() does. O(edges), parallel.
+/// are allowed; throws BadInput as edge_lengths() does. O(edges), parallel.
 std::vector<double> edge_weights(const core::TriangleMesh& mesh, EdgeWeights weights);
 
 /// The symmetric matrix L with (L f)_i = Σ_j w_ij (f_i − f_j): positive semi-definite where no weight is

@@ -3,7 +3,7 @@
 
 namespace morsel::morse {
 
-/// Largest s whose square root, as computed, is at most the radius: what is as near as that is within reach.
+/// Largest s whose square root, as computed, is at most the radius.
 double largest_square(double radius);
 
 }  // namespace morsel::morse

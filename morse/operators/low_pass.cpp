@@ -22,7 +22,7 @@ constexpr double kNegligible = 1e-9;  // as a coefficient
 
 /// c_j with Σ c_j T_j(1 − k) = exp(−ln 2 (k/cutoff)²) for k from 0 to 2.
 std::vector<double> chebyshev_coefficients(double cutoff) {
-  // As a function of θ with cos θ = 1 − k the filter falls at θ_c, and its cosine series at a multiple of
+  // As a function of θ with cos θ = 1 − k the filter drops at θ_c, and its cosine series at a multiple of
   // 1/θ_c.
   const double fall = std::sqrt(2 * cutoff);
   const auto points = static_cast<std::size_t>(std::ceil(64 + 64 / fall));

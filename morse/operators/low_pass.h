@@ -1,6 +1,5 @@
 #pragma once
-/// Surfaces at a scale: smoothed by a low-pass filter, so that what is computed on them sees features, not
-/// noise.
+/// Surfaces at a scale: smoothed by a low-pass filter, so that measurements reflect features, not noise.
 
 #include "morsel/core/mesh/length.h"
 #include "morsel/core/mesh/mesh.h"
@@ -21,18 +20,19 @@ namespace morsel::morse {
 /// than O(s⁴/h⁴) steps; its coefficients beyond 1e-9 are left out. Half the height is kept at k_c = (h/2s)²,
 /// the frequency of such a wave on even triangles with edges h; h is the mean edge length. So the result does
 /// not depend on how densely a surface of even triangles is sampled; where it is sampled more densely than on
-/// average, its scale is smaller. Uniform means do not heed the shapes of triangles, which is what noise
-/// ruins; the price is that they see the triangulation: where vertices have other than six neighbours or
-/// edges change in length, vertices slide along the surface, and one-ring curvatures keep a trace of it (on
-/// an icosphere, at 2 edges, the twelve vertices with five neighbours have a mean curvature of 1.8/r).
+/// average, its scale is smaller. Uniform means do not depend on the shapes of triangles, which noise
+/// distorts; the price is that they depend on the triangulation: where vertices have other than six
+/// neighbours or edges change in length, vertices slide along the surface, and one-ring curvatures keep a
+/// trace of it (on an icosphere, at 2 edges, the twelve vertices with five neighbours have a mean curvature
+/// of 1.8/r).
 ///
 /// A boundary vertex takes the mean over its two neighbours along the boundary, so that boundaries are
-/// smoothed as curves that know nothing of the inside (the hierarchical neighbourhoods of section 3 there). A
+/// smoothed as curves, independently of the interior (the hierarchical neighbourhoods of section 3 there). A
 /// plane stays in its plane. Without its short waves a part that is thinner than the scale shrinks.
 ///
 /// The scale is finite and not below 0; 0 returns the mesh itself. Throws InvalidArgument otherwise, BadInput
-/// if it comes to more than the diagonal of the mesh's box. Scales exactly by powers of two. O(n · (1 +
-/// s/h)), parallel, the same bits for every number of threads.
+/// if it exceeds the diagonal of the mesh's box. Scales exactly by powers of two. O(n · (1 + s/h)), parallel,
+/// the same bits for every number of threads.
 core::TriangleMesh low_pass(const core::TriangleMesh& mesh, core::Length scale,
                             const core::Progress& progress = {});
 

@@ -24,7 +24,7 @@ constexpr Index kSmall = 256;
 constexpr Index kMostDense = 2048;
 
 /// The shift, where the lowest eigenvalue of a round surface is 8π: without the constants, which are
-/// projected out, it only has to keep the factorisation away from the singular.
+/// projected out, it only has to keep the matrix from being singular.
 constexpr double kShift = 1e-3;
 
 constexpr double kAccuracy = 1e-12;  ///< residuals, relative to the inverse's eigenvalues
@@ -55,7 +55,7 @@ Modes dense_modes(const SparseMatrix& laplacian, const VectorXd& root, Index cou
   return {solver.eigenvalues().head(n), solver.eigenvectors().leftCols(n)};
 }
 
-/// y = P M^½ (L + shift · M)⁻¹ M^½ x, with P projecting out what was found.
+/// y = P M^½ (L + shift · M)⁻¹ M^½ x, with P projecting out the modes found.
 class ShiftedInverse {
  public:
   using Scalar = double;
@@ -79,7 +79,7 @@ class ShiftedInverse {
     project(result);
   }
 
-  /// Twice, since once leaves a share of rounding behind.
+  /// Twice, to remove the rounding of the first time too.
   template <class Vector>
   void project(Vector& x) const {
     for (int pass = 0; pass < 2; ++pass) x -= found_ * (found_.transpose() * x).eval();
@@ -110,7 +110,7 @@ Modes lanczos(ShiftedInverse& inverse, Index count, std::mt19937& random) {
   VectorXd start(n);
   for (double& x : start) x = static_cast<double>(random()) / 4294967296.0 - 0.5;
   inverse.project(start);
-  const Index space = std::min(n, count + count / 2 + 20);  // as seen to take least time
+  const Index space = std::min(n, count + count / 2 + 20);  // fastest in measurements
   Spectra::SymEigsSolver<ShiftedInverse> solver(inverse, count, space);
   solver.init(start.data());
   solver.compute(Spectra::SortRule::LargestAlge, kRestarts, kAccuracy, Spectra::SortRule::LargestAlge);

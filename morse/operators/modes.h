@@ -1,5 +1,5 @@
 #pragma once
-/// The lowest modes of one connected piece. For eigenfunctions.cpp.
+/// The lowest modes of one component. For eigenfunctions.cpp.
 
 #include <Eigen/Core>
 #include <span>
@@ -23,9 +23,9 @@ struct Modes {
 /// eigenvalues equal the last of these; `count` < rows. Of equal eigenvalues all are found, the basis is
 /// arbitrary but the same each time.
 ///
-/// A dense solver for small matrices, else Lanczos on the inverse with a small shift (Spectra), again on what
-/// is orthogonal to all modes found until nothing lower is left there: one Krylov space alone holds one mode
-/// of each eigenvalue. Serial. Throws BadInput if it does not converge.
+/// A dense solver for small matrices, else Lanczos on the inverse with a small shift (Spectra), repeated on
+/// the orthogonal complement of all modes found until it has no lower ones: one Krylov space contains one
+/// mode of each eigenvalue only. Serial. Throws BadInput if it does not converge.
 Modes lowest_modes(const SparseMatrix& laplacian, std::span<const double> mass, Eigen::Index count,
                    const core::Progress& progress);
 

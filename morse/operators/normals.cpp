@@ -32,7 +32,7 @@ std::vector<double> outward_signs(const TriangleMesh& mesh) {
     volume[c] += term;
     magnitude[c] += std::abs(term);
   }
-  // A volume that is nothing but rounding (a flat or folded surface) has no inside.
+  // A surface whose volume is rounding alone (flat or folded) has no inside.
   for (Index c = 0; c < components; ++c)
     if (mesh.boundary_loop_count(c) == 0 && volume[c] < -1e-12 * magnitude[c]) sign[c] = -1.0;
   return sign;

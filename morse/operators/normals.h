@@ -8,8 +8,8 @@
 namespace morsel::morse {
 
 /// Per component, −1 where a closed one is turned inside out (negative volume) and 1 elsewhere: the factor
-/// that makes the triangles' normals point outward. Bounded components keep the side that their triangles
-/// say. O(triangles).
+/// that makes the triangles' normals point outward. Bounded components keep the orientation of their
+/// triangles. O(triangles).
 std::vector<double> outward_signs(const core::TriangleMesh& mesh);
 
 /// Unit normals at the vertices: the triangles' area vectors summed, outward as above. Zero where a vertex

@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays that vector instructions load fastest.
+/// Arrays aligned for vector instructions.
 
 #include <cstddef>
 #include <new>

@@ -51,7 +51,7 @@ TilePairs<Mask> BallPairs<Mask>::view() const {
 /// What is found for one tile; kept from tile to tile for its memory.
 template <class Mask>
 struct BallSearch<Mask>::Tile {
-  std::vector<Run> ranges;  // of the tree, still to be looked at
+  std::vector<Run> ranges;  // of the tree, still to be visited
   std::vector<Run> runs;
   std::vector<std::uint32_t> blocks;
   std::vector<Mask> masks;

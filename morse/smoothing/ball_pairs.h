@@ -1,5 +1,5 @@
 #pragma once
-/// Which points of blocks lie within a radius of one another.
+/// Pairs of points in blocks that lie within a radius of one another.
 
 #include <cstddef>
 #include <cstdint>

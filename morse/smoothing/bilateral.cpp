@@ -27,7 +27,7 @@ constexpr double kUnit = 0.84932180028801904272;
 /// A chunk in float32 extends at most this many σ from its middle, so its coordinates are right to 1e-6 σ.
 constexpr double kWide = 16;
 
-/// Nothing that counts is farther, in units of σ or σ_s, and squares stay finite.
+/// Larger distances, in units of σ or σ_s, have no weight; squares up to this are finite.
 template <class Real>
 constexpr double kFar = std::is_same_v<Real, float> ? 1e15 : 1e150;
 /// Values in float32 kernels are integers, up to ± kMost, so that differences have at most kBits bits and a
@@ -46,7 +46,7 @@ auto function_of(const PairFunctions<Real, Mask>& functions, Pass pass) {
   return pass == Pass::local ? functions.local : functions.fixed;
 }
 
-/// Points in a chunk: enough to make use of what is in the cache, few enough for the chunks to balance.
+/// Points in a chunk: enough to reuse the cache, few enough for the chunks to balance the load.
 std::size_t chunk_size(std::size_t points) { return std::clamp<std::size_t>(points / 64, 256, 4096); }
 
 }  // namespace
@@ -173,7 +173,8 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
 
   /// Adds up a pass's sums (or largest values) in numerators_ and denominators_.
   void run(Pass pass, double unit, const Report& report) {
-    // Slab by slab, so that the sums of a few chunks exist at a time, progress moves and a stop is heard.
+    // Slab by slab, so that the sums of a few chunks exist at a time, and progress and stops are checked
+    // between them.
     const std::size_t slab = std::max<std::size_t>(128, 16 * static_cast<std::size_t>(core::thread_count()));
     for (std::size_t begin = 0; begin < chunks_.size(); begin += slab) {
       report(static_cast<double>(begin) / static_cast<double>(chunks_.size()));
@@ -206,7 +207,7 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
       visit(chunk, pairs, kernels_.float16, pass, unit, sums);
     }
     if (chunk.stored) return;
-    // Takes from what is left; who comes first changes time only.
+    // Takes from the remaining memory; which thread is first changes time only.
     const std::size_t bytes = found.bytes();
     std::size_t left = memory_left_;
     while (left >= bytes && !memory_left_.compare_exchange_weak(left, left - bytes)) {

@@ -16,26 +16,24 @@
 
 namespace morsel::morse {
 
-/// In what the weights and sums are computed. Who is a neighbour of whom is always decided in double
-/// precision.
+/// The precision of weights and sums. Which points are neighbours is always decided in double precision.
 enum class Precision : std::uint8_t { float64, float32 };
 
 class BilateralEngine;
 
-/// Computes, again and again for the same points,
+/// Computes, repeatedly for the same points,
 ///
 ///   S(v) = Σ_x (f(x) − f(v)) W_c W_s / Σ_x W_c W_s over the points x with ‖x − v‖ ≤ radius,
 ///   W_c = exp(−‖x − v‖² / 2σ²), W_s = exp(−(f(x) − f(v))² / 2σ_s²).
 ///
 /// Points lie in small blocks along a tree. The pairs of blocks within reach are found once; most lie there
-/// wholly, so that nothing is decided in the inner loop, which visits each pair of points once for both
-/// directions and takes one exponential for both weights. Sums are gathered chunk by chunk and added in the
-/// order of the chunks: the same bits for any number of threads and any memory; for the instruction sets see
-/// PairKernels. With weights or connected balls the sums are taken plainly instead, vertex by vertex
-/// (ListedSums), in float64 and without a tolerance. In float64 the weights are 2e-15 from the true ones. In
-/// float32 coordinates and values are taken relative to a place within the chunk, sums over chunks are in
-/// double, and chunks that are wide compared with σ are computed in float64, so S stays within about 1e-7 of
-/// the extent.
+/// wholly, so that the inner loop tests no distances. It visits each pair of points once for both directions
+/// and takes one exponential for both weights. Sums are computed chunk by chunk and added in the order of the
+/// chunks: the same bits for any number of threads and any memory; for the instruction sets see PairKernels.
+/// With weights or connected balls the sums are computed vertex by vertex instead (ListedSums), in float64
+/// and without a tolerance. In float64 the weights are 2e-15 from the true ones. In float32 coordinates and
+/// values are relative to a point within the chunk, sums over chunks are in double, and chunks that are wide
+/// compared with σ are computed in float64, so S stays within about 1e-7 of the extent.
 class BilateralFilter {
  public:
   struct Options {
@@ -50,14 +48,14 @@ class BilateralFilter {
         0;  ///< most bytes for keeping pairs between calls; without it they are found each time
     /// How often each point counts in both sums, ≥ 0 and of moderate size; empty: once.
     std::vector<double> weights = {};
-    /// If given, only those x count that edges of this surface, whose positions the points are, connect to v
+    /// If given, a surface whose positions are the points: only those x count that its edges connect to v
     /// within the ball.
     std::optional<core::TriangleMesh> connected_by = {};
   };
-  /// Told how far a call is, in [0, 1], by the thread that calls.
+  /// Called with the fraction of a call that is done, in [0, 1], by the calling thread.
   using Report = std::function<void(double fraction)>;
 
-  /// O(n log n). Keeps nothing of `points`, but refers to `progress`, which apply() asks whether to stop.
+  /// O(n log n). Keeps nothing of `points`, but refers to `progress`, by which apply() is stopped.
   BilateralFilter(std::span<const core::Point> points, const Options& options,
                   const core::Progress& progress);
   ~BilateralFilter();
@@ -69,11 +67,11 @@ class BilateralFilter {
   void apply(std::span<const double> values, std::optional<double> sigma_s, std::span<double> result,
              const Report& report);
 
-  /// With a tolerance: about how many times faster that makes a call for such a field; none if it cannot be
-  /// done.
+  /// With a tolerance: about how many times faster that makes a call for such a field; none if it is not
+  /// applicable.
   std::optional<double> gain(std::span<const double> values, double sigma_s) const;
-  /// With a tolerance: what the values may be off by, as SharedSums::error() has it; infinite if a call could
-  /// not be done.
+  /// With a tolerance: the estimated error of the values, SharedSums::error(); infinite if it was not
+  /// applicable in some call.
   double error() const;
 
   /// Pairs (v, x) that a call visits, v itself included; known after the first.

@@ -1,5 +1,5 @@
 #pragma once
-/// What stands behind a BilateralFilter.
+/// The interface of the algorithms of a BilateralFilter.
 
 #include <cstdint>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace morsel::morse {
 
-/// One way to compute the sums; see BilateralFilter for what the functions do.
+/// One algorithm for the sums; see BilateralFilter for what the functions do.
 class BilateralEngine {
  public:
   virtual ~BilateralEngine() = default;

@@ -79,7 +79,8 @@ BlockTree::BlockTree(std::span<const Point> points, std::size_t lanes, const cor
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * lanes_;
       const std::size_t count = points_in(b);
-      // Who is in a block is certain, in which order is the standard library's choice: made certain here.
+      // Which points a block has is determined, but their order depends on the standard library: it is fixed
+      // here.
       std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin),
                 items.begin() + static_cast<std::ptrdiff_t>(begin + count),
                 [](const Item& x, const Item& y) { return x.point < y.point; });
@@ -95,7 +96,7 @@ BlockTree::BlockTree(std::span<const Point> points, std::size_t lanes, const cor
 }
 
 void BlockTree::split(std::vector<Item>& items, const core::Progress& progress) {
-  // Level by level, the ranges of a level in parallel.
+  // Depth by depth, the ranges of a depth in parallel.
   using Range = std::pair<std::size_t, std::size_t>;
   std::vector<Range> level = {{0, block_count()}};
   while (!level.empty()) {

@@ -25,7 +25,7 @@ struct SquareSpan {
 };
 SquareSpan squares_between(const BlockBox& a, const BlockBox& b);
 
-/// Sorts points by halving them again and again across the longest side of their box, down to blocks of
+/// Sorts points by halving them recursively across the longest side of their box, down to blocks of
 /// `lanes` points (the last one may have fewer), so that blocks, and runs of blocks, are compact in space. A
 /// range of blocks [first, last) of the tree has the halves [first, middle) and [middle, last), where middle
 /// is the mean, rounded down. Coordinates are divided by a power of two that brings them to order 1: this

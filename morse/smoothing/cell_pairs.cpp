@@ -15,7 +15,7 @@ constexpr double kTermCost = 0.4;
 constexpr double kCellPairCost = 25;
 constexpr double kPointCost = 0.8;
 
-/// max |He_n(y)| e^{−y²/2} / n!, n = order + 1: what the next derivative may come to.
+/// max |He_n(y)| e^{−y²/2} / n!, n = order + 1: the bound of the next derivative.
 constexpr double kRemainder[] = {0.125, 0.0483, 0.0209, 0.00727};  // orders 3 … 6
 
 double coefficients(int order) { return (order + 1) * (order + 2) * (order + 3) / 6.0; }
@@ -98,7 +98,7 @@ CellPairs::CellPairs(const BlockTree& tree, const Options& options, const core::
       firsts[2 * c + 1] = (firsts_[c] + firsts_[c + 1]) / 2;
     }
     const auto box = [&](std::size_t c) -> const BlockBox& { return tree.box(firsts[c], firsts[c + 1]); };
-    // The order that suits half of the cells, if it pays; what they leave is for smaller ones.
+    // The order that suits half of the cells, if it saves time; smaller cells take the rest.
     std::vector<double> radii(cells);
     core::parallel_for_each(
         cells, [&](std::size_t c) { radii[c] = radius_of(tree, firsts[c], firsts[c + 1]) * per_sigma; });

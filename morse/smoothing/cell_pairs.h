@@ -20,7 +20,7 @@ struct CellLayer {
   std::size_t points = 0;             ///< a cell holds, about
   std::vector<std::uint32_t> firsts;  ///< cell c has the blocks firsts[c] … firsts[c + 1] − 1
   std::vector<std::uint32_t> pair_ends;
-  std::vector<std::uint32_t> partners;  ///< of cell c: up to pair_ends[c]; pairs stand in both lists
+  std::vector<std::uint32_t> partners;  ///< of cell c: up to pair_ends[c]; each pair is in both lists
 
   std::size_t size() const { return pair_ends.size(); }
   std::span<const std::uint32_t> partners_of(std::size_t cell) const {
@@ -32,8 +32,8 @@ struct CellLayer {
 /// Splits all pairs of points within a radius into pairs of cells and a rest. Two cells of the same depth are
 /// a pair if every two of their points lie within the radius, if the Gaussian of the distance is within
 /// `tolerance` of its Taylor polynomial of the depth's order about the centres, relatively, and if none of
-/// the cells that contain them are a pair. Depths count where that takes less work than visiting the pairs of
-/// points.
+/// the cells that contain them are a pair. A depth is used where that takes less work than visiting the pairs
+/// of points.
 class CellPairs {
  public:
   struct Options {
@@ -48,8 +48,8 @@ class CellPairs {
 
   /// Only those with pairs.
   std::span<const CellLayer> layers() const { return layers_; }
-  /// The ranges of blocks in which the rest of what a block reaches must lie, ascending; all ranges of blocks
-  /// where there are no layers.
+  /// The ranges of blocks that contain the rest of the points within reach of a block, ascending; all blocks
+  /// if there are no layers.
   void rest(std::size_t block, std::vector<std::pair<std::uint32_t, std::uint32_t>>& ranges) const;
   /// Pairs of points (v, x) in pairs of cells.
   std::uint64_t point_pairs() const;
@@ -67,7 +67,7 @@ class CellPairs {
  private:
   const BlockTree& tree_;
   std::vector<CellLayer> layers_;
-  std::vector<std::uint32_t> firsts_;  // of the deepest cells that were looked at
+  std::vector<std::uint32_t> firsts_;  // of the deepest cells that were visited
   std::vector<std::uint32_t> rest_ends_;
   std::vector<std::uint32_t> rest_;  // cells of that depth
   double cost_ = 0;

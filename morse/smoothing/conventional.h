@@ -7,7 +7,7 @@
 
 namespace morsel::morse {
 
-/// Hands its input on, order included (Banchoff 1970; Ni, Garland, Hart 2004). Takes no keys.
+/// Returns its input, order included (Banchoff 1970; Ni, Garland, Hart 2004). Takes no keys.
 std::unique_ptr<core::Method> make_conventional(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

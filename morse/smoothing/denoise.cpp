@@ -25,7 +25,7 @@ using core::TriangleMesh;
 
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
-/// The balls that a step looks at.
+/// The balls over which a step averages.
 struct Balls {
   double radius;
   bool limited;  ///< to the SurfaceSmoothing::kMostInBall nearest vertices
@@ -53,7 +53,7 @@ void for_each_ball(const TriangleMesh& mesh, const Balls& sizes, const core::Pro
   });
 }
 
-/// Whether balls hold more than that many vertices on average. Stops counting once it is so.
+/// Whether balls hold more than that many vertices on average. Stops counting as soon as that is certain.
 bool hold_more(const TriangleMesh& mesh, double radius, std::size_t most, const core::Progress& progress) {
   const ConnectedBalls balls(mesh);
   const std::uint64_t limit = std::uint64_t{most} * mesh.vertex_count();

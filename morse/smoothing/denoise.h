@@ -1,5 +1,5 @@
 #pragma once
-/// Smoothing of the surface itself before the Morse function is taken again.
+/// Smoothing of the surface itself, on which the Morse function is then evaluated again.
 
 #include <cstddef>
 #include <memory>
@@ -33,21 +33,21 @@ struct LaplacianDenoising {
 /// over the vertices x within 2σ_c of v that edges connect to it there (ConnectedBalls). The paper has the
 /// user point at a smooth part, whose standard deviation of h becomes σ_s; here that is the median over all
 /// vertices of the standard deviation of h in their balls, so that features, being few, do not count. Both
-/// are taken once, from the first surface. Boundary vertices move like all others. Where σ_s is 0 nothing
-/// moves. It evens out noise of the size of σ_s. But how far a vertex moves depends a little on how its ball
-/// happens to be sampled, and one-ring curvatures of the result see that: of clean, unevenly sampled meshes
-/// they may have more critical points than before.
+/// are determined once, from the first surface. Boundary vertices move like all others. Where σ_s is 0
+/// nothing moves. It evens out noise of the size of σ_s. But how far a vertex moves depends slightly on the
+/// sampling of its ball, and so do one-ring curvatures of the result: on clean, unevenly sampled meshes they
+/// may have more critical points than before.
 ///
-/// The mean edge says little about neighbourhoods where few long edges meet many short ones, as at a vertex
-/// of very large degree: balls of the default σ_c could hold all vertices each. So with the default, and
-/// where the balls of the first surface hold more than kMostInBall vertices on average, a ball's radius is at
-/// most the distance to the kMostInBall-th nearest vertex (its centre counts). A σ_c that is given is taken
-/// as it is.
+/// The mean edge does not determine the size of neighbourhoods where few long edges meet many short ones, as
+/// at a vertex of very large degree: balls of the default σ_c could hold all vertices each. So with the
+/// default, and where the balls of the first surface hold more than kMostInBall vertices on average, a ball's
+/// radius is at most the distance to the kMostInBall-th nearest vertex (its centre counts). A σ_c that is
+/// given is taken as it is.
 ///
 /// Laplacian: v ← v + λ (Σ w x / Σ w − v) over the neighbours, with edge_weights() of the current surface. It
 /// shrinks closed surfaces; boundary vertices stay, or boundaries would shrink to points. A vertex whose
 /// weights do not sum to more than 0 stays too (cotangents may be negative, and then steps may grow instead
-/// of settle; clamped and uniform ones never do).
+/// of converge; clamped and uniform ones never do).
 ///
 /// Not thread-safe; O(n · vertices in a ball), O(n log n) with the default σ_c, or O(n) a step, parallel, the
 /// same bits for every number of threads.
@@ -55,7 +55,7 @@ class SurfaceSmoothing {
  public:
   static constexpr std::size_t kMostInBall = 256;
 
-  /// Throws InvalidArgument on options out of range, BadInput if σ_c comes to nothing on the mesh.
+  /// Throws InvalidArgument on options out of range, BadInput if σ_c is 0 on the mesh.
   SurfaceSmoothing(core::TriangleMesh mesh, const BilateralDenoising& options,
                    const core::Progress& progress = {});
   SurfaceSmoothing(core::TriangleMesh mesh, const LaplacianDenoising& options);
@@ -82,7 +82,7 @@ class SurfaceSmoothing {
 /// Keys: those of StopCriteria (5 iterations), kind=bilateral|laplacian; for the first sigma-c=edge|LENGTH,
 /// sigma-s=auto|LENGTH, for the other lambda, weights=uniform|clamped|cotangent. The field is the Morse
 /// function of the smoothed surface, as a field on the original one. Needs context.morse_function, throws
-/// InvalidArgument without. It takes no notice of the values that came before, so it can only begin a chain.
+/// InvalidArgument without. It ignores the values of its input, so it can only begin a chain.
 std::unique_ptr<core::Method> make_denoise(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

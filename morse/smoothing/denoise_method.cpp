@@ -71,7 +71,7 @@ class Denoise final : public core::Method {
                            const core::MethodContext& context) const override {
     if (!context.morse_function)
       throw core::InvalidArgument(
-          "denoise takes the Morse function again on the smoothed surface, and there is none for this field");
+          "denoise evaluates the Morse function on the smoothed surface, but this field has none");
     IterationControl control(input, criteria_, context);
     const TriangleMesh& mesh = input.mesh();
     SurfaceSmoothing smoothing =

@@ -1,6 +1,5 @@
 #pragma once
-/// Laplacian smoothing: diffusion of a scalar field over the surface, the smoothing that the paper holds
-/// itself against.
+/// Laplacian smoothing: diffusion of a scalar field over the surface, with which the paper compares itself.
 
 #include <cstdint>
 #include <memory>
@@ -21,7 +20,7 @@ namespace morsel::morse {
 ///   f_i ← f_i + λ Σ_j w_ij (f_j − f_i) / Σ_j |w_ij|
 ///
 /// (Taubin 1995, "A signal processing approach to fair surface design", as Ni, Garland, Hart 2004 use it on
-/// functions). Magnitudes below the line, since cotangents may be negative: a step stays bounded. With
+/// functions). The denominator has magnitudes, since cotangents may be negative: a step stays bounded. With
 /// weights that are not negative and λ ≤ 1 no value leaves the range of its neighbours and itself. A vertex
 /// whose weights are all 0 keeps its value.
 class ExplicitDiffusion {

@@ -25,7 +25,7 @@ using core::TriangleMesh;
 /// Joins a cap to the vertices of its loop; of the size of an equilateral triangle's cotangents.
 constexpr double kCapWeight = 1;
 
-/// Where minima and maxima go while all else, in [0, 1], has persistences of at most 1.
+/// Values of minima and maxima while all others, in [0, 1], have persistences of at most 1.
 constexpr double kFarBelow = -2;
 constexpr double kFarAbove = 3;
 
@@ -140,7 +140,7 @@ class Fair {
     return share;
   }
 
-  /// From a share of the input's extent; never falls where shares rise.
+  /// From a share of the input's extent; monotonic in the share.
   double value_of(double share) const {
     const double low = input_.min() / 2;
     return std::clamp(2 * (low + share * (input_.max() / 2 - low)), input_.min(), input_.max());
@@ -164,7 +164,7 @@ class Fair {
 
   FairResult at_input(const std::vector<double>& share) const {
     std::vector<double> values(mesh_.vertex_count());
-    // Rounding must not take values out of what their component's are held at.
+    // Rounding must not move values beyond the fixed ones of their component.
     std::vector<std::pair<double, double>> bounds(mesh_.component_count(), {input_.max(), input_.min()});
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       if (role_[v] == Role::free) continue;
@@ -188,7 +188,7 @@ class Fair {
     return result(std::move(field), rounding);
   }
 
-  /// Chosen minima first, chosen maxima last, as the input has them.
+  /// Chosen minima first, chosen maxima last, each in the input's order.
   std::vector<Index> order_of_ties() const {
     std::vector<Index> order(input_.order().begin(), input_.order().end());
     std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return place(a) < place(b); });

@@ -1,5 +1,5 @@
 #pragma once
-/// Fair Morse functions: as few extrema as one likes, and nothing but those.
+/// Fair Morse functions: fields with chosen extrema only.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,12 +12,11 @@
 
 namespace morsel::morse {
 
-/// What the chosen extrema are held at.
+/// The fixed values of the chosen extrema.
 enum class FairValues : std::uint8_t {
   ends,  ///< all minima at the input's least value, all maxima at its greatest: then they are the extrema,
          ///< exactly
-  input  ///< each at its own value: a minimum in a high place becomes a maximum there, others no extremum at
-         ///< all
+  input  ///< each at its own value: a minimum of high value may become a maximum, others may become regular
 };
 
 struct FairOptions {
@@ -30,8 +29,8 @@ struct FairResult {
   std::size_t minima = 0;    ///< that were chosen
   std::size_t maxima = 0;    ///< that were chosen
   std::size_t left = 0;      ///< chosen ones that are extrema of the field; all of them with FairValues::ends
-  std::size_t turned = 0;    ///< chosen minima that are maxima now, and the other way round; 0 with ends
-  std::size_t rounding = 0;  ///< extrema that the equations' rounding brought and that were cancelled
+  std::size_t turned = 0;    ///< chosen minima that are maxima of the field, and vice versa; 0 with ends
+  std::size_t rounding = 0;  ///< extrema that rounding of the solution caused and that were cancelled
   core::Index held_loops = 0;  ///< boundary loops whose caps were held at the greatest value
 };
 
@@ -50,17 +49,17 @@ using Cancel = std::function<core::ScalarField(const core::ScalarField& field, d
 /// needs none, since its caps are maxima at +∞; if it has none, each of its caps is held at the input's
 /// greatest value and joined to the vertices of its loop by weight 1, or g would be constant.
 ///
-/// Far from the extrema, in a finger of the surface say, g is flat to within rounding, and there solutions
-/// have extrema by the dozen. They are cancelled: with the chosen extrema moved far outside of the range of
-/// all other values, nothing but them persists, whatever their own persistence. So the extrema of the result
+/// Far from the extrema, in a finger of the surface say, g is constant to within rounding, and there
+/// solutions have many extrema. They are cancelled: the chosen extrema are moved far outside of the range of
+/// all other values, so that only they persist, whatever their own persistence. So the extrema of the result
 /// are exactly the chosen ones, and the order of the vertices that comes with it is part of it. With
 /// FairValues::input, where chosen extrema must stay where they are, the smallest threshold from 0, 10⁻¹⁵,
 /// 10⁻¹⁴ … of the extent is taken that leaves no extremum elsewhere.
 ///
 /// One factorisation, n^1.5, serial; the same bits for every number of threads. Throws InvalidArgument if a
-/// vertex of `extrema` is no extremum of the input or weights may be negative, and BadInput if a component
-/// has no chosen minimum, or is closed and has no chosen maximum, with the least number of extrema that this
-/// mesh needs.
+/// vertex of `extrema` is not an extremum of the input or weights may be negative, and BadInput if a
+/// component has no chosen minimum, or is closed and has no chosen maximum, with the least number of extrema
+/// that this mesh needs.
 FairResult fair(const core::ScalarField& input, std::span<const core::Index> extrema,
                 const FairOptions& options, const Cancel& cancel, const core::Progress& progress = {});
 

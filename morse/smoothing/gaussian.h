@@ -10,7 +10,7 @@
 
 namespace morsel::morse {
 
-/// The options of salient() that mean something where all values mix alike.
+/// The options of salient() that apply without a weight of values.
 struct GaussianOptions {
   int iterations = 1;
   core::Length sigma = core::Length::epsilons(8);  ///< σ, above 0
@@ -20,8 +20,9 @@ struct GaussianOptions {
 };
 
 /// G(f, σ)(v) = Σ_x f(x) W_c / Σ_x W_c over the vertices x with ‖x − v‖ ≤ support · σ, W_c = exp(−‖x − v‖² /
-/// 2σ²): the paper's equation (1), for all v at once and as often as said. Computed as f + S of salient
-/// smoothing whose weight of values is 1, by the same sums: what is said of salient() holds here.
+/// 2σ²): the paper's equation (1), for all v at once, `iterations` times. Computed as f + S of salient
+/// smoothing whose weight of values is 1, by the same sums; cost, order of ties and errors are those of
+/// salient().
 core::ScalarField gaussian(const core::ScalarField& input, const GaussianOptions& options = {},
                            const core::Progress& progress = {});
 

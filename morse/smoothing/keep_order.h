@@ -1,5 +1,5 @@
 #pragma once
-/// New values for a field whose order decides where they tie.
+/// New values for a field, with ties in the field's order.
 
 #include <vector>
 
@@ -8,8 +8,8 @@
 namespace morsel::morse {
 
 /// The field of `values` on the mesh of `before`, equal values in the order that their vertices had there. So
-/// a method that leaves a plateau alone leaves its order alone too (cancellation hands over plateaus whose
-/// order must not be lost), and negating a field before or after such a method comes to the same. Throws as
+/// a method that does not change a plateau keeps its order too (the order of plateaus after cancellation must
+/// not be lost), and negating a field before or after such a method gives the same field. Throws as
 /// ScalarField does. O(n log n), parallel.
 core::ScalarField keep_order(const core::ScalarField& before, std::vector<double> values);
 

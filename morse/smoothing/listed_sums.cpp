@@ -27,7 +27,7 @@ ListedSums::ListedSums(std::span<const Point> points, const BilateralFilter::Opt
 void ListedSums::apply(std::span<const double> values, std::optional<double> sigma_s,
                        std::span<double> result, const BilateralFilter::Report& report) {
   const Call call{values, sigma_s, result};
-  // Slab by slab, so that progress moves and a stop is heard.
+  // Slab by slab, so that progress and stops are checked between them.
   const std::size_t slab = std::max<std::size_t>(16, 4 * static_cast<std::size_t>(core::thread_count()));
   for (std::size_t begin = 0; begin < chunks_.size(); begin += slab) {
     report(static_cast<double>(begin) / static_cast<double>(chunks_.size()));
@@ -106,7 +106,7 @@ double ListedSums::mean_difference(Index v, std::span<const Index> ball, const C
   return denominator > 0 ? numerator / denominator : 0;
 }
 
-/// Takes from what is left; who comes first changes time only.
+/// Takes from the remaining memory; which thread is first changes time only.
 bool ListedSums::take_memory(std::size_t bytes) {
   std::size_t left = memory_left_;
   while (left >= bytes && !memory_left_.compare_exchange_weak(left, left - bytes)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The bilateral filter's sums taken vertex by vertex over lists of neighbours.
+/// The bilateral filter's sums, vertex by vertex over lists of neighbours.
 
 #include <atomic>
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// The inner loops of the bilateral filter, one set of functions for each instruction set.
 ///
 /// The files that implement them are compiled with different flags, so they must share nothing that a linker
-/// could merge: here and in pair_kernels.inc stand plain structs only, no function is defined outside an
+/// could merge: here and in pair_kernels.inc are plain structs only, no function is defined outside an
 /// unnamed namespace, and nothing of the standard library but its integers is used.
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct PairStep {
   std::uint16_t mask;
 };
 
-/// Room to work in.
+/// Working memory.
 template <class Real>
 struct PairScratch {
   std::uint32_t* whole;  ///< as many as there are blocks in the chunk
@@ -45,7 +45,7 @@ struct PairScratch {
 /// Functions for one layout. `points` holds per block lanes x, lanes y, lanes z, in units of σ · √(2 ln 2),
 /// and lanes values: doubles, or for Real = float 32-bit integers in place of floats, whose differences must
 /// not overflow (a float would round a large value by more than a small difference may bear). `unit` times a
-/// difference is in units of σ_s · √(2 ln 2). `sums` has per block what is added up. 64-byte aligned.
+/// difference is in units of σ_s · √(2 ln 2). `sums` has the sums per block. 64-byte aligned.
 template <class Real, class Mask>
 struct PairFunctions {
   /// Adds w (f(x) − f(v)) to the first lanes of sums, w to the second.

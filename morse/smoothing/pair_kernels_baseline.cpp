@@ -33,7 +33,7 @@ Vector fused(Vector a, Vector b, Vector c) {
 #endif
 }
 
-/// What both have in common.
+/// The common part of both.
 template <class RealType, class VectorType, class IntsType, class Bits, int lanes>
 struct Common {
   using Real = RealType;

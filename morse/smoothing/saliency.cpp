@@ -54,7 +54,7 @@ double mean_of_other_maxima(const ScalarField& map) {
   return sum.count > 0 ? sum.value / static_cast<double>(sum.count) : 0;
 }
 
-/// Brings a map to [0, 1] and multiplies it by the factor that it returns.
+/// Scales a map to [0, 1] and multiplies it by the factor that it returns.
 double suppress(const ScalarField& input, std::vector<double>& map) {
   const auto [least, most] = std::minmax_element(map.begin(), map.end());
   const double base = *least;

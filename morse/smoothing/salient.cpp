@@ -44,17 +44,17 @@ double standard_deviation(std::span<const double> values, std::span<const double
 /// Relative errors of the expansions, over the accuracy: they mostly cancel in a sum, and what is left may
 /// grow from iteration to iteration.
 constexpr double kToleranceOverAccuracy = 5;
-/// What single precision keeps well enough.
+/// The smallest accuracy that single precision keeps.
 constexpr double kLeastAccuracy = 1e-5;
 /// The gain is estimated too high by up to this (the cells' part waits for memory).
 constexpr double kLeastGain = 1.75;
 
-/// Only the fast algorithms know nothing of areas and connected balls.
+/// Whether the fast algorithms apply, which support neither areas nor connected balls.
 bool is_plain(const SalientOptions& options) {
   return options.weights == NeighborWeights::none && options.ball == Ball::euclidean;
 }
 
-/// Single precision because of the accuracy.
+/// Whether the accuracy allows single precision.
 bool is_rounded(const SalientOptions& options) {
   return options.accuracy >= kLeastAccuracy && is_plain(options);
 }
@@ -110,10 +110,10 @@ class Filter {
   std::vector<double> saliency() const { return unscaled(saliency_); }
   std::uint64_t pairs() const { return filter_.pairs(); }
   bool rounded() const { return is_rounded(options_); }
-  /// See BilateralFilter; over the input's extent.
+  /// BilateralFilter::error() as a share of the input's extent.
   double error() const { return filter_.error() / extent_; }
 
-  /// Why the near-linear algorithm is not for this input; empty if it is.
+  /// Why the near-linear algorithm does not run for this input; empty if it does.
   std::string why_exact() const {
     const std::optional<double> gain = filter_.gain(values_, scaled_sigma_s_.value_or(0));
     if (!gain)
@@ -212,7 +212,7 @@ void check(const SalientOptions& options) {
     throw InvalidArgument("range must be finite and above 0, not " + to_string(options.range));
   if (options.precision == Precision::float32 && !is_plain(options))
     throw InvalidArgument(
-        "precision=single cannot be had with weights=" + std::string(to_string(options.weights)) +
+        "precision=single is not available with weights=" + std::string(to_string(options.weights)) +
         ",ball=" + std::string(to_string(options.ball)) + ", which are computed in double precision");
   const std::vector<InstructionSet> sets = instruction_sets();
   if (options.instructions && std::find(sets.begin(), sets.end(), *options.instructions) == sets.end())

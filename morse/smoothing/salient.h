@@ -19,7 +19,7 @@
 
 namespace morsel::morse {
 
-/// What one iteration made.
+/// The result of one iteration.
 struct SalientIteration {
   int number;                        ///< 1, 2, …
   std::span<const double> values;    ///< f after it, per vertex
@@ -29,7 +29,7 @@ struct SalientIteration {
 /// How the sums over pairs are computed.
 enum class SalientAlgorithm : std::uint8_t {
   exact,       ///< pair by pair
-  near_linear  ///< cells of near vertices share what they add to one another: see SharedSums
+  near_linear  ///< cells of near vertices share their sums: see SharedSums
 };
 
 /// How much a neighbour x counts, besides W_c W_s.
@@ -52,38 +52,38 @@ struct SalientOptions {
   ValueRange range = {};                           ///< σ_s
   double support = 2;                              ///< the neighbourhood's radius in σ, above 0
   bool return_saliency = false;                    ///< return the last S instead of f
-  /// Other values than these two run a plainer algorithm, pair by pair in double precision, at several times
+  /// Other values than these two need a simpler algorithm, pair by pair in double precision, at several times
   /// the cost.
   NeighborWeights weights = NeighborWeights::none;
   Ball ball = Ball::euclidean;
   /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The
   /// near-linear algorithm runs where it is the faster one by an estimate, which depends on the input alone.
-  /// The expansions it uses err by less than 5 times this in each weight, relatively; what comes of that in
-  /// the values is measured at 512 vertices in each iteration, followed through the iterations and taken
-  /// eightfold (SharedSums::error(), an estimate, no bound). If that is more than the accuracy, or with a
-  /// local range, or below 1e-5, the exact algorithm runs; if the accuracy is at least 1e-5, in single
-  /// precision. With heavy-tailed noise errors may grow a thousandfold in ten iterations, so that an accuracy
-  /// of 1e-4 may be out of reach.
+  /// Its expansions have a relative error below 5 times this in each weight; the resulting error of the
+  /// values is measured at 512 vertices in each iteration, propagated through the iterations and multiplied
+  /// by eight (SharedSums::error(), an estimate, no bound). If that exceeds the accuracy, or with a local
+  /// range, or with an accuracy below 1e-5, the exact algorithm runs; if the accuracy is at least 1e-5, in
+  /// single precision. With heavy-tailed noise errors may grow a thousandfold in ten iterations, so that an
+  /// accuracy of 1e-4 may be out of reach.
   double accuracy = 0;
-  /// Not only where it is the faster one: to test and to measure.
+  /// Also where the exact algorithm is faster: for tests and measurements.
   bool always_near_linear = false;
-  /// Called after each iteration, by the calling thread; the spans live as long as the call. Observing costs
-  /// no second run: a run of 20 iterations passes through the results of 1 … 19. Numbers begin at 1 again if
-  /// the near-linear algorithm is given up. False: it is to be the last one.
+  /// Called after each iteration, by the calling thread; the spans live as long as the call. A run of 20
+  /// iterations thus gives the results of 1 … 19, too. Numbers begin at 1 again if the near-linear algorithm
+  /// is abandoned. Returns false to end after this iteration.
   std::function<bool(const SalientIteration&)> on_iteration = {};
   /// Most bytes for storing neighbours between iterations; without enough of it they are searched for in
   /// every iteration, which takes longer and gives the same bits.
   std::size_t memory = std::size_t{1} << 30;
-  /// What weights and sums are computed in. float32 takes half the time and stays within about 2e-6 (as seen)
-  /// of the field's extent after 10 iterations; neighbourhoods are decided in double precision all the same.
+  /// The precision of weights and sums. float32 takes half the time and stays within about 2e-6 (measured) of
+  /// the field's extent after 10 iterations; neighbourhoods are always decided in double precision.
   Precision precision = Precision::float64;
   /// The processor's best if not given. Only one of instruction_sets().
   std::optional<InstructionSet> instructions = {};
   std::string_view step = "salient smoothing";  ///< as progress names it
 };
 
-/// Throws InvalidArgument, naming the value, if an option is out of range, if the saliency of no iteration is
-/// asked for, and if single precision is asked for with weights or balls that it does not have.
+/// Throws InvalidArgument, naming the value, if an option is out of range, if the saliency of 0 iterations is
+/// requested, and if single precision is requested with weights or balls that do not support it.
 void check(const SalientOptions& options);
 
 struct SalientResult {
@@ -95,7 +95,7 @@ struct SalientResult {
   double promised_error =
       0;  ///< of the input's extent: the accuracy if pairs were not summed in double precision
   double estimated_error =
-      0;                    ///< the same, as estimated by the near-linear algorithm, even if it was given up
+      0;                    ///< the same, as estimated by the near-linear algorithm, even if it was abandoned
   std::string reason = {};  ///< why the exact algorithm ran though an accuracy was given
 };
 
@@ -104,24 +104,24 @@ struct SalientResult {
 ///   S(v) = Σ_x (f(x) − f(v)) W_c W_s / Σ_x W_c W_s over the vertices x with ‖x − v‖ ≤ support · σ,
 ///   W_c = exp(−‖x − v‖² / 2σ²), W_s = exp(−(f(x) − f(v))² / 2σ_s²)
 ///
-/// (the paper's equations 3 and 4 and Listing 1, with f taken from the Morse function once, not in every
-/// iteration). Distances are Euclidean; what is in reach is decided in double precision. S is 0 where σ_s is
+/// (the paper's equations 3 and 4 and Listing 1, with the Morse function evaluated once, not in every
+/// iteration). Distances are Euclidean; neighbourhoods are decided in double precision. S is 0 where σ_s is
 /// 0. With weights=area each x counts A_x times in both sums, and in the field's standard deviation; S is 0
-/// where all that count have no area. Equal values keep the input's order. Values count relative to the
-/// largest and lengths relative to σ, so that nothing overflows or vanishes on the way.
+/// where all neighbours have no area. Equal values keep the input's order. Values are scaled by the largest
+/// and lengths by σ, so that nothing overflows or underflows.
 ///
 /// O(iterations · n · neighbours), or a sum over cells and their rims in place of neighbours if `accuracy`
-/// lets it; parallel, the same bits for every number of threads, and for AVX2 and AVX-512; without fused
-/// multiply-adds results differ by rounding. Throws what check() throws, and BadInput if σ comes to nothing
-/// on a mesh whose vertices all coincide.
+/// allows it; parallel, the same bits for every number of threads, and for AVX2 and AVX-512; without fused
+/// multiply-adds results differ by rounding. Throws what check() throws, and BadInput if σ is 0 on a mesh
+/// whose vertices all coincide.
 SalientResult salient(const core::ScalarField& input, const SalientOptions& options = {},
                       const core::Progress& progress = {});
 
 /// Keys: those of StopCriteria, sigma, range, support, classify=smoothed|saliency, precision=double|single,
-/// accuracy, weights=none|area, ball=euclidean|connected; scale (0): above 0 the field is not the one that is
-/// given, but the Morse function of low_pass(mesh, scale), iteration 0 for whoever listens; needs
-/// context.morse_function, throws InvalidArgument without, and can then only begin a chain;
-/// preset=paper|robust: what the keys that are not given have.
+/// accuracy, weights=none|area, ball=euclidean|connected; scale (0): above 0 the input is replaced by the
+/// Morse function of low_pass(mesh, scale), which is reported as iteration 0; needs context.morse_function,
+/// throws InvalidArgument without, and can then only begin a chain; preset=paper|robust: the defaults of keys
+/// that are not given.
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

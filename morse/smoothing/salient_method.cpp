@@ -71,9 +71,8 @@ class Salient final : public core::Method {
   core::ScalarField at_scale(const core::ScalarField& given, const core::MethodContext& context) const {
     if (!context.morse_function)
       throw core::InvalidArgument(
-          "salient with a scale takes the Morse function again on the smoothed surface, and there is none "
-          "for this "
-          "field");
+          "salient with a scale evaluates the Morse function on the smoothed surface, but this field has "
+          "none");
     const core::TriangleMesh surface = low_pass(given.mesh(), scale_, context.progress);
     try {
       const core::ScalarField field = context.morse_function(surface);
@@ -129,8 +128,9 @@ SalientResult run_salient(const core::ScalarField& input, SalientOptions options
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   const bool robust =
-      reader.choice("preset", kPaper.name, {kPaper.name, kRobust.name},
-                    "what keys that are not given have: robust ones by measurement, for noisy surfaces") ==
+      reader.choice(
+          "preset", kPaper.name, {kPaper.name, kRobust.name},
+          "the defaults of the other keys: the paper's, or those measured as robust on noisy surfaces") ==
       kRobust.name;
   const Preset& preset = robust ? kRobust : kPaper;
   SalientOptions options;
@@ -148,13 +148,13 @@ std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
                                           "the field to return: f, or the last S instead") == "saliency";
   if (reader.choice(
           "precision", "double", {"double", "single"},
-          "of weights and sums; single is faster, up to 2e-6 of the extent off after 10 iterations") ==
+          "of weights and sums; single is faster, up to 2e-6 of the field's range off after 10 iterations") ==
       "single")
     options.precision = Precision::float32;
-  options.accuracy =
-      reader.number("accuracy", 0, {0, false, 1},
-                    "share of the field's extent by which the "
-                    "result may be off, so that large meshes take less time; 0 for an exact result");
+  options.accuracy = reader.number(
+      "accuracy", 0, {0, false, 1},
+      "share of the field's range by which the result may be off, so that large meshes take less time; 0 for "
+      "an exact result");
   read_neighbors(reader, options);
   const core::Length scale = read_scale(reader, preset.scale);
   check(options);

@@ -1,5 +1,5 @@
 #pragma once
-/// What the methods that run salient smoothing have in common.
+/// Keys and iterations of the methods that run salient smoothing.
 
 #include "morsel/core/parallel/progress.h"
 #include "morsel/core/text/parameters.h"
@@ -14,7 +14,7 @@ void read_support(core::ParameterReader& reader, SalientOptions& options);
 /// weights=none|area and ball=euclidean|connected.
 void read_neighbors(core::ParameterReader& reader, SalientOptions& options);
 
-/// Runs iterations of salient() until the control, made of `criteria`, wants no more.
+/// Runs iterations of salient() until the control, made of `criteria`, ends them.
 SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
                           const StopCriteria& criteria, IterationControl& control,
                           const core::Progress& progress);

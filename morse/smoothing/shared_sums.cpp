@@ -13,13 +13,14 @@ namespace morsel::morse {
 namespace {
 
 constexpr double kStep = 0.5;  // of the grid, in σ_s
-constexpr double kMargin = 3;  // in σ_s: nearer to the grid's ends no sum is taken from it
+constexpr double kMargin = 3;  // in σ_s: values nearer to the grid's ends are summed exactly
 constexpr double kLog2E = 1.4426950408889634;
-/// Whose own error grows by more than this in a step is summed up exactly.
+/// Points whose own error grows by more than this in a step are summed exactly.
 constexpr double kUnstable = 1.2;
 constexpr double kFewNeighbors = 8;
 constexpr std::size_t kSamples = 512;
-/// What error() takes times the standard deviation, and what a mean over a ball takes away from it at least.
+/// error() is this many standard deviations, and a mean over a ball reduces these at least by the second
+/// factor.
 constexpr double kSafety = 8;
 constexpr double kNeighborhood = 4;
 constexpr std::size_t kLanes = 16;
@@ -72,7 +73,7 @@ std::array<double, 3> center_of(const BlockBox& box) {
 
 /// Panels that the layers are chosen for.
 constexpr int kUsualPanels = 2;
-/// A point that is summed up exactly takes that many times its share of visiting all pairs.
+/// An exactly summed point costs that many times its share of visiting all pairs.
 constexpr double kExactCost = 6;
 
 }  // namespace
@@ -140,7 +141,7 @@ std::optional<double> SharedSums::gain(std::span<const double> values, double si
   return pairs_.cost_without() / cost;
 }
 
-/// A pass over the cells of all layers: how points and values look to the kernels.
+/// A pass over the cells of all layers: points and values as the kernels take them.
 class SharedSums::Pass {
  public:
   Pass(const SharedSums& sums, const Grid& grid, std::span<const double> values, double sigma_s)
@@ -190,7 +191,7 @@ class SharedSums::Pass {
 
 void SharedSums::add(const Grid& grid, std::span<const double> values, double sigma_s,
                      std::span<double> numerators, std::span<double> denominators) {
-  // A cell of the first layer contains whole cells of all others: what it needs is done at one go.
+  // A cell of the first layer contains whole cells of all others, which are treated together with it.
   const Pass pass(*this, grid, values, sigma_s);
   const std::span<const CellLayer> layers = pairs_.layers();
   const std::size_t count = layers.size();
@@ -334,8 +335,8 @@ bool SharedSums::complete(std::span<const double> values, double sigma_s, std::s
   std::fill(squares_.begin(), squares_.end(), 0.0);
   add(*grid, values, sigma_s, numerators, denominators);
 
-  // How much of a value's error is left after the step, over σ_s²: the variance of the weighted values. Of
-  // the pairs that are not shared it is taken to be the same.
+  // The share of a value's error that is left after the step: the variance of the weighted values over σ_s².
+  // The pairs that are not shared are assumed to have the same.
   std::vector<double> growth(n);
   std::vector<std::uint8_t> done(n);
   core::parallel_for_each(n, [&](std::size_t v) {

@@ -26,11 +26,11 @@ namespace morsel::morse {
 ///   Taylor polynomial in p − q (the fast Gauss transform of Greengard and Strain 1991 with Taylor series on
 ///   both sides).
 ///
-/// So a cell keeps Σ_x (−q)^m/m! exp(−(b − s_k)²) per monomial m and place k, and its partners take from it.
-/// Points whose value is too near the grid's ends, or whose own weight could be upset by a small error, are
-/// summed up exactly, point by point, and so are a few hundred more, to measure the error.
+/// So a cell keeps Σ_x (−q)^m/m! exp(−(b − s_k)²) per monomial m and place k, which its partners read. For
+/// points whose value is too near the grid's ends, or for which a small error would grow too much, the sums
+/// are computed exactly, point by point, and so they are for a few hundred more, to measure the error.
 ///
-/// All is in the order of the tree. Reading tree and pairs only; the same bits for any number of threads.
+/// All arrays are in the order of the tree. The same bits for any number of threads.
 class SharedSums {
  public:
   struct Options {
@@ -43,25 +43,25 @@ class SharedSums {
              const core::Progress& progress);
 
   const CellPairs& pairs() const { return pairs_; }
-  /// Roughly how many times faster than visiting all pairs; none if it cannot be done for these values.
+  /// Roughly how many times faster than visiting all pairs; none if it is not applicable to these values.
   std::optional<double> gain(std::span<const double> values, double sigma_s) const;
-  /// Adds to Σ w d and Σ w, which hold the pairs not shared, what is missing in them, and keeps account of
-  /// the error. `values` begins at a cache line and has room for all lanes of the last block. False, with
-  /// nothing of use done, if it cannot be done.
+  /// Adds the shared pairs to Σ w d and Σ w, which hold the other pairs, and updates the error. `values`
+  /// begins at a cache line and has room for all lanes of the last block. Returns false, with unusable sums,
+  /// if it is not applicable.
   bool complete(std::span<const double> values, double sigma_s, std::span<double> numerators,
                 std::span<double> denominators);
-  /// What the largest error of the values may be by now, if after each complete() every value grew by Σ w d /
-  /// Σ w, in their unit: 8 times the largest standard error of a value. An estimate, no bound: to first
-  /// order, with the error measured in each step at 512 points, and grown as each value's own error grows in
-  /// the steps that follow and as a mean of its neighbours' may.
+  /// The estimated largest error of the values so far, in their unit, if after each complete() every value
+  /// grew by Σ w d / Σ w: 8 times the largest standard error of a value. An estimate, no bound: to first
+  /// order, with the error measured in each step at 512 points and propagated through the following steps, by
+  /// each value's own growth and by a mean of its neighbours'.
   double error() const;
 
  private:
   struct Grid {
     double first;  // value of the first place
     int panels;
-    double low, high;  // the values that it serves
-    double outside;    // how many it does not
+    double low, high;  // the values within it
+    double outside;    // the number of values outside
   };
   struct Point;
   class Pass;

@@ -20,9 +20,9 @@ struct SpectralResult {
 ///   g = Σ_components mean(f) + Σ_i (φ_iᵀ M f) φ_i,
 ///
 /// the nearest such function in the area-weighted mean of squares. Where eigenvalues are equal, as on a
-/// sphere, and `modes` parts them, g depends on which of their functions come first. Equal values keep f's
-/// order. Time and errors of eigenfunctions(); BadInput if the mesh has fewer eigenfunctions. The same bits
-/// for every number of threads.
+/// sphere, and `modes` separates them, g depends on which of their functions come first. Equal values keep
+/// f's order. Time and errors of eigenfunctions(); BadInput if the mesh has fewer eigenfunctions. The same
+/// bits for every number of threads.
 SpectralResult spectral(const core::ScalarField& field, std::size_t modes,
                         const core::Progress& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How far apart values may be that the bilateral filter mixes.
+/// The standard deviation of the bilateral filter's weight of values.
 
 #include <cstdint>
 #include <string>
@@ -11,10 +11,10 @@ namespace morsel::morse {
 struct ValueRange {
   enum class Kind : std::uint8_t {
     deviations,  ///< `value` standard deviations (population's, over vertices) of the input, fixed once
-    local,       ///< the largest abs(f(x) − f(v)) in v's neighbourhood, anew in each iteration
+    local,       ///< the largest abs(f(x) − f(v)) in v's neighbourhood, recomputed in each iteration
     literal,     ///< σ, a length: the paper's text as it stands
     fixed,       ///< `value`, in the field's unit
-    none         ///< beyond all differences: W_s = 1, so that f + S is the Gaussian average of f
+    none         ///< infinite: W_s = 1, so that f + S is the Gaussian average of f
   };
   Kind kind = Kind::deviations;
   double value = 1;  ///< finite and above 0; only for deviations and fixed
@@ -25,7 +25,7 @@ struct ValueRange {
 /// "1std", "0.5std", "local", "literal", "none" or a number; throws InvalidArgument, naming `what`, on
 /// anything else.
 ValueRange parse_value_range(std::string_view text, std::string_view what);
-/// The text that reads back as the same.
+/// The text that parse_value_range() reads back as the same.
 std::string to_string(const ValueRange& range);
 
 }  // namespace morsel::morse

@@ -1,4 +1,4 @@
-// What reading and writing take of the program's time.
+// The share of reading and writing in the program's time.
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +16,7 @@ void run_files(const Plan& plan, const Report& report) {
     const std::string json = plan.scratch + "/report.json";
     const ProcessCost cost = measured_process(
         {plan.program, "compare", path, "-o", json, "--export", plan.scratch + "/export", "--quiet"});
-    // What was computed is what the report counts; the rest of the wall time is files: the mesh, its hash,
+    // The report counts the time of computing; the rest of the wall time is files: the mesh, its hash,
     // report, export.
     const auto timings = nlohmann::json::parse(std::ifstream(json)).at("timings");
     double computing = timings.at("field").get<double>();

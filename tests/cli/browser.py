@@ -101,7 +101,7 @@ class Browser:
 
 
 class Page:
-    """A tab that shows one file, and all that it said and asked for from the beginning."""
+    """A tab that shows one file, with all its messages and requests from the beginning."""
 
     def __init__(self, browser, path, width=1400, height=1000, dark=False, phone=False):
         self.browser = browser
@@ -128,7 +128,7 @@ class Page:
         return self.browser.call(method, self.session, **parameters)
 
     def run(self, expression):
-        """The value of a JavaScript expression, a promise's when it is kept."""
+        """The value of a JavaScript expression, a promise's when it is fulfilled."""
         result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
             details = result["exceptionDetails"]

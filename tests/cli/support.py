@@ -45,7 +45,7 @@ DAMAGED = """OFF
 
 
 def until(condition, seconds=60):
-    """Waits for what other processes bring about."""
+    """Waits for a condition that other processes cause."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "nothing happened"

@@ -48,13 +48,13 @@ class BatchTest(ProgramTest):
     names = ["deeper/an anchor.off", "octahedron.off", "sphere.off"]
 
     def batch(self, *arguments, out="out", code=0, collection="meshes", pictures=False):
-        """Most tests do without pictures, which take longest."""
+        """Most tests omit pictures, which take longest."""
         return self.morsel_batch(collection, "--out", out, *QUICK, *([] if pictures else ["--no-thumbnails"]),
                                  *arguments,
                                  code=code)
 
     def morsel_batch(self, *arguments, code=0):
-        """As morsel(), but a batch of which a mesh failed speaks on both streams."""
+        """As morsel(), but a batch of which a mesh failed writes to both streams."""
         return self.morsel("batch", *arguments, code=code)
 
     def summary(self, out="out"):
@@ -231,7 +231,7 @@ class Failures(BatchTest):
     def error(self, name):
         return next(mesh for mesh in self.summary()["meshes"] if mesh["name"] == name)["error"]
 
-    def test_a_bad_mesh_stops_nobody_else(self):
+    def test_a_bad_mesh_does_not_stop_the_others(self):
         self.file("meshes/bad.off", "OFF\n3 1 0\nnothing, \"really\"\n")
         self.file("meshes/list", "bad.off\nabsent.off\nsphere.off\n")
         result = self.batch(collection="meshes/list", code=1)
@@ -244,7 +244,7 @@ class Failures(BatchTest):
         row = self.rows()[0]
         self.assertEqual((row["status"], row["total"], row["error"]), ("failed", "", error["message"]))
         self.assertIn("absent.off", (self.out / "index.html").read_text())
-        # it is not tried again until it is another
+        # it is not run again until it changes
         self.assertIn("(3 by earlier runs)", self.batch(collection="meshes/list", code=1).stdout)
         self.assertIn("(1 by earlier runs)", self.batch("--retry", collection="meshes/list", code=1).stdout)
         for name in ("bad.off", "absent.off"):
@@ -292,7 +292,7 @@ class Failures(BatchTest):
 
 
 class AtWork(BatchTest):
-    """What looks at the processes of meshes in work."""
+    """Tests of the processes of meshes in work."""
 
     def children(self):
         return [pid for pid in os.listdir("/proc") if pid.isdigit() and self.is_child(pid)]
@@ -318,7 +318,7 @@ class Interruptions(AtWork):
     # long enough, on all meshes but the first, to be found at work
     arguments = ("--method", "conventional", "--method", "salient:iterations=1500", "--no-thumbnails")
 
-    def test_nobody_works_on_when_the_run_has_ended(self):
+    def test_no_process_is_left_when_the_run_has_ended(self):
         self.arguments = LONG
         for how in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             with self.started() as process:
@@ -355,7 +355,7 @@ class Interruptions(AtWork):
 
 
 class WrongInput(BatchTest):
-    def test_what_cannot_be_begun_is_told_in_one_sentence(self):
+    def test_what_cannot_begin_is_refused_in_one_sentence(self):
         (self.folder / "empty").mkdir()
         for wrong, code, said in ((("empty",), 3, "no mesh"),
                                   (("absent",), 3, "absent"),

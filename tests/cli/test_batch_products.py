@@ -25,7 +25,7 @@ class Products(BatchTest):
     def test_each_mesh_has_what_compare_makes(self):
         self.batch(*ALL, "--no-items", pictures=True)
         self.assertEqual(self.files("pages"), [f"{name}.html" for name in self.names])
-        # In the words of batch, as files tell the command that made them.
+        # With the arguments of batch, since files name the command that made them.
         self.morsel("compare", "--field=mean-curvature", "--method=conventional",
                     "--method=salient:iterations=2",
                     "--no-items", "--view=best", "--up=y", "--size=200x150", "--figures", "figures",
@@ -108,7 +108,7 @@ class Products(BatchTest):
         self.batch("--figures", "--size", "120x90", "--inset", "7", code=1)
         self.assertEqual(self.statuses(), {**dict.fromkeys(self.names, "done"), "octahedron.off": "failed"})
 
-    def test_wrong_words_are_told_before_the_work(self):
+    def test_wrong_values_are_refused_before_the_work(self):
         for wrong, said in ((("--size", "120x90"), "--figures"), (("--inset", "3"), "--figures"),
                             (("--figures", "--size", "big"), "big"), (("--view", "above"), "above"),
                             (("--up", "w"), "w"), (("--figures", "--inset", "x"), "x")):

@@ -1,4 +1,4 @@
-"""morsel batch: several runs in one folder, and what happens when they are broken off."""
+"""morsel batch: several runs in one folder, and interrupted ones."""
 
 import fcntl
 import json
@@ -33,7 +33,7 @@ class Together(AtWork):
         return out
 
     def check_whole(self):
-        """All that is there belongs together."""
+        """All files are of one request."""
         for state in (self.out / "state").rglob("*.json"):
             name = str(state.relative_to(self.out / "state"))
             state = json.loads(state.read_text())
@@ -46,7 +46,7 @@ class Together(AtWork):
         self.assertEqual([path for path in self.out.rglob("*") if path.suffix in (".part", ".tmp")
                           or path.name == "work"], [])
 
-    def test_two_runs_on_one_mesh_do_not_meet(self):
+    def test_two_runs_on_one_mesh_are_independent(self):
         """The second one once emptied the folder that the first one worked in."""
         arguments = ("--only", "sphere.off", "--no-summary", "--html", *LONG_ENOUGH)
         one = self.start(*arguments)

@@ -79,7 +79,7 @@ class Compare(ProgramTest):
         short = self.report(SAMPLES / "lion-head.off", "--no-items", name="short.json")
         jsonschema.validate(short, schema)
         self.assertIs(short["request"].pop("items"), False)
-        with self.assertRaises(jsonschema.ValidationError):  # whoever did not ask for that must have them
+        with self.assertRaises(jsonschema.ValidationError):  # unless requested, they must be there
             jsonschema.validate(short, schema)
         full["request"]["items"] = False
         with self.assertRaises(jsonschema.ValidationError):
@@ -153,7 +153,7 @@ class Compare(ProgramTest):
         self.assertEqual(method["name"], "salient+tps")
         self.assertEqual([step["name"] for step in method["parameters"]["steps"]], ["salient", "tps"])
 
-    def test_denoising_takes_the_field_again_on_the_smoothed_surface(self):
+    def test_denoising_evaluates_the_field_on_the_smoothed_surface(self):
         report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=quadric",
                              "--method",
                              "denoise:iterations=2+gaussian", "--method", "saliency")
@@ -165,7 +165,7 @@ class Compare(ProgramTest):
         self.assertEqual(gaussian["iterations_run"], 1)
         self.assertEqual(saliency["parameters"]["suppression"], "itti")
 
-    def test_denoising_says_when_the_field_does_not_care(self):
+    def test_denoising_says_when_the_field_ignores_positions(self):
         mesh = self.file("octahedron.off", OCTAHEDRON)
         values = self.file("values.txt", "1\n2\n3\n4\n5\n6\n")
         report = self.report(mesh, "--field", f"vertex-scalar:file={values}", "--method",
@@ -183,7 +183,7 @@ class Compare(ProgramTest):
             self.assertIn(name, result.stdout)
         self.assertNotIn("\r", result.stderr)
 
-    def test_a_terminal_is_told_which_method_runs_and_what_remains(self):
+    def test_a_terminal_shows_which_method_runs_and_what_remains(self):
         try:
             terminal, end = pty.openpty()
         except OSError as error:

@@ -29,7 +29,7 @@ class Control(ProgramTest):
                 self.assertEqual(target["largest_cancelled"], largest)
         self.assertIn("odd", report["methods"][1]["target"]["note"])
 
-    def test_a_target_that_is_missed_is_told_with_the_table_and_by_field(self):
+    def test_a_target_that_is_missed_is_reported_with_the_table_and_by_field(self):
         lion = SAMPLES / "lion-head.off"
         result = self.morsel("compare", lion, "--method", "tps", "--target", 150)
         self.assertIn("149 are left", result.stdout)

@@ -45,7 +45,7 @@ def some(all_edits):
 
 class Documents(ProgramTest):
     def run_any(self, *arguments, codes=(0, 1, 3)):
-        """Runs the program on what may be damaged: one of these codes and, if it is an error, one
+        """Runs the program on input that may be damaged: one of these codes and, if it is an error, one
         sentence."""
         result = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, timeout=240,
                                 cwd=self.folder, check=False)
@@ -134,7 +134,7 @@ class Reports(Documents):
                                                      "request.snap")), name)
         self.assertEqual(codes, {0, 1, 3})
 
-    def test_a_number_as_a_methods_name_is_told(self):
+    def test_a_number_as_a_methods_name_is_refused(self):
         self.morsel("compare", self.mesh, "--field", "height", "-o", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
         report["methods"][2]["name"] = 5
@@ -210,7 +210,7 @@ class States(Documents):
                 json.loads((self.folder / "out" / "summary.json").read_text())
         self.assertGreater(told, 70)
 
-    def test_a_damaged_state_is_told_and_healed(self):
+    def test_a_damaged_state_is_reported_and_replaced(self):
         for text in ("[" * DEEP, "", "{", "\0\xff", '{"schema": "morsel.batch-state/1"}'):
             self.state.write_text(text)
             _, output, errors = self.run_any(*self.batch, codes=(0,))

@@ -135,8 +135,8 @@ class Usage(ProgramTest):
             self.assertEqual(again, report, words)
         self.assertIn("vertices", self.morsel("info", "--", mesh.name).stdout)
 
-    def test_help_teaches(self):
-        """Without a command, with an option and as a command; of each command the same text, which fits a
+    def test_help(self):
+        """Without a command, with an option and as a command; the same text for each command, which fits a
         terminal."""
         text = self.morsel().stdout
         self.assertEqual(self.morsel("--help").stdout, text)

@@ -1,4 +1,4 @@
-"""compare --html: what the page holds, and that nothing gets out of it."""
+"""compare --html: the page's data, and that nothing in them escapes their elements."""
 
 import json
 import math
@@ -149,7 +149,7 @@ class Html(ProgramTest):
             self.assertTrue(page.meta["report"]["mesh"]["path"].endswith(name))
             self.assertNotIn("b", page.elements.tags)
 
-    def test_bytes_that_are_no_text_do_no_harm(self):
+    def test_bytes_that_are_no_text_are_replaced(self):
         path = bytes(self.folder) + b"/caf\xe9.off"
         with open(path, "wb") as file:
             file.write(OCTAHEDRON.encode())
@@ -184,7 +184,7 @@ class Html(ProgramTest):
         self.assertNotIn('"timings"', without_timings(one))
         self.assertEqual(without_timings(one), without_timings(four))
 
-    def test_an_unwritable_page_is_told_before_the_work(self):
+    def test_an_unwritable_page_is_refused_before_the_work(self):
         self.file("taken", "")
         result = self.morsel("compare", "missing.off", "--html", "taken/page.html", code=4)
         self.assertIn("taken", result.stderr)

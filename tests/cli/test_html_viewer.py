@@ -1,4 +1,5 @@
-"""The page of compare --html in a real browser: it loads in silence, draws, turns, selects, and is for everybody."""
+"""The page of compare --html in a real browser: it loads without messages, draws, turns,
+selects, and is accessible."""
 
 import json
 import unittest
@@ -6,7 +7,8 @@ import unittest
 from browser import Browser
 from support import OCTAHEDRON, SAMPLES, ProgramTest
 
-# Draws, and tells of the pixels: the share that is covered, the number of colours among them, and a hash of all.
+# Draws, and returns of the pixels: the share that is covered, the number of colours among them, and a hash of
+# all.
 DRAWN = """(() => {
   const {viewer} = morsel, gl = viewer.renderer.getContext();
   viewer.drawNow();
@@ -64,7 +66,7 @@ class Viewer(ProgramTest):
         self.assertEqual(page.run(DRAWN)["hash"], first["hash"])
         self.assertIn("462 minima, 934 saddles, 499 maxima", page.run("document.getElementById('views').textContent"))
 
-        # the slider: fewer points the further it goes, at its end only what never dies
+        # the slider: fewer points the further it goes, at its end only essential ones
         before, hashes = 10 ** 9, {first["hash"]}
         for value in (400, 800, 1000):
             self.choose(page, "threshold", value)
@@ -139,7 +141,7 @@ class Viewer(ProgramTest):
         self.assertNotEqual(alone[1], linked[1])
         self.assert_quiet(page)
 
-    def test_curves_tell_their_values(self):
+    def test_curves_show_their_values(self):
         page = self.lion()
         page.run("document.getElementById('curves').scrollIntoView()")
         box = self.box(page, "document.querySelector('#curves svg')")

@@ -128,7 +128,7 @@ class Check(ProgramTest):
         self.assertEqual(lines[-1],
                          "2 reports: 1 unchanged, 1 changed, 0 not checked; passed over: 1 other document")
 
-        # one that cannot be checked stops nobody else, and is never passed over
+        # one that cannot be checked does not stop the others, and is never skipped
         self.file("reports/b.json", "{")
         self.file("reports/c.json", json.dumps({**report, "request": {}}))
         result = subprocess.run([PROGRAM, "check", "reports"], capture_output=True, text=True, timeout=240,

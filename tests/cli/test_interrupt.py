@@ -1,9 +1,8 @@
 """SIGINT at random moments over all commands: exit code 130, soon, and nothing left behind.
 
 In the suite a few moments a command, the same ones each time. Alone, with a number of seconds or of moments,
-many more, and the largest latencies: test_interrupt.py --moments 20 [--seed N] [NAME…]. Latencies are told in
-seconds as a clock shows them and, in brackets, of the processor, which other work on the machine does not
-lengthen."""
+many more, and the largest latencies: test_interrupt.py --moments 20 [--seed N] [NAME…]. Latencies are in
+seconds of a clock and, in brackets, of the processor, which other work on the machine does not lengthen."""
 
 import argparse
 import os
@@ -183,7 +182,7 @@ class Setting:
 
     @staticmethod
     def problem(arguments, code, errors, left):
-        """What is not as it must be after an interruption; none: ''."""
+        """What is wrong after an interruption; '' if nothing is."""
         if code == 0:
             return ""
         if code != 130:
@@ -223,7 +222,7 @@ def main():
     parser.add_argument("--longest", type=float, default=20,
                         help="seconds after which a command is interrupted at the latest")
     parser.add_argument("--above", type=float, default=1,
-                        help="processor seconds from which on a moment is told")
+                        help="processor seconds from which on a moment is reported")
     parser.add_argument("names", nargs="*")
     given = parser.parse_args()
     draw = random.Random(given.seed)

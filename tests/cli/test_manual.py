@@ -1,4 +1,4 @@
-"""Man pages and completions: every command and option is in them, and the programs that read them take
+"""Man pages and completions: every command and option is in them, and the programs that read them accept
 them."""
 
 import os

@@ -1,5 +1,5 @@
-"""What is the user's is safe: no command removes, replaces or follows what it did not make, however files and
-folders lie."""
+"""Files of the user are safe: no command removes, replaces or follows what it did not make, wherever it
+is."""
 
 import hashlib
 import json
@@ -61,7 +61,7 @@ class OwnershipTest(ProgramTest):
         return result.stderr
 
     def kept(self, before):
-        """All of `before` is as it was; what else there is does not matter."""
+        """All of `before` is unchanged; other files do not matter."""
         now = contents(self.folder)
         self.assertEqual({name: now.get(name) for name in before}, before)
 
@@ -120,7 +120,7 @@ class Batch(OwnershipTest):
         shutil.copy(self.folder / "out/summary.csv", self.folder / "out/list")
         self.refused("batch", "out/list", "--out", "out", naming=["COLLECTION"])
 
-    def test_out_of_somebody_else_is_refused(self):
+    def test_an_out_that_is_not_morsels_is_refused(self):
         self.meshes()
         for name in ("thesis.txt", ".hidden", "folder/file", "index.html", "state/notes.json",
                      "meshes-of-mine/a.off"):
@@ -133,14 +133,14 @@ class Batch(OwnershipTest):
                                  naming=["out is not empty", "choose a new or an empty folder"])
                 shutil.rmtree(out)
 
-    def test_out_of_version_0_1_gets_a_clear_word(self):
+    def test_out_of_version_0_1_is_refused_clearly(self):
         self.meshes()
         self.batch("meshes", "out")
         (self.folder / "out" / LIST).unlink()
         self.refused("batch", "meshes", "--out", "out", *QUICK,
                      naming=["morsel 0.1", "choose a new or an empty folder"])
 
-    def test_what_is_in_the_place_of_a_result_is_told_before_the_work(self):
+    def test_what_is_in_the_place_of_a_result_is_refused_before_the_work(self):
         self.meshes()
         self.batch("meshes", "out", "--only", "a.off", "--no-summary")
         for place in ("index.html", "summary.csv", "summary.json", "plots/histogram.svg",
@@ -406,7 +406,7 @@ class Folders(OwnershipTest):
             "sweep": ("sweep", "m.off", "--vary", "iterations=1..2", "--figures", folder),
             "reproduce": ("reproduce", folder, "--data", "data", "--size", "40x34", "--samples", "1")}
 
-    def test_a_folder_of_somebody_else_is_refused(self):
+    def test_a_folder_that_is_not_morsels_is_refused(self):
         for name, command in self.commands("theirs").items():
             for file in ("thesis.txt", "conventional.png", "index.html", ".x"):
                 with self.subTest(command=name, file=file):
@@ -551,7 +551,7 @@ class Outputs(OwnershipTest):
                      naming=["atomic-density:structure m.pdb"])
 
     def test_no_output_is_another(self):
-        """`compare -o x.json --html x.json` once let one of them win."""
+        """`compare -o x.json --html x.json` once kept only one of them."""
         (self.folder / "soft").symlink_to("x")
         (self.folder / "linked").symlink_to(".")
         for first, second in (("x", "x"), ("x", "./x"), ("x", "soft"), ("soft", "linked/x"),

@@ -148,9 +148,9 @@ class Plots(ProgramTest):
         self.assertIn("tps.diagram.svg", files)
         self.assertIn("tps-2.diagram.svg", files)
 
-    def test_a_folder_that_cannot_be_written_is_told_before_the_work(self):
+    def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
         self.file("taken", "")
-        # The mesh does not exist: that would be told, by another code, if work had begun.
+        # The mesh does not exist: that would be reported, by another code, if work had begun.
         result = self.morsel("compare", "no-such-mesh.off", "--figures", "taken", code=4)
         self.assertIn("taken", result.stderr)
         self.morsel("compare", "no-such-mesh.off", "--figures", "taken/below", code=4)

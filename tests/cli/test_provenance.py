@@ -1,4 +1,4 @@
-"""Every file that the program writes tells where it comes from: version, inputs with hashes, resolved
+"""Every file that the program writes has its provenance: version, inputs with hashes, resolved
 parameters; and is the same when it is made again. A reader for each kind of file, written from what the
 documentation says."""
 
@@ -67,7 +67,7 @@ READERS = {".png": of_png, ".svg": of_svg, ".vtp": of_vtp, ".ply": lambda path: 
 
 
 def without_timings(path):
-    """What must be the same when a file is made again."""
+    """The part of a file that must be the same when it is made again."""
     if path.suffix == ".json":
         document = json.loads(path.read_text())
         document.pop("timings", None)
@@ -340,7 +340,7 @@ class Provenance(ProgramTest):
                     self.assertEqual(document["request"]["methods"], ["conventional", "salient", "tps"])
 
     def test_no_command_is_left_out(self):
-        """A new command has its files looked at here, too."""
+        """The files of a new command must be tested here, too."""
         listed = re.findall(r"^  (\w+) ", self.morsel().stdout.split("Commands:")[1].split("Examples:")[0],
                             re.MULTILINE)
         tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")}

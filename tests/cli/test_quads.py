@@ -1,4 +1,4 @@
-"""morsel quads: the mesh, the document, what is refused."""
+"""morsel quads: the mesh, the document, invalid input."""
 
 import collections
 import json

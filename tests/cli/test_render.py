@@ -40,7 +40,7 @@ class Render(ProgramTest):
         self.assertGreater(min(middle), 170)
         self.assertEqual(picture.pixel(1, 1), (255, 255, 255))
 
-    def test_the_ground_can_be_transparent(self):
+    def test_the_background_can_be_transparent(self):
         picture = self.picture(self.file("o.off", OCTAHEDRON), "--field", "height", "--view", "30/20",
                                "--background",
                                "transparent", *SMALL)
@@ -89,7 +89,7 @@ class Render(ProgramTest):
                         ["--range", "5/1"], ["--center", "mean"], ["--show", "all"], ["--up", "w"],
                         ["--inset", "x"],
                         ["--method", "none"], ["--target", "0"]):
-            # The mesh is not there, but that is not what is told.
+            # The mesh does not exist, but that is not the error.
             result = self.morsel("render", "missing.off", *options, "-o", "w.png", code=2)
             self.assertNotIn("missing.off", result.stderr)
         self.assertEqual(list(self.folder.glob("*.png")), [])

@@ -1,4 +1,4 @@
-"""morsel reproduce: figures, table, numbers and page; and small pictures held against those in
+"""morsel reproduce: figures, table, numbers and page; and small pictures compared with those in
 tests/cli/pictures.
 
 Pictures may differ a little between processors, so they are compared with a tolerance. Where they are meant
@@ -47,7 +47,7 @@ def difference(a, b):
 
 
 def is_alike(a, b):
-    """Whether the eye would take them for the same picture."""
+    """Whether they look like the same picture."""
     apart = difference(a, b)
     return apart is not None and apart[0] < 0.5 and apart[1] < 0.005
 
@@ -84,7 +84,7 @@ class Page(html.parser.HTMLParser):
 
 
 class Reproduction(ProgramTest):
-    """One run on small meshes, looked at from all sides."""
+    """One run on small meshes, with all its outputs."""
 
     @classmethod
     def setUpClass(cls):
@@ -139,7 +139,7 @@ class Reproduction(ProgramTest):
                 self.assertEqual(run["method"]["parameters"], method["parameters"])
         self.assertEqual(rows["lion", 10]["paper"], {"points": 493, "seconds": 3.9})
         self.assertEqual(rows["protein", 0]["paper"], {"points": None, "seconds": None})
-        # The design's own figures for this mesh: conventional, and local with support 1 after 10.
+        # Reference counts for this mesh: conventional, and local with support 1 after 10.
         self.assertEqual(rows["lion", 0]["runs"][0]["critical_points"]["total"], 1895)
         self.assertEqual(rows["lion", 10]["runs"][0]["critical_points"]["total"], 136)
 
@@ -191,7 +191,7 @@ class Reproduction(ProgramTest):
             self.morsel(*words[1:])
             self.assertEqual((self.folder / file).read_bytes(), (self.out / file).read_bytes(), panels[file])
 
-    def test_the_page_holds_everything_and_asks_for_nothing(self):
+    def test_the_page_holds_everything_and_loads_nothing(self):
         text = (self.out / "index.html").read_text()
         page = Page(text)
         self.assertEqual((page.open, page.alone), ([], []))
@@ -220,7 +220,7 @@ class Reproduction(ProgramTest):
             self.assertTrue(is_alike(self.picture(name), kept),
                             f"{name}: {difference(self.picture(name), kept)}")
 
-    def test_pictures_that_look_different_are_told_apart(self):
+    def test_pictures_that_look_different_are_detected(self):
         commands = {panel["file"]: shlex.split(panel["command"])[1:]
                     for figure in self.document["figures"] for panel in figure["panels"]}
         shutil.copytree(self.data, self.folder / "data")
@@ -242,7 +242,7 @@ class Reproduction(ProgramTest):
                 changed = Png((self.folder / file).read_bytes())
                 self.assertFalse(is_alike(changed, kept),
                                  f"{file} with {change}: {difference(changed, kept)}")
-        # What a processor may do to a picture is let pass: a level here and there, an edge that falls
+        # Differences between processors are accepted: single colour levels, an edge that is rounded
         # otherwise.
         nearly = Png((PICTURES / "figure1b.png").read_bytes())
         for y, row in enumerate(nearly.rows):
@@ -280,7 +280,7 @@ class Requests(ProgramTest):
         self.morsel("reproduce", code=2)
         self.assertEqual(list(self.folder.iterdir()), [])
 
-    def test_what_is_missing_is_told_in_one_sentence(self):
+    def test_what_is_missing_is_reported_in_one_sentence(self):
         result = self.morsel("reproduce", "out", "--meshes", "nowhere", code=3)
         for word in ("lion-head.off", "bunny00.off", "retinal.off", "nowhere", "--meshes"):
             self.assertIn(word, result.stderr)
@@ -299,7 +299,7 @@ class Requests(ProgramTest):
         self.assertIn("lion.ply", self.morsel("reproduce", "out", "--data", data, "--meshes", SAMPLES,
                                               code=3).stderr)
 
-    def test_what_cannot_be_written_is_told_before_the_work(self):
+    def test_what_cannot_be_written_is_refused_before_the_work(self):
         (self.folder / "file").write_text("")
         self.morsel("reproduce", "file", "--meshes", SAMPLES, code=4)
         self.assertEqual((self.folder / "file").read_text(), "")

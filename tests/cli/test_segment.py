@@ -1,4 +1,4 @@
-"""morsel segment: labels in three formats, the table, merging, and what is refused."""
+"""morsel segment: labels in three formats, the table, merging, and errors."""
 
 import collections
 import json
@@ -177,7 +177,7 @@ class Segment(ProgramTest):
         ascending, _ = self.table(mesh, "--repair", "--field", "height:axis=x", "--by", "ascending")
         self.assertEqual(ascending["segments"][0]["minimum"], 0)
 
-    def test_what_cannot_be_merged_is_told(self):
+    def test_what_cannot_be_merged_is_reported(self):
         # Two components end with a segment each.
         two = self.file("two.off", OCTAHEDRON.replace("6 8 0", "12 16 0").replace("3 0 2 3", "".join(
             f"{x + 9} {y} {z}\n" for x, y, z in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0, 1, 0), (-1, 0, 0),
@@ -191,7 +191,7 @@ class Segment(ProgramTest):
             self.assertIn("2 segments, more than the 1 asked for", said)
             self.assertIn("2 segments", table["merging"]["note"])
 
-    def test_the_field_before_and_methods_are_told(self):
+    def test_the_field_before_and_methods_are_reported(self):
         table, _ = self.table(SAMPLES / "lion-head.off", "--method", "salient:iterations=2", "--target", 100,
                               "--persistence", "1%")
         self.assertEqual(table["method"]["name"], "salient")
@@ -227,7 +227,7 @@ class Segment(ProgramTest):
             with self.assertRaises(jsonschema.ValidationError):
                 jsonschema.validate(table, schema)
 
-    def test_wrong_usage_and_bad_input_are_told_before_the_work(self):
+    def test_wrong_usage_and_bad_input_are_refused_before_the_work(self):
         mesh = self.file("o.off", OCTAHEDRON)
         for arguments, code, words in ((["-o", "x.off"], 2, [".ply", ".vtp", ".txt", "x.off"]),
                                        ([], 2, ["-o OUT"]),

@@ -95,7 +95,7 @@ class Results(Stability):
         row, = [line for line in out.split("Target 20")[1].splitlines() if line.startswith("noise 0.1")]
         self.assertEqual(len(row.split()), 10)
 
-    def test_a_mesh_that_had_to_be_mended(self):
+    def test_a_mesh_that_had_to_be_repaired(self):
         document = self.stability(self.file("d.off", DAMAGED), "--repair", "--field", "height", "--noise",
                                   "0.1",
                                   "--subdivide", "3", "--trials", "1")

@@ -28,7 +28,7 @@ class Sweep(ProgramTest):
 
 class Results(Sweep):
     def test_the_lion_head_by_iterations(self):
-        # The figures of the design for 1, 5, 10 and 20 iterations.
+        # Reference counts for 1, 5, 10 and 20 iterations.
         document = self.sweep(LION, "--vary", "iterations=1,5..20..5", "--vary", "range=1std,local")
         jsonschema.validate(document, json.loads(SWEEP_SCHEMA.read_text()))
         totals = {(row["values"]["range"], row["values"]["iterations"]): row["critical_points"]["total"]

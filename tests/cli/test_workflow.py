@@ -56,7 +56,8 @@ class WorkflowTest(ProgramTest):
         return next((int(row[1]) for row in rows if len(row) == 4 and row[0] == "part"), 0)
 
     def plain(self, *arguments, options=QUICK, collection="meshes"):
-        """One plain run, which the workflow's results are held against: the same words in another folder."""
+        """One plain run, with which the workflow's results are compared: the same arguments in another
+        folder."""
         shutil.rmtree(self.folder / "plain", ignore_errors=True)
         (self.folder / "plain").mkdir()
         for name in ("meshes", "list"):
@@ -100,7 +101,7 @@ class Results(WorkflowTest):
         self.assertEqual({path.name for path in self.folder.iterdir()},
                          {"meshes", "out", "plain", ".snakemake"})
 
-    def test_a_mesh_that_fails_stops_nobody_else(self):
+    def test_a_mesh_that_fails_does_not_stop_the_others(self):
         self.file("meshes/damaged.off", "OFF\n3 1 0\nnothing\n")
         said = self.workflow(code=1)
         self.assertIn("4 meshes: 3 done, 1 failed", said)
@@ -164,7 +165,7 @@ class Interruptions(WorkflowTest):
             self.assertEqual({name: time for name, time in self.times().items() if name in before}, before)
             self.assert_same_as_plain()
 
-    def test_two_runs_do_not_get_in_each_others_way(self):
+    def test_two_runs_are_independent(self):
         with subprocess.Popen(self.command(options=LONG), cwd=self.folder, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, start_new_session=True) as process:
             until(self.workers)
@@ -176,7 +177,7 @@ class Interruptions(WorkflowTest):
 
 
 class WrongInput(WorkflowTest):
-    def test_what_cannot_be_begun_is_told_in_one_sentence(self):
+    def test_what_cannot_begin_is_refused_in_one_sentence(self):
         (self.folder / "empty").mkdir()
         for wrong, said in (("collection=absent", "absent"),
                             ("collection=empty",

@@ -18,7 +18,7 @@ import subprocess
 import sys
 
 FOLDERS = ("core", "morse", "persistence", "mscomplex", "tools")
-SHARED_FROM = 8  # sources with the same options that make a precompiled header pay
+SHARED_FROM = 8  # from this many sources with the same options on a precompiled header saves time
 SHARED = ("algorithm", "array", "atomic", "bit", "cmath", "functional", "limits", "map", "memory", "numeric",
           "optional", "queue",
           "set", "span", "string", "string_view", "thread", "unordered_map", "utility", "variant", "vector",

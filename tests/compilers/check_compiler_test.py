@@ -46,7 +46,7 @@ class CheckCompiler(unittest.TestCase):
     def test_clean_sources(self):
         self.assertEqual(self.check()[0], 0)
 
-    def test_a_warning_and_an_error_of_which_both_are_told(self):
+    def test_a_warning_and_an_error_are_both_reported(self):
         self.source("core/warns.cpp", "int f(int x) { int unused; return x; }\n")
         self.source("core/wrong.cpp", "int g() { return h(); }\n")
         code, text = self.check()
@@ -54,7 +54,7 @@ class CheckCompiler(unittest.TestCase):
         self.assertIn("unused variable", text)
         self.assertIn("undeclared identifier", text)
 
-    def test_other_folders_are_not_looked_at(self):
+    def test_other_folders_are_ignored(self):
         self.source("other/wrong.cpp", "int g() { return h(); }\n")
         self.assertEqual(self.check()[0], 0)
 

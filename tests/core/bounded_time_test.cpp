@@ -133,7 +133,7 @@ TEST_CASE("progress is reported within lines and lists of any length") {
   CHECK(reports(replaced(binary, "element face", "element thing"), MeshFormat::ply) > 10);
 }
 
-TEST_CASE("pieces of a text that are read in parallel stop when the whole is to stop") {
+TEST_CASE("a stop ends the reading of a text in parallel pieces") {
   std::stop_source stop;
   const core::Progress progress([](std::string_view, double) { FAIL("reported from another thread"); },
                                 stop.get_token());

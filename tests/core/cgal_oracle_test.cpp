@@ -26,7 +26,7 @@ namespace {
 
 using CgalPoint = CGAL::Simple_cartesian<double>::Point_3;
 
-/// Catches what CGAL prints about files that it does not like.
+/// Captures what CGAL prints about files that it refuses.
 class Quiet {
  public:
   Quiet() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
@@ -37,7 +37,7 @@ class Quiet {
   std::streambuf* before_;
 };
 
-/// Compares the file as both read it; false if CGAL does not take it.
+/// Compares the file as both read it; false if CGAL refuses it.
 bool check_against_cgal(const std::string& path) {
   std::vector<CgalPoint> points;
   std::vector<std::vector<std::size_t>> polygons;
@@ -63,7 +63,7 @@ TEST_CASE("sample meshes are read as CGAL reads them") {
   const std::filesystem::path folder = std::filesystem::path(sample("lion-head.off")).parent_path();
   int compared = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    // prim.off announces a face less than it has, which CGAL does not mind.
+    // prim.off announces one face too few, which CGAL ignores.
     if (entry.path().filename() == "prim.off" || entry.file_size() > 300'000) continue;
     INFO(entry.path());
     CHECK(check_against_cgal(entry.path().string()));

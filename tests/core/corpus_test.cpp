@@ -1,4 +1,4 @@
-// What becomes of every file of the corpus, against tests/corpus/expected.txt. If a change is meant, set
+// The outcome of every file of the corpus, compared with tests/corpus/expected.txt. If a change is meant, set
 // MORSEL_ACTUAL to a file that receives the new table, and read the difference before you keep it.
 
 #include <catch2/catch.hpp>

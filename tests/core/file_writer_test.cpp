@@ -88,7 +88,7 @@ TEST_CASE("what is not committed leaves the old file and nothing else") {
   CHECK(contents(path) == "new");
 }
 
-TEST_CASE("what is not whole yet has no name, or one that is swept when nobody holds it") {
+TEST_CASE("an incomplete file has no name, or one that is removed once no process locks it") {
   const Scratch scratch;
   const std::string left = ".morsel-4194305-0.tmp";
   fs::create_directory(scratch / "other");
@@ -106,7 +106,7 @@ TEST_CASE("what is not whole yet has no name, or one that is swept when nobody h
   CHECK(fs::exists(scratch / "other" / ".morsel-1-0.tmp.txt"));
 }
 
-TEST_CASE("a file that came to be meanwhile is replaced whole") {
+TEST_CASE("a file that appeared meanwhile is replaced whole") {
   const Scratch scratch;
   FileWriter writer(scratch / "report.json");
   writer.write("new");
@@ -154,7 +154,7 @@ TEST_CASE("bug: files in /dev/shm were taken for devices and could not be made")
   fs::remove(path);
 }
 
-TEST_CASE("places where no file can be are refused with a reason") {
+TEST_CASE("paths at which no file can be written are refused with a reason") {
   const Scratch scratch;
   CHECK_THROWS_WITH(FileWriter(scratch.path()), Catch::Contains("Is a directory"));
   CHECK_THROWS_AS(FileWriter(""), WriteFailed);

@@ -101,7 +101,7 @@ constexpr PolygonTriangulator::Limits kFewTests = {0, 250};  // for each corner
 
 }  // namespace
 
-TEST_CASE("a large polygon loses the next ear in turn") {
+TEST_CASE("a large polygon is clipped at the next ear in turn") {
   std::mt19937 random(5);
   for (const auto& [name, make] : adversarial::simple_polygons()) {
     CAPTURE(name);
@@ -205,7 +205,7 @@ TEST_CASE("the cutting of a large polygon can be cancelled") {
                   core::Cancelled);
 }
 
-TEST_CASE("a tree of corners finds the same in a triangle as looking at all, whatever was removed") {
+TEST_CASE("a tree of corners agrees with testing all corners, after any removals") {
   std::mt19937 random(7);
   const auto coordinate = [&](int range) { return static_cast<double>(random() % range) / range; };
   for (const int range : {7, 1000}) {  // many corners at one place, and few

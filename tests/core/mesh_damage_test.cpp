@@ -1,5 +1,5 @@
-// Each format cut off and changed at each byte: a mesh or a BadInput, nothing else; and what was cut off must
-// not pass for whole.
+// Each format cut off and changed at each byte: a mesh or a BadInput, nothing else; and a truncated file
+// must be refused.
 
 #include <catch2/catch.hpp>
 #include <map>

@@ -60,7 +60,7 @@ TEST_CASE("non-finite positions are found") {
   check_only(soup, DefectKind::non_finite_position, 2, {3, 5});
 }
 
-TEST_CASE("faces that name missing vertices are found and not looked at further") {
+TEST_CASE("faces that name missing vertices are found and left out of other checks") {
   Soup soup = tetrahedron();
   soup.triangles.push_back({0, 0, 4});
   soup.triangles.push_back({1, kNone, 2});
@@ -73,7 +73,7 @@ TEST_CASE("degenerate faces are found") {
   check_only(soup, DefectKind::degenerate_face, 1, {4});
 }
 
-TEST_CASE("a second face on the same vertices is found however it runs") {
+TEST_CASE("a second face on the same vertices is found in either orientation") {
   Soup soup = tetrahedron();
   soup.triangles.push_back({1, 0, 2});
   soup.triangles.push_back({2, 0, 1});
@@ -113,7 +113,7 @@ TEST_CASE("a Moebius band is found not to be orientable") {
   CHECK(defects[DefectKind::inconsistent_orientation].count >= 1);
   CHECK(defects.size() == 2);
   CHECK_THROWS_WITH(soup.mesh(), Catch::Contains("cannot be oriented") && !Catch::Contains("--repair"));
-  // Only the component that it is counts.
+  // Only the faces of that component count.
   auto both = defects_of(together(sphere(1), soup));
   CHECK(both[DefectKind::non_orientable].count == soup.triangles.size());
   CHECK(both[DefectKind::non_orientable].first.front() == sphere(1).triangles.size());
@@ -148,7 +148,7 @@ TEST_CASE("a mesh with several defects has them all named in one sentence") {
   CHECK_THROWS_WITH(thrown(), Catch::EndsWith("repair cannot mend components that cannot be oriented"));
 }
 
-TEST_CASE("the sentence of a refused mesh can have another subject and knows of repair") {
+TEST_CASE("the sentence of a refused mesh can have another subject and depends on repair") {
   const std::vector<Defect> defects = {{DefectKind::degenerate_face, 1, {4}},
                                        {DefectKind::non_manifold_edge, 2, {1, 2, 1, 3}}};
   CHECK(std::string(core::MeshError(defects).about("a.off").what()) ==

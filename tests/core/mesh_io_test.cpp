@@ -308,7 +308,7 @@ TEST_CASE("quads written as OBJ read back to the same bits") {
   CHECK_THROWS_AS(core::write_obj(scratch.file("no") / "a.obj", positions, quads), core::WriteFailed);
 }
 
-TEST_CASE("comments stand at a file's head and are passed over") {
+TEST_CASE("comments are at a file's head and readers skip them") {
   const Scratch scratch;
   const core::TriangleMesh mesh = single_triangle().mesh();
   const std::vector<std::string> comments = {"{\"a\": 1,", "end_header of \xc3\xa9l\xc3\xa9ments # 3 0 1 2"};

@@ -74,7 +74,7 @@ TEST_CASE("nothing is repaired in a sound mesh") {
   }
 }
 
-TEST_CASE("unused vertices are removed and the numbering knows") {
+TEST_CASE("unused vertices are removed and the numbering maps the others") {
   Soup soup = square_pair();
   soup.positions.insert(soup.positions.begin() + 1, Point(7, 7, 7));
   soup.positions.emplace_back(8, 8, 8);
@@ -119,7 +119,7 @@ TEST_CASE("a vertex of two fans becomes two vertices at one place") {
   CHECK(built.numbering.from_input == std::vector<Index>{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("faces at an edge of three are parted") {
+TEST_CASE("faces at an edge of three are separated") {
   const BuiltMesh built =
       repaired({{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}}});
   CHECK(listed(built) == "split_non_manifold_edges 1, split_non_manifold_vertices 2");
@@ -157,7 +157,7 @@ TEST_CASE("a closed component is oriented outward") {
   }
 }
 
-TEST_CASE("a component that agrees with itself keeps its orientation") {
+TEST_CASE("a consistent component keeps its orientation") {
   Soup inward = tetrahedron();
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   Soup mixed = octahedron();
@@ -195,7 +195,7 @@ TEST_CASE("what cannot be repaired is refused with what remains") {
   CHECK_THROWS_WITH(repair({{{0, 0, 0}}, {{0, 0, 0}}}), Catch::Contains("after repair it has no triangle"));
 }
 
-TEST_CASE("a non-finite position is no matter if its vertex goes away") {
+TEST_CASE("a non-finite position is accepted if its vertex is removed") {
   Soup soup = tetrahedron();
   soup.positions.emplace_back(NAN, 0, 0);
   CHECK(repaired(soup).mesh.vertex_count() == 4);

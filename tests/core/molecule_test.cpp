@@ -63,7 +63,7 @@ void check_both(const Serials& expected, const std::function<void(MoleculeOption
 
 }  // namespace
 
-TEST_CASE("atoms are read with all that files say of them") {
+TEST_CASE("atoms are read with all their attributes") {
   for (const std::string extension : {".pdb", ".ent", ".PDB", ".cif", ".mmcif"}) {
     CAPTURE(extension);
     const bool cif = extension.find("cif") != std::string::npos;
@@ -130,7 +130,7 @@ TEST_CASE("one model is taken") {
   }
 }
 
-TEST_CASE("a file without atoms is refused and told what was left out") {
+TEST_CASE("a file without atoms is refused with what was left out") {
   CHECK_THROWS_WITH(read("", ".pdb"), Contains("molecule.pdb has no atoms"));
   CHECK_THROWS_WITH(read("HEADER    X\nEND\n", ".pdb"), Contains("has no atoms"));
   CHECK_THROWS_WITH(read("data_X\n_cell.length_a 3\n", ".cif"), Contains("has no atoms"));
@@ -202,14 +202,14 @@ TEST_CASE("a file cut or spoiled anywhere is read or refused") {
   }
 }
 
-TEST_CASE("records that have nothing to do with atoms are not looked into") {
+TEST_CASE("records without atoms are not parsed") {
   const std::string text =
       "LINK   nonsense\nSSBOND 1\nREMARK\nANISOU  1\nMTRIX4\nCRYST1 x y z\r\n" + pdb_line({}, 1);
   CHECK(read(text, ".pdb").atoms.size() == 1);
   CHECK(read(text + "END\n" + pdb_line({}, 2).substr(0, 20), ".pdb").atoms.size() == 1);
 }
 
-TEST_CASE("molecule options are keys and back") {
+TEST_CASE("molecule options are read back from their keys") {
   core::ParameterReader reader(
       {"m", {{"hetero", "all"}, {"waters", "yes"}, {"altloc", "B"}, {"chains", "A/B\\/C"}, {"model", "2"}}});
   const MoleculeOptions options = core::read_molecule_options(reader);

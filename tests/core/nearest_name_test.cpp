@@ -28,7 +28,7 @@ TEST_CASE("the nearest name is the one with the fewest letters changed, if it is
   CHECK(nearest_of("q", two, "it takes") == "; it takes: axis, direction");
 }
 
-TEST_CASE("one letter changed in a long name is always mended") {
+TEST_CASE("one letter changed in a long name is always corrected") {
   const std::vector<std::string> names = {"mean-curvature", "gaussian-curvature", "principal-curvature"};
   std::mt19937 random(3);
   for (int trial = 0; trial < 300; ++trial) {

@@ -63,7 +63,7 @@ TEST_CASE("a neighbourhood on a lattice has its border exactly") {
       CHECK(found(search, points[i], radius) == by_looking(points, points[i], radius));
 }
 
-TEST_CASE("neighbourhoods are those of the definition at every scale") {
+TEST_CASE("neighbourhoods agree with brute force at every scale") {
   const std::vector<Point> points = random_points(500, 3);
   for (const double scale : {1.0, 1e-160, 1e-300, 1e150, 1e300}) {
     std::vector<Point> scaled = points;
@@ -84,7 +84,7 @@ TEST_CASE("coinciding points and small sets are searched") {
   CHECK(found(PointSearch(std::vector<Point>{{1, 1, 1}}), {0, 0, 0}, 2) == std::vector<Index>{0});
 }
 
-TEST_CASE("how far the nearest points reach is the distance of the last of them") {
+TEST_CASE("the reach of the nearest points is the distance of the last of them") {
   std::vector<Point> points = random_points(400, 5);
   points.insert(points.end(), 30, points[7]);
   for (const double unit : {1.0, 0x1p-900, 0x1p500}) {

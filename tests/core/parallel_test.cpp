@@ -135,7 +135,7 @@ TEST_CASE("exceptions reach the caller whatever the number of threads") {
                                               if (i == 77777) throw core::Cancelled();
                                             }),
                     core::Cancelled);
-    // And the next loop runs as if nothing had been.
+    // The next loop runs normally.
     std::atomic<std::size_t> count{0};
     core::parallel_for_each(100000, [&](std::size_t) { ++count; });
     CHECK(count == 100000);

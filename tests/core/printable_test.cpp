@@ -5,7 +5,7 @@
 
 using morsel::core::printable;
 
-TEST_CASE("what a terminal would act on is escaped, all else stays") {
+TEST_CASE("control characters are escaped, all other text is kept") {
   CHECK(printable("") == "");
   CHECK(printable("plain, \\ and \"quoted\"") == "plain, \\ and \"quoted\"");
   CHECK(printable("\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\xb0") == "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\xb0");
@@ -28,7 +28,7 @@ TEST_CASE("bytes that are not UTF-8 are escaped one by one") {
   CHECK(printable("\xc3(") == "\\xc3(");
 }
 
-TEST_CASE("whatever the bytes, nothing is left to act on") {
+TEST_CASE("no bytes leave a control character") {
   std::string all;
   for (int i = 0; i < 256; ++i)
     for (int k = 0; k < 256; k += 5) all += {static_cast<char>(i), static_cast<char>(k)};

@@ -11,7 +11,7 @@ using namespace morsel;
 using core::Cancelled;
 using core::Progress;
 
-TEST_CASE("progress that nobody hooks is silent and never stops") {
+TEST_CASE("progress without a hook reports nothing and never stops") {
   const Progress progress;
   CHECK_NOTHROW(progress.update("step", 0.5));
   CHECK_NOTHROW(progress.throw_if_cancelled());

@@ -46,7 +46,7 @@ TEST_CASE("an explicit order must be a permutation that agrees with the values")
   CHECK_THROWS_AS(ScalarField(mesh, {1, 1, 1, 0}, {0, 1, 2, 4}), core::InvalidArgument);
 }
 
-TEST_CASE("negating turns the order round, ties included") {
+TEST_CASE("negating reverses the order, ties included") {
   const ScalarField field(square_pair().mesh(), {1, 1, 0, 1});
   const ScalarField negated = field.negated();
   for (Index v = 0; v < 4; ++v) {

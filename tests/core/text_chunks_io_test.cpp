@@ -86,7 +86,7 @@ std::string joined(const std::vector<std::string>& lines, const std::string& end
   return text;
 }
 
-/// Spoils a line, or only says the same in another way.
+/// Damages a line, or only writes the same in another way.
 void change(std::vector<std::string>& lines, std::mt19937& random) {
   static const std::vector<std::string> kLines = {
       "x",         "v 1 2",       "3 0 1",      "f 1 2 99999", "f 1 2 -99999",

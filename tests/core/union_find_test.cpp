@@ -6,7 +6,7 @@
 
 using namespace morsel::core;
 
-TEST_CASE("sets are those of the slow definition and their smallest element is the root") {
+TEST_CASE("sets agree with brute force and their smallest element is the root") {
   std::mt19937 random(3);
   for (int round = 0; round < 50; ++round) {
     const Index n = 1 + static_cast<Index>(random() % 60);
@@ -23,7 +23,7 @@ TEST_CASE("sets are those of the slow definition and their smallest element is t
   }
 }
 
-TEST_CASE("parities are those of a colouring and a contradiction is noticed") {
+TEST_CASE("parities are those of a colouring and a contradiction is detected") {
   std::mt19937 random(4);
   for (int round = 0; round < 100; ++round) {
     const Index n = 2 + static_cast<Index>(random() % 40);

@@ -1,4 +1,5 @@
-// Makes the system fail: to be preloaded (LD_PRELOAD) into a program under test. What fails is said by the environment:
+// Makes the system fail: to be preloaded (LD_PRELOAD) into a program under test. The environment selects what
+// fails:
 //
 //   MORSEL_FAULT_KIND    memory, map, open, read, write, sync, name, remove, folder, status, thread, process; or signal,
 //                        which delivers MORSEL_FAULT_CODE at the n-th call of all kinds but memory and map
@@ -10,7 +11,7 @@
 //   MORSEL_FAULT_MARK    a file that is made when something failed
 //   MORSEL_FAULT_COUNTS  a file that gets "KIND NUMBER" lines at the end
 //
-// Standard error is never disturbed: the sentence that tells of the failure is what is tested.
+// Standard error is never disturbed: the sentence about the failure is what is tested.
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -108,7 +109,7 @@ __attribute__((constructor)) static void begin(int argc, char** argv, char** env
     if (strncmp(key, "NAMED", length) == 0) named = atoi(value);
     if (strncmp(key, "MARK", length) == 0) mark = value;
     if (strncmp(key, "COUNTS", length) == 0) counts = value;
-    if (strncmp(key, "SCOPE", length) == 0) {  // the next process finds what is meant for it
+    if (strncmp(key, "SCOPE", length) == 0) {  // the next process gets its own settings
       passive = *value != 'p';
       *value = *value == 'c' ? 'p' : 'x';
     }

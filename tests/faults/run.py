@@ -3,12 +3,12 @@
 program.
 
     run.py [RUNS] [--seed S] [--seconds T]     RUNS faults drawn at random (default 300), at most T seconds
-    run.py --one SCENARIO SCOPE KIND AT ALL CODE NAMED    one of them, as a violation names it, and what came
-    of it
+    run.py --one SCENARIO SCOPE KIND AT ALL CODE NAMED    one of them, as a violation names it, and its
+    outcome
 
 The environment names the program (MORSEL_PROGRAM) and the library that makes calls fail (MORSEL_FAULTS,
 inject.c). Promised are, whatever fails: a documented exit code, that of what failed; one sentence on standard
-error; files that were there are as they were or complete new ones; nothing else is left; and the next run
+error; existing files are unchanged or complete new ones; nothing else is left; and the next run
 succeeds with equal results. Ends with 1 if there was a violation.
 """
 
@@ -137,7 +137,7 @@ def wrong_children(fault, folder):
 
 
 def run(fault, prepared, folder, tell=None):
-    """Whether the fault came about, and what was wrong then."""
+    """Whether the fault occurred, and what was wrong then."""
     ready = prepared[fault.scenario]
     place = ready.copy(folder / "place")
     mark = folder / "mark"
@@ -162,7 +162,7 @@ def run(fault, prepared, folder, tell=None):
     wrong += wrong_words(fault, result.returncode, errors)
     if fault.scenario.startswith("batch"):
         wrong += wrong_children(fault, place)
-    # Names are swept by the next run where they could not be removed or nobody was left to do it.
+    # Files left over are removed by the next run.
     swept = (r"\.morsel-[0-9]+-[0-9]+\.tmp$",
              ) if fault.kind == "remove" or fault.code == signal.SIGKILL else ()
     if result.returncode == 0 and fault.kind != "remove":

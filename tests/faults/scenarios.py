@@ -32,7 +32,7 @@ METHODS = ("--field", "height", "--method", "conventional", "--method", "salient
 
 
 class Scenario:
-    """A command, its files of input, and what of the folder it may make."""
+    """A command, its input files, and the files that it may make."""
 
     def __init__(self, name, arguments, meshes=("mesh.off",), before=(), working=()):
         self.name = name
@@ -89,7 +89,7 @@ def scenarios():
 def listed(data):
     """What a folder's list says was made in it."""
     entries = set()
-    for line in filter(None, data.decode().split("\n")[1:-1]):  # one that was cut off is no line
+    for line in filter(None, data.decode().split("\n")[1:-1]):  # a truncated last line is ignored
         (entries.add if line[0] == "+" else entries.discard)(line[1:])
     return entries
 

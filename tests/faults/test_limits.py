@@ -34,7 +34,7 @@ class LimitTest(unittest.TestCase):
                               check=False, **options)
 
     def check_end(self, ready, folder, result, codes):
-        """One sentence for an error, old files or new ones, nothing else; and the next run is as ever."""
+        """One sentence for an error, old files or new ones, nothing else; and the next run succeeds."""
         self.assertIn(result.returncode, codes, result.stderr)
         if result.returncode in (3, 4, 5):
             self.assertRegex(result.stderr, r"\A(morsel: warning: .*\n)*morsel: (?!warning).*\n\Z")
@@ -92,7 +92,7 @@ class Limits(LimitTest):
 
     @unittest.skipIf(os.geteuid() != 0, "only root can become a user whose processes are counted")
     def test_threads_and_processes(self):
-        # The limit counts all processes of the user: one that nobody else has.
+        # The limit counts all processes of the user: one of these tests alone.
         user = NOBODY - os.getpid() % 10000
         least = 1 + self.threads_of_libraries()
         self.folder.chmod(0o777)
@@ -154,7 +154,7 @@ class Limits(LimitTest):
 
 
 class Outputs(LimitTest):
-    def test_what_prints_fails_if_it_cannot_be_printed(self):
+    def test_commands_that_print_fail_if_that_fails(self):
         (self.folder / "mesh.off").write_text(OCTAHEDRON)
         for arguments in (["--help"], ["--version"], ["compare", "--help"], ["info", "mesh.off"],
                           ["info", "mesh.off", "--json"],
@@ -239,7 +239,7 @@ class Signals(LimitTest):
 
 
 class Sweeping(LimitTest):
-    def test_only_what_is_nobodys_goes(self):
+    def test_only_files_left_over_are_removed(self):
         mesh = self.folder / "mesh.off"
         mesh.write_text(OCTAHEDRON)
         keep = [".morsel-1-x.tmp", ".morsel-1-2.tmp.bak", "morsel-1-2.tmp", ".morsel--2.tmp",

@@ -36,7 +36,7 @@ void morsel::fuzz::journal(std::string_view bytes) {
   try {
     read(path, 1);
     const Read again = read(path, 1);
-    require(!again.warns, "what is damaged is told once");
+    require(!again.warns, "damage is reported once");
     require(read(path, 1).entries == again.entries, "entries stay");
     const Json trial = {{"surface", "noise 1 normal 0"}, {"trials", {{1, 1, 1, 1, 3, 3, 3, 0.5, 0.5}}}};
     {
@@ -47,6 +47,6 @@ void morsel::fuzz::journal(std::string_view bytes) {
     require(!more.warns && more.entries.size() == again.entries.size() + 1 && more.entries.back() == trial,
             "an entry that is added comes last");
   } catch (const core::InvalidArgument&) {  // no journal: it is left as it is
-    require(test::contents(path) == bytes, "a file that is no journal stays");
+    require(test::contents(path) == bytes, "a file that is not a journal stays");
   }
 }

@@ -62,7 +62,7 @@ std::string as_off(const PolygonSoup& soup) {
 
 void check_mesh(const BuiltMesh& built) {
   const VertexNumbering& numbering = built.numbering;
-  // validate() takes the slowest definitions; what it would tell of a large mesh it tells of a small one.
+  // validate() is slow, and small meshes suffice for it.
   if (built.mesh.triangle_count() < 1000) built.mesh.validate();
   require(numbering.to_input.empty() == numbering.from_input.empty(), "half a numbering");
   if (numbering.to_input.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the targets of the mesh formats share.
+/// Checks of the targets of the mesh formats.
 
 #include <functional>
 #include <string_view>
@@ -8,8 +8,8 @@
 
 namespace morsel::fuzz {
 
-/// What parse_polygon_soup() reads the bytes to: whether it is a soup, comes back equal when written and read
-/// again, and gives meshes that keep their rules. Nothing if it refuses them.
+/// Checks the result of parse_polygon_soup(): it is a valid soup, is equal when written and read again, and
+/// gives meshes that keep their rules. Does nothing if the bytes are refused.
 void check_mesh_format(std::string_view bytes, core::MeshFormat format);
 
 /// Reads the bytes by `read`, once in pieces of each size and once as a whole: both must give the same soup

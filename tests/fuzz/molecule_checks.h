@@ -1,11 +1,11 @@
 #pragma once
-/// What the targets of the molecules' formats share.
+/// Checks of the targets of the molecules' formats.
 
 #include "morsel/core/io/atom_records.h"
 
 namespace morsel::fuzz {
 
-/// What must hold of all atoms of a file, and of those that options take.
+/// Checks the invariants of all atoms of a file, and of those that options take.
 void check_atoms(const core::AtomRecords& all);
 
 }  // namespace morsel::fuzz

@@ -17,7 +17,7 @@ bool same(const core::Specification& a, const core::Specification& b) {
   return a.name == b.name && a.given == b.given;
 }
 
-/// What a text says as a number, an integer and a length comes back from what is written of it.
+/// A number, an integer and a length of a text are read back from what is written of them.
 void check_scalars(std::string_view text) {
   try {
     const double number = core::parse_number(text, "fuzz");

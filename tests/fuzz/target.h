@@ -1,5 +1,5 @@
 #pragma once
-/// The fuzz targets: each reads any bytes as one kind of input and checks what must hold of what comes out.
+/// The fuzz targets: each reads any bytes as one kind of input and checks invariants of the result.
 
 #include <cstddef>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace morsel::fuzz {
 
-/// What must hold does not.
+/// An invariant is violated.
 class Violation : public std::logic_error {
  public:
   using logic_error::logic_error;
@@ -19,8 +19,8 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw Violation(what);
 }
 
-/// One source file each. A core::BadInput or core::InvalidArgument is an answer that they take; whatever
-/// comes out of them is a bug found.
+/// One source file each. They accept core::BadInput and core::InvalidArgument as results; any exception that
+/// they throw is a bug.
 void off(std::string_view bytes);
 void obj(std::string_view bytes);
 void ply(std::string_view bytes);

@@ -76,7 +76,7 @@ TEST_CASE("atomic density has the same bits for any number of threads and moves 
   for (Index v = 0; v < mesh.vertex_count(); ++v) CHECK(moved.value(v) == Approx(values[0][v]).epsilon(1e-9));
 }
 
-TEST_CASE("atomic density reads its molecule and tells what it took") {
+TEST_CASE("atomic density reads its molecule and reports the atoms taken") {
   const Scratch folder;
   const std::string file = folder
                                .file("x.pdb", pdb_text({{"C1"},
@@ -105,7 +105,7 @@ TEST_CASE("atomic density reads its molecule and tells what it took") {
   CHECK(chosen.field.value(0) == Approx(std::pow(term(1, 1.7), 4) + std::pow(term(1, 1.52), 4)));
 }
 
-TEST_CASE("atomic density refuses what makes no sense") {
+TEST_CASE("atomic density refuses invalid options") {
   const TriangleMesh mesh = octahedron().mesh();
   const std::vector<Atom> far = {atom_at({500, 0, 0}, 1.7)};
   CHECK_THROWS_WITH(morse::atomic_density(mesh, far),

@@ -59,7 +59,7 @@ TEST_CASE("curvature functions by name are the curvatures") {
   CHECK(values_of(evaluate(mesh, "shape-index", quadric).field) == morse::shape_index(fitted.curvatures));
 }
 
-TEST_CASE("curvature functions report what their parameters came to") {
+TEST_CASE("curvature functions report their resolved parameters") {
   const TriangleMesh mesh = sphere(3).mesh();
   CHECK(evaluate(mesh, "mean-curvature").parameters == core::Parameters{{"estimator", "taubin"}});
   CHECK(evaluate(mesh, "principal-curvature", {{"which", "min"}}).parameters ==

@@ -218,7 +218,7 @@ TEST_CASE("edges without length and triangles without area give finite curvature
   CHECK(std::isfinite(flat.extent()));
 }
 
-TEST_CASE("a neighbour along the normal bends all directions alike") {
+TEST_CASE("a neighbour along the normal adds its curvature to all directions equally") {
   // A spike of the bipyramid folded so that vertex 2 lies straight above vertex 0.
   Soup soup = wheel(4);
   soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};

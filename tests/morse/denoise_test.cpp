@@ -94,7 +94,7 @@ TEST_CASE("bilateral denoising agrees with its formula") {
   }
 }
 
-TEST_CASE("what denoising takes by default is the mean edge and the median of deviations") {
+TEST_CASE("the defaults of denoising are the mean edge and the median of deviations") {
   const TriangleMesh mesh = jittered(sphere(3).mesh(), 0.02, 3);
   double edge = 0;
   for (Index e = 0; e < mesh.edge_count(); ++e)
@@ -233,7 +233,7 @@ TEST_CASE("the denoised field is the function of the smoothed surface on the ori
   CHECK(values_of(apply(field, {{"iterations", "0"}}).field) == values_of(field));
 }
 
-TEST_CASE("denoising takes the Morse function no more often than its end asks for") {
+TEST_CASE("denoising evaluates the Morse function only where a stop condition needs it") {
   const TriangleMesh mesh = jittered(sphere(3).mesh(), 0.05, 3);
   int calls = 0;
   core::MethodContext context;
@@ -261,7 +261,7 @@ TEST_CASE("denoising takes the Morse function no more often than its end asks fo
   CHECK(calls > 1);
 }
 
-TEST_CASE("denoising needs a function and says where one failed or does not care") {
+TEST_CASE("denoising needs a Morse function and reports where it fails or ignores positions") {
   const TriangleMesh mesh = jittered(sphere(2).mesh(), 0.05, 3);
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 3));
   core::ParameterReader reader({"denoise", {}});

@@ -119,7 +119,7 @@ TEST_CASE("waves of 2 pi times the scale keep nearly half of their curvature") {
   CHECK(kept(frequency, scale) == Approx(0.5));
 }
 
-TEST_CASE("diffused curvature is what dense matrices say") {
+TEST_CASE("diffused curvature agrees with dense matrices") {
   for (const TriangleMesh& mesh : {jittered(sphere(2).mesh(), 0.02, 3), cylinder(1, 12, 9).mesh(),
                                    together(sphere(1), octahedron()).mesh()}) {
     REQUIRE(morse::delaunay_triangles(mesh, morse::edge_lengths(mesh)).flips == 0);
@@ -132,7 +132,7 @@ TEST_CASE("diffused curvature is what dense matrices say") {
   }
 }
 
-TEST_CASE("diffused curvature heeds neither subdivision nor numbering, and follows motions") {
+TEST_CASE("diffused curvature depends on neither subdivision nor numbering nor motions") {
   const TriangleMesh mesh = jittered(sphere(3).mesh(), 0.03, 4);
   const double scale = 0.4;
   const ScalarField field = diffused_mean_curvature(mesh, scale);
@@ -178,14 +178,14 @@ TEST_CASE("diffused curvature of every kind of mesh has values") {
     CHECK(static_cast<long>(points.minima + points.maxima) - static_cast<long>(points.saddle_multiplicity) ==
           entry.mesh.euler_characteristic());
   }
-  // A triangle without an area does no harm.
+  // A triangle without an area is allowed.
   std::vector<Point> positions(sphere(3).positions);
   positions[1] = positions[sphere(3).triangles[0][0] == 1 ? 2 : sphere(3).triangles[0][0]];
   const ScalarField field = diffused_mean_curvature(sphere(3).mesh().with_positions(positions), 0.5);
   CHECK(std::isfinite(field.extent()));
 }
 
-TEST_CASE("diffused curvature refuses what makes no sense") {
+TEST_CASE("diffused curvature refuses invalid scales") {
   const TriangleMesh mesh = sphere(2).mesh();
   for (const double scale : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
     CHECK_THROWS_AS(diffused_mean_curvature(mesh, scale), core::InvalidArgument);

@@ -188,7 +188,7 @@ TEST_CASE("extrema that keep their own values may cease to be extrema") {
     }
 }
 
-TEST_CASE("a boundary without a maximum is held high") {
+TEST_CASE("caps of a component without chosen maxima are held at the greatest value") {
   const TriangleMesh mesh = annulus(24, 6).mesh();
   std::vector<double> values(mesh.vertex_count(), 1.0);
   values[60] = 0;

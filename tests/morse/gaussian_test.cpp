@@ -88,7 +88,7 @@ TEST_CASE("Gaussian averages keep constants and stay within the extremes") {
     }
 }
 
-TEST_CASE("the Gaussian method resolves its keys and stops as it is told") {
+TEST_CASE("the Gaussian method resolves its keys and obeys its stop conditions") {
   const TriangleMesh mesh = sphere(3).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 3));
   const core::MethodResult result = apply(field, {});

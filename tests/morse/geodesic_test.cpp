@@ -175,7 +175,7 @@ TEST_CASE("geodesic distance is the same in any unit and at any number of thread
   }
 }
 
-TEST_CASE("degenerate triangles do distances no harm") {
+TEST_CASE("distances are right with degenerate triangles") {
   Soup soup = sphere(3);
   for (const std::size_t t : {3, 77, 500}) {
     soup.positions[soup.triangles[t][0]] = soup.positions[soup.triangles[t][1]];
@@ -233,7 +233,7 @@ TEST_CASE("Delaunay flips leave no negative weight and the same surface") {
   }
 }
 
-TEST_CASE("thin triangles do distances no harm") {
+TEST_CASE("distances are right with thin triangles") {
   Soup soup = grid(41, 31);
   for (Point& p : soup.positions) p = {(p.x() + 0.75 * p.y()) / 40, p.y() / 400, 0};
   const TriangleMesh mesh = soup.mesh();

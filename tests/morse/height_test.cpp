@@ -38,7 +38,7 @@ TEST_CASE("height along an axis is the coordinate") {
   CHECK(evaluate(mesh, {}).parameters == core::Parameters{{"axis", "z"}});
 }
 
-TEST_CASE("only where a direction points matters") {
+TEST_CASE("the length of a direction does not matter") {
   const TriangleMesh mesh = sphere(2).mesh();
   const ScalarField reference = morse::height(mesh, {{3, 0, 4}});
   for (Index v = 0; v < mesh.vertex_count(); ++v)
@@ -60,7 +60,7 @@ TEST_CASE("height on a torus that stands has one minimum one maximum and two sad
   CHECK(points.saddle_multiplicity == 2);
 }
 
-TEST_CASE("height refuses directions that point nowhere") {
+TEST_CASE("height refuses zero and non-finite directions") {
   const TriangleMesh mesh = octahedron().mesh();
   CHECK_THROWS_AS(morse::height(mesh, {{0, 0, 0}}), core::InvalidArgument);
   CHECK_THROWS_AS(morse::height(mesh, {{0, INFINITY, 0}}), core::InvalidArgument);

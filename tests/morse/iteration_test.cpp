@@ -124,7 +124,7 @@ TEST_CASE("every iterative method stops at the first iteration with few enough c
   }
 }
 
-TEST_CASE("whoever watches an iterative method sees every field and may end it") {
+TEST_CASE("an observer of an iterative method gets every field and may end it") {
   const ScalarField input = noisy();
   for (const Make make : kIterative) {
     core::MethodContext context;
@@ -140,13 +140,13 @@ TEST_CASE("whoever watches an iterative method sees every field and may end it")
     CHECK(stopped_by(result) == "caller");
     CHECK(result.field.value(0) == last);
     CHECK(result.iterations.empty());
-    // Where the method would have ended anyway, that is what it says.
+    // Where the method would have ended anyway, that reason is reported.
     seen = 0;
     CHECK(stopped_by(run(make, input, {{"iterations", "3"}}, context)) == "iterations");
   }
 }
 
-TEST_CASE("whoever watches some iterations alone is told these, and nothing else changes") {
+TEST_CASE("an observer of some iterations gets these alone, and nothing else changes") {
   const ScalarField field = noisy();
   for (const Make make : kIterative) {
     std::vector<int> told;

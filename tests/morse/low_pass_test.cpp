@@ -164,7 +164,7 @@ TEST_CASE("a sphere keeps its curvature at a scale, and a noisy one gets it back
   CHECK(worst(curvature_at(noisy, "2edges")) < 0.3);
 }
 
-TEST_CASE("a plane stays in its plane and boundaries know nothing of the inside") {
+TEST_CASE("a plane stays in its plane and boundaries do not depend on the interior") {
   const TriangleMesh plane = jittered(grid(12, 9).mesh(), 0, 1);
   const TriangleMesh flat = low_pass(plane, Length::edges(1.5));
   for (Index v = 0; v < plane.vertex_count(); ++v) CHECK(flat.position(v).z() == 0);
@@ -226,7 +226,7 @@ TEST_CASE("the filter gives the same bits for every number of threads") {
   CHECK(run(1) == run(4));
 }
 
-TEST_CASE("every curvature at a scale is that of the smoothed surface, and says so") {
+TEST_CASE("every curvature at a scale is that of the smoothed surface, and reports the scale") {
   const TriangleMesh mesh = jittered(torus(20, 15).mesh(), 0.05, 3);
   const TriangleMesh smooth = low_pass(mesh, Length::edges(1.5));
   const auto check = [&](auto make, const char* name, Given given) {
@@ -268,7 +268,7 @@ TEST_CASE("salient with a scale smooths the function of the smoothed surface") {
       made(morse::make_salient, "salient", {{"preset", "robust"}, {"scale", "0"}})->traits().retakes_field);
   CHECK_FALSE(made(morse::make_salient, "salient")->traits().retakes_field);
 
-  // Listeners hear of the field that was taken again as iteration 0; records begin with it.
+  // Observers get the field of the smoothed surface as iteration 0; records begin with it.
   core::MethodContext listening = context;
   std::vector<int> heard;
   listening.count_iterations = true;
@@ -284,7 +284,7 @@ TEST_CASE("salient with a scale smooths the function of the smoothed surface") {
   CHECK(values_of(apply({{"scale", "1edges"}}, listening).field) == values_of(at_scale));
 }
 
-TEST_CASE("explicit keys override a preset, and the report shows what came of them") {
+TEST_CASE("explicit keys override a preset, and the report has the resolved values") {
   const TriangleMesh mesh = jittered(sphere(4).mesh(), 0.01, 5);
   const ScalarField field = morse::mean_curvature(mesh);
   const auto parameter = [&](const Given& given, const char* name) {
@@ -308,7 +308,7 @@ TEST_CASE("counts of a sample's curvature at a scale") {
   const TriangleMesh mesh = core::read_mesh(sample("lion-head.off")).mesh;
   const auto total = [&](const char* scale) { return morse::classify(curvature_at(mesh, scale)).total(); };
   CHECK(total("0") == 1895);
-  // Shallow ones come and go with the triangles.
+  // Shallow ones depend on the triangulation.
   CHECK(total("1edges") == 2041);
   CHECK(total("2edges") == 2222);
 }

@@ -19,7 +19,7 @@ core::MethodResult apply(const ScalarField& field, Given given) {
 
 }  // namespace
 
-TEST_CASE("the conventional method hands the field on with its order") {
+TEST_CASE("the conventional method returns the field with its order") {
   core::ParameterReader reader({"conventional", {}});
   const auto method = morse::make_conventional(reader);
   reader.finish();

@@ -126,7 +126,7 @@ TEST_CASE("Cholesky has the bits of Eigen's own factorisation") {
   }
 }
 
-TEST_CASE("a factorisation hears of a stop") {
+TEST_CASE("a factorisation can be stopped") {
   const TriangleMesh mesh = grid(300, 300).mesh();
   const morse::SparseMatrix matrix = [&] {
     morse::SparseMatrix made = morse::laplacian(mesh, morse::edge_weights(mesh, morse::EdgeWeights::uniform));

@@ -77,7 +77,7 @@ TEST_CASE("fitted quadrics on a torus come near the smooth curvatures and withst
   CHECK(10 * fitted < worst(noisy, morse::principal_curvatures(noisy)));
 }
 
-TEST_CASE("a fitted quadric does not see a near sheet") {
+TEST_CASE("a fitted quadric ignores a near sheet") {
   // Two grids of 11 × 11 vertices of side 1, bent upwards and downwards, 0.2 apart.
   Soup lower = grid(11, 11);
   Soup upper = grid(11, 11);
@@ -140,7 +140,7 @@ TEST_CASE("fitted quadrics are the same bits for every number of threads") {
   CHECK(one.k2 == four.k2);
 }
 
-TEST_CASE("fitted quadrics refuse a radius that is none") {
+TEST_CASE("fitted quadrics refuse an invalid radius") {
   const TriangleMesh mesh = octahedron().mesh();
   for (const double radius : {0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)})
     CHECK_THROWS_AS(morse::quadric_curvatures(mesh, radius), core::InvalidArgument);

@@ -84,7 +84,7 @@ TEST_CASE("saliency is the steps of the papers") {
 }
 
 TEST_CASE("saliency without suppression of a single peak by hand") {
-  // Sides 3, 4, 5: at σ = 1 nobody reaches anybody but in the coarse map vertex 0 reaches 3 and 4.
+  // Sides 3, 4, 5: at σ = 1 no vertex has neighbours, but in the coarse map vertex 0 reaches 3 and 4.
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
   const core::MethodResult result = apply({mesh, {6, 0, 0}}, {{"scales", "1"}, {"suppression", "none"}});
   const double w1 = std::exp(-9.0 / 8);
@@ -96,7 +96,7 @@ TEST_CASE("saliency without suppression of a single peak by hand") {
   CHECK(apply({mesh, {6, 0, 0}}, {{"scales", "1"}}).field.max() == 1);
 }
 
-TEST_CASE("saliency of a constant is nothing") {
+TEST_CASE("saliency of a constant is zero") {
   for (const char* suppression : {"itti", "none"}) {
     const TriangleMesh mesh = sphere(2).mesh();
     const ScalarField field(mesh, std::vector<double>(mesh.vertex_count(), 3.25));

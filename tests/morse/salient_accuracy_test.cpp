@@ -157,7 +157,7 @@ TEST_CASE("every instruction set keeps the promise and fused ones give the same 
   }
 }
 
-TEST_CASE("an accuracy gives way to the exact algorithm where it must and says why") {
+TEST_CASE("the exact algorithm runs where the accuracy cannot be kept, and the reason is reported") {
   const TriangleMesh mesh = noisy(sphere(4), 0.001, 9).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 10));
   const auto why = [&](SalientOptions chosen) {

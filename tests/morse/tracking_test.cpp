@@ -57,7 +57,7 @@ TEST_CASE("critical points of a field come from themselves") {
     }
 }
 
-TEST_CASE("a peak that wanders is followed from field to field") {
+TEST_CASE("a peak that moves is followed from field to field") {
   const TriangleMesh mesh = grid(24, 12).mesh();
   const double step = mesh.position(1).x() - mesh.position(0).x();
   REQUIRE(step == Approx(1));
@@ -71,7 +71,7 @@ TEST_CASE("a peak that wanders is followed from field to field") {
   CHECK(minima.at(vertex_at(mesh, 18, 6)) == vertex_at(mesh, 18, 6));
 }
 
-TEST_CASE("peaks that come apart share their origin and one at the boundary has none") {
+TEST_CASE("peaks that separate share their origin and one at the boundary has none") {
   const TriangleMesh mesh = grid(24, 12).mesh();
   CriticalPointTracker tracker(bumps(mesh, {{{8, 6, 0}, 1}}), 3);
   tracker.advance(bumps(mesh, {{{8, 6, 0}, 1}, {{9, 6, 0}, 0.1}, {{8, 8, 0}, 1}, {{20, 6, 0}, 1}}));
@@ -94,7 +94,7 @@ TEST_CASE("saddles come from the nearest saddle within reach") {
     for (std::size_t i = 0; i < tracker.points().points.size(); ++i) {
       const morse::CriticalPoint& point = tracker.points().points[i];
       if (point.type != CriticalType::saddle) continue;
-      Index expected = kNone;  // the slow definition, for distances of unit and diagonal edges
+      Index expected = kNone;  // by brute force, for distances of unit and diagonal edges
       double best = reach;
       std::vector<double> distance(mesh.vertex_count(), 1e9);
       distance[point.vertex] = 0;

@@ -13,7 +13,7 @@ using namespace morsel::test;
 using core::ScalarField;
 using morse::CriticalType;
 
-TEST_CASE("a monkey saddle comes apart into two saddles") {
+TEST_CASE("a monkey saddle is unfolded into two saddles") {
   const TriangleMesh mesh = wheel(6).mesh();
   const ScalarField field(mesh, {0, 1, -1, 2, -2, 3, -3});
   REQUIRE(morse::classify_vertex(field, 0).multiplicity == 2);
@@ -40,8 +40,7 @@ TEST_CASE("unfolding adds one saddle and moves one vertex by the least change") 
       for (const morse::CriticalPoint& point : before.points) {
         if (point.multiplicity < 2 || ++tried > 4) continue;
         const auto unfolded = morse::unfold_saddle(field, point.vertex);
-        // The slow definition: every place in the order that a neighbour's value offers, tried on the whole
-        // field.
+        // By brute force: every position in the order next to a neighbour, tried on the whole field.
         double least = HUGE_VAL;
         std::vector<Index> ring;
         mesh.neighbors(point.vertex, ring);

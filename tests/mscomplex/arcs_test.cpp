@@ -20,7 +20,7 @@ using mscomplex::NodeKind;
 
 namespace {
 
-/// The node's cell in the oracle's words; a cap is its loop's smallest vertex.
+/// The node's cell in the oracle's terms; a cap is its loop's smallest vertex.
 Cell node_cell(const MorseSmaleComplex& complex, Index n) {
   const Node node = complex.node(n);
   if (node.kind == NodeKind::maximum) return triangle_cell(complex.mesh(), node.cell);
@@ -48,7 +48,7 @@ ComplexOracle::ArcName arc_name(const MorseSmaleComplex& complex, Index arc) {
   }
 }
 
-/// Ends, ways and cyclic orders against the oracle's.
+/// Ends, paths and cyclic orders compared with the oracle's.
 void check_against_oracle(const MorseSmaleComplex& complex, const ComplexOracle& oracle) {
   const TriangleMesh& mesh = complex.mesh();
   std::vector<Index> cells;

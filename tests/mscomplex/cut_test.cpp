@@ -136,7 +136,7 @@ TEST_CASE("a sphere is cut along two edges or more") {
 }
 
 TEST_CASE("the smallest torus is cut open") {
-  // Möbius' torus of seven vertices, each a neighbour of all others, in a shape of no importance.
+  // Möbius' torus of seven vertices, each a neighbour of all others, in an arbitrary shape.
   Soup soup;
   for (int i = 0; i < 7; ++i) soup.positions.emplace_back(std::cos(i * i), std::sin(3.0 * i), 0.1 * i);
   for (Index i = 0; i < 7; ++i) {
@@ -288,7 +288,7 @@ TEST_CASE("no path of a shortened cut can be replaced by a shorter one") {
   CHECK(shortened > 10);
 }
 
-TEST_CASE("a shortened cut is what taking the whole cut apart after each change gives") {
+TEST_CASE("a shortened cut is that of decomposing the whole cut again after each change") {
   std::size_t replaced = 0;
   const auto check = [&](const ScalarField& field) {
     const CutGraph cut = cut_by(field);
@@ -315,7 +315,7 @@ TEST_CASE("a shortened cut is what taking the whole cut apart after each change 
   CHECK(replaced > 1000);
 }
 
-TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
+TEST_CASE("cutting a hundred thousand tetrahedra takes near-linear time") {
   constexpr Index kCount = 100000;
   const TriangleMesh mesh = adversarial::tetrahedra(kCount);
   const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 87)});
@@ -326,7 +326,7 @@ TEST_CASE("cutting a hundred thousand tetrahedra takes a moment, not minutes") {
   CHECK(cut_open(mesh, shorter.cut.edges).copied.size() == kCount);
 }
 
-TEST_CASE("a cut of hundreds of paths is shortened as by taking it apart each time") {
+TEST_CASE("a cut of hundreds of paths is shortened as by decomposing it each time") {
   const TriangleMesh mesh = adversarial::pierced_sheet(400);
   REQUIRE(mesh.boundary_loop_count() == 401);
   const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 89)});
@@ -337,7 +337,7 @@ TEST_CASE("a cut of hundreds of paths is shortened as by taking it apart each ti
   CHECK(cut_open(mesh, shorter.cut.edges).mesh.boundary_loop_count() == 1);
 }
 
-TEST_CASE("shortening stops when it is told to") {
+TEST_CASE("shortening can be stopped") {
   const TriangleMesh mesh = pierced_slab(3).mesh();
   const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 5)});
   const ShortenedCut once = shorten(mesh, cut, {.rounds = 1});
@@ -371,7 +371,7 @@ TEST_CASE("any set of edges can be cut but a lone one inside") {
       if (mesh.edge_vertices(e) == std::array{a, b} || mesh.edge_vertices(e) == std::array{b, a}) return e;
     return core::kNone;
   };
-  // The equator parts it in two.
+  // The equator separates it into two.
   const std::vector<Index> equator = {edge(2, 3), edge(3, 4), edge(4, 5), edge(5, 2)};
   const CutMesh halves = cut_open(mesh, equator);
   CHECK(halves.mesh.component_count() == 2);
@@ -404,7 +404,7 @@ TEST_CASE("cuts refuse what does not fit together") {
   CHECK_THROWS_AS(shorten(single_triangle().mesh(), cut), core::InvalidArgument);
 }
 
-TEST_CASE("validate() notices what is no cut") {
+TEST_CASE("validate() detects what is not a cut") {
   const TriangleMesh mesh = torus(8, 9).mesh();
   const CutGraph cut = cut_by({mesh, random_values(mesh.vertex_count(), 6)});
   CutGraph broken = cut;

@@ -22,7 +22,7 @@ using mscomplex::DiscreteGradient;
 
 namespace {
 
-/// The gradient in the oracle's words.
+/// The gradient in the oracle's terms.
 GradientOracle in_words(const DiscreteGradient& gradient) {
   const TriangleMesh& mesh = gradient.mesh();
   GradientOracle words;
@@ -175,7 +175,7 @@ TEST_CASE("the gradient is the same for every number of threads") {
   }
 }
 
-TEST_CASE("the gradient stops when told to") {
+TEST_CASE("the gradient can be stopped") {
   std::stop_source source;
   source.request_stop();
   const ScalarField field(octahedron().mesh(), {9, -9, 1, 2, 3, 4});

@@ -182,7 +182,7 @@ ScalarField curvature_of(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("two minima become one and their saddle goes") {
+TEST_CASE("two minima merge and their saddle is cancelled") {
   // Around the equator 2, 3, 4, 5: low, high, low, high; vertex 0 is the saddle, vertex 1 the maximum.
   const ScalarField field(octahedron().mesh(), {0, 9, -3, 5, -2, 4});
   const PersistenceHierarchy hierarchy(field);
@@ -254,7 +254,7 @@ TEST_CASE("every level of a hierarchy is the complex of the gradient with V-path
       }
 }
 
-TEST_CASE("cancellations are those of the shortest arc again and again") {
+TEST_CASE("cancellations are those of repeatedly cancelling the shortest arc") {
   for (unsigned seed = 0; seed < 300; ++seed) {
     const TriangleMesh mesh = random_surface(seed);
     INFO("seed " << seed);
@@ -366,7 +366,7 @@ TEST_CASE("a hierarchy of a surface with handles ends with two saddles a handle"
   CHECK(hierarchy.maximum_count(hierarchy.levels()) == 1);
 }
 
-TEST_CASE("the two ways through a hierarchy meet in the same state") {
+TEST_CASE("a cursor has the same state from either direction") {
   const TriangleMesh mesh = punctured_sphere(4, 3).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 85));
   const PersistenceHierarchy hierarchy(field);
@@ -399,7 +399,7 @@ TEST_CASE("a hierarchy is the same for every number of threads") {
   CHECK(arcs_with(7) == one);
 }
 
-TEST_CASE("what cannot be cancelled or asked for is refused") {
+TEST_CASE("invalid cancellations and levels are refused") {
   const ScalarField field(octahedron().mesh(), {0, 9, -3, 5, -2, 4});
   const ScalarField other(octahedron().mesh(), {0, 9, -3, 5, -2, 4});
   CHECK_THROWS_AS(PersistenceHierarchy(field, MorseSmaleComplex(other)), core::InvalidArgument);

@@ -136,14 +136,14 @@ TEST_CASE("a layout of the octahedron") {
   CHECK(quality.patches.size() == 4);
 }
 
-TEST_CASE("a monkey saddle comes apart into two") {
+TEST_CASE("a monkey saddle is split into two") {
   const ScalarField field(bipyramid(6).mesh(), {0, 0, 1, -1, 2, -2, 3, -3});
   const MorseSmaleComplex complex(field);
   REQUIRE(complex.saddle_count() == 4);
   for (const int relaxation : {0, 1, 3}) CHECK(check_layout(field, relaxation, 3));
 }
 
-TEST_CASE("dangling arcs are cancelled and told") {
+TEST_CASE("dangling arcs are cancelled and reported") {
   // Three bumps on a row of vertices: the outer two maxima have a single arc each, and when they are gone so
   // has the third.
   const ScalarField field(bipyramid(6).mesh(), {0, -9, 1, -1, 2, -2, 3, -3});
@@ -325,7 +325,7 @@ TEST_CASE("an angle that points inwards counts") {
   CHECK(quality.angle_max > 90);
 }
 
-TEST_CASE("quad meshes that are not closed manifolds are told apart") {
+TEST_CASE("quad meshes that are not closed manifolds are detected") {
   const auto spoiled = [](auto&& spoil) {
     QuadMesh mesh = unit_cube();
     spoil(mesh);
@@ -351,7 +351,7 @@ TEST_CASE("quad meshes that are not closed manifolds are told apart") {
   CHECK_THROWS_AS(mscomplex::validate(unit_cube(), 0), std::logic_error);
 }
 
-TEST_CASE("a layout that is not the complex's is told apart") {
+TEST_CASE("a layout that is not the complex's is detected") {
   const MorseSmaleComplex complex(two_of_each());
   const QuadLayout good = mscomplex::embed_layout(complex);
   good.validate(complex);
@@ -369,7 +369,7 @@ TEST_CASE("a layout that is not the complex's is told apart") {
   CHECK_THROWS_AS(bad.validate(complex), std::logic_error);
 }
 
-TEST_CASE("distances to triangles are those of trying all") {
+TEST_CASE("distances to triangles agree with brute force") {
   for (const std::size_t count : {0u, 1u, 3u, 4u, 5u, 9u, 100u, 1000u}) {
     INFO(count);
     const auto random = random_values(3 * 3 * count + 300, 7);

@@ -22,7 +22,7 @@ using mscomplex::SegmentLabels;
 
 namespace {
 
-/// Tops in the oracle's words: critical triangles, then the smallest vertices of loops.
+/// Tops in the oracle's terms: critical triangles, then the smallest vertices of loops.
 std::vector<Cell> top_cells(const DiscreteGradient& gradient) {
   const TriangleMesh& mesh = gradient.mesh();
   std::vector<Cell> cells;

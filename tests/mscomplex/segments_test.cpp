@@ -95,7 +95,7 @@ std::vector<Index> stretches(const ScalarField& field, const DiscreteGradient& g
   return label;
 }
 
-/// Whether two labellings part the same elements.
+/// Whether two labellings are the same partition.
 bool same_partition(const std::vector<Index>& a, const std::vector<Index>& b) {
   std::map<Index, Index> there, back;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -118,7 +118,7 @@ double edge_length(const TriangleMesh& mesh, Index e) {
   return (mesh.position(a) - mesh.position(b)).norm();
 }
 
-/// Sizes and borders by the slowest definition.
+/// Sizes and borders by brute force.
 void check_measures(const TriangleMesh& mesh, const Segments& s) {
   std::vector<double> area(s.count(), 0), boundary(s.count(), 0), mesh_boundary(s.count(), 0);
   std::vector<Index> triangles(s.count(), 0), vertices(s.count(), 0);
@@ -303,7 +303,7 @@ void check_segments(const ScalarField& field, unsigned seed) {
 //   5---6---7---8---9
 //   | / | / | / | / |
 //   0---1---2---3---4
-TEST_CASE("segments of a drawn strip have the sizes and borders that they should") {
+TEST_CASE("segments of a drawn strip have the expected sizes and borders") {
   const TriangleMesh mesh = grid(5, 2).mesh();
   const ScalarField field(mesh, {5, 1, 3, 0, 4, 8, 6, 9, 2, 7});
   const PersistenceHierarchy hierarchy(field);
@@ -434,7 +434,7 @@ TEST_CASE("merged segments are the same for every number of threads") {
   }
 }
 
-TEST_CASE("segments refuse another mesh and levels that are not there") {
+TEST_CASE("segments refuse another mesh and levels that do not exist") {
   const std::vector<double> values = {9, -9, 1, 2, 3, 4};
   const ScalarField field(octahedron().mesh(), values);
   const PersistenceHierarchy hierarchy(field);

@@ -140,7 +140,7 @@ TEST_CASE("invariant 5 in random trials") {
   }
 }
 
-TEST_CASE("of all numbers of cancelled pairs the one that comes nearest to a count from below is found") {
+TEST_CASE("the number of cancelled pairs that leaves the largest count not above the wanted one is found") {
   for (unsigned seed = 0; seed < 150; ++seed) {
     const TriangleMesh mesh = random_surface(seed);
     for (const NamedField& f : field_zoo(mesh, seed)) {
@@ -189,7 +189,7 @@ TEST_CASE("without multiple saddles the count keeps its parity and is otherwise 
   }
 }
 
-TEST_CASE("what cannot be reached is said") {
+TEST_CASE("an unreachable count has a note") {
   const TriangleMesh mesh = torus(9, 7).mesh();
   const ScalarField f(mesh, random_values(mesh.vertex_count(), 4));
   const std::size_t all = morse::classify(f).total();

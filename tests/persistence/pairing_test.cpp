@@ -171,7 +171,7 @@ TEST_CASE("any number of threads gives the same diagram") {
   }
 }
 
-TEST_CASE("pairing tells its progress and can be stopped") {
+TEST_CASE("pairing reports its progress and can be stopped") {
   const TriangleMesh mesh = sphere(2).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 1));
   std::stop_source stop;

@@ -1,5 +1,5 @@
 #pragma once
-/// Cancellation as it is told, arc by arc: the oracle for the hierarchy, and what it is timed against.
+/// Cancellation arc by arc, as published: the oracle of the hierarchy, and the baseline of its benchmark.
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-// The slow reference of shortening: the whole cut is taken apart anew after each change.
+// The slow reference of shortening: the whole cut is decomposed again after each change.
 
 #include "support/plain_shortening.h"
 
@@ -140,7 +140,7 @@ class Shortener {
     const std::array ends = {path.front(), mesh_.twin(path.back())};
     for (const Index h : ends)
       if (walls_.degree(mesh_.origin(h)) == 0) return {};  // opens a sphere
-    // Both rims at a time: the one with fewer corners will do, and a hole in a large surface has few.
+    // Both rims alternately: the one with fewer corners suffices, and a hole in a large surface has few.
     std::array walks = {RimWalk(mesh_, walls_, ends[0]), RimWalk(mesh_, walls_, ends[1])};
     std::array<std::vector<Index>, 2> inwards;
     std::size_t near = 0;

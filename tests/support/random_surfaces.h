@@ -1,5 +1,5 @@
 #pragma once
-/// Small surfaces of any shape, by the thousand.
+/// Small random surfaces.
 
 #include "support/meshes.h"
 

@@ -58,7 +58,7 @@ double SalientListing::saliency(std::span<const double> values, core::Index v, s
   auto& [cloud, tree, options, found] = *search_;
   const double radius = options.support * options.sigma;
   const double two_sigma_squared = 2 * options.sigma * options.sigma;
-  // The search is strict, the neighbourhood is not: look a little further, then compare distances.
+  // The search is strict, the neighbourhood is not: search slightly further, then compare distances.
   tree.radiusSearch(cloud.points[v].data(), radius * radius * (1 + 1e-9), found,
                     nanoflann::SearchParams(32, 0, false));
   const double surely_inside =

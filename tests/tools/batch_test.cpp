@@ -47,7 +47,7 @@ std::vector<batch::ChildEnd> ends(const std::vector<std::string>& scripts, std::
 
 }  // namespace
 
-TEST_CASE("meshes are called by their paths within the collection", "[batch]") {
+TEST_CASE("meshes are named by their paths within the collection", "[batch]") {
   CHECK(batch::mesh_name("a.off") == "a.off");
   CHECK(batch::mesh_name("./sub/../other//b.ply") == "other/b.ply");
   CHECK(batch::mesh_name("../up/c.off") == "up/c.off");
@@ -114,7 +114,7 @@ TEST_CASE("a list's meshes are those of its lines", "[batch]") {
   CHECK_THROWS_AS(batch::read_collection(folder.path() / "absent"), core::BadInput);
 }
 
-TEST_CASE("children end in their own ways", "[batch]") {
+TEST_CASE("exit codes and signals of children are reported", "[batch]") {
   const auto list = ends(
       {"exit 0", "echo out; printf 'morsel: bad\\nworse\\n' >&2; exit 3", "kill -SEGV $$", "kill -9 $$"}, 2);
   CHECK(list[0].exit_code == 0);
@@ -134,13 +134,13 @@ TEST_CASE("children end in their own ways", "[batch]") {
   CHECK(batch::error_of(list[3], {})->may_pass());
 }
 
-TEST_CASE("of a long error the end is kept", "[batch]") {
+TEST_CASE("the end of a long error is kept", "[batch]") {
   const auto list = ends({"i=0; while [ $i -lt 3000 ]; do echo line $i >&2; i=$((i+1)); done; exit 1"}, 1);
   CHECK(list[0].message.ends_with("line 2998; line 2999"));
   CHECK(list[0].message.size() < 3000);
 }
 
-TEST_CASE("a program that is not there is an end, too", "[batch]") {
+TEST_CASE("a missing program is reported as an end of the child", "[batch]") {
   batch::ChildEnd end;
   batch::run_children({1,
                        [](std::size_t) {
@@ -264,7 +264,7 @@ void for_each_value(Json& document,
 
 }  // namespace
 
-TEST_CASE("a state is read back as it was written; another one is none", "[batch]") {
+TEST_CASE("a state is read back as it was written; another version's is ignored", "[batch]") {
   const test::Scratch folder;
   const batch::OutFolder out(folder.path());
   const Json key = {{"request", {{"methods", {"conventional"}}}}, {"sha256", "ab"}};
@@ -367,7 +367,7 @@ TEST_CASE("bug: a state whose result lacked a member was an internal error, for 
   CHECK_THROWS_WITH(batch::parse_state(std::string(105'000, '['), "s"), Catch::Contains("nested deeper"));
 }
 
-TEST_CASE("the key has all that a report follows from", "[batch]") {
+TEST_CASE("the key has everything that determines a report", "[batch]") {
   const test::Scratch folder;
   const std::string values = folder.file("values", "1\n").string();
   batch::BatchRequest request;
@@ -400,7 +400,7 @@ TEST_CASE("the key has all that a report follows from", "[batch]") {
   CHECK(batch::common_key(request) != key);
 }
 
-TEST_CASE("what is made of a mesh has its place", "[batch]") {
+TEST_CASE("each product of a mesh has its place", "[batch]") {
   const test::Scratch folder;
   const batch::OutFolder out("o");
   batch::BatchRequest request;

@@ -13,7 +13,7 @@ using namespace morsel::test;
 
 namespace {
 
-/// What design section 5 demands of any field that any method returns.
+/// Invariants of any field that any method returns.
 void check_invariants(const core::ScalarField& field) {
   const TriangleMesh& mesh = field.mesh();
   tools::Timings timings;

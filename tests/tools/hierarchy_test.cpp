@@ -49,7 +49,7 @@ std::vector<Level> by_iteration(const ScalarField& field, const std::string& met
                    .seeds);
 }
 
-/// Passes through fields that are given, after some of a first try.
+/// A method that passes through given fields, after some of a first attempt.
 class Scripted final : public core::Method {
  public:
   explicit Scripted(std::vector<ScalarField> fields, std::vector<ScalarField> first_try = {})
@@ -178,7 +178,7 @@ void check_levels(const std::vector<Level>& levels) {
   }
 }
 
-/// All that two runs must agree in.
+/// Everything in which two runs must agree.
 bool same(const Level& a, const Level& b) {
   const auto same_links = [](const tools::CellLinks& x, const tools::CellLinks& y) {
     return x.areas == y.areas && x.parents == y.parents && x.merges_into == y.merges_into;
@@ -231,7 +231,7 @@ TEST_CASE("two bumps that merge, by persistence") {
   CHECK(coarse.count(PointStatus::kept) == coarse.points.total());
 }
 
-TEST_CASE("a hill that moves, one that comes and one that goes, by iteration") {
+TEST_CASE("a hill that moves, one that appears and one that disappears, by iteration") {
   // The middle row of a strip is a range of hills, so far apart that 2 % of the diagonal are not quite 2.
   const TriangleMesh mesh = grid(100, 3).mesh();
   const auto hills = [&](const std::vector<std::pair<int, double>>& tops) {
@@ -262,7 +262,7 @@ TEST_CASE("a hill that moves, one that comes and one that goes, by iteration") {
                                                {160, 160, PointStatus::kept},
                                                {190, kNone, PointStatus::fresh}});
   CHECK(maxima(levels[2]) == std::vector<Link>{{160, 160, PointStatus::kept}, {190, 190, PointStatus::kept}});
-  // The hill that goes leaves its cell to the one beside it.
+  // The cell of the hill that disappears merges into the one beside it.
   CHECK(levels[1].cell_links(CellKind::descending).merges_into[0].segment == 0);
   CHECK(levels[1].cell_links(CellKind::descending).merges_into[1].segment == 0);
   CHECK(levels[1].cell_links(CellKind::descending).merges_into[2].segment == 1);
@@ -359,7 +359,7 @@ TEST_CASE("levels are the same for every number of threads") {
   for (const int threads : {2, 7}) CHECK(std::ranges::equal(one, with(threads), same));
 }
 
-TEST_CASE("a method that begins again leaves no levels of its first try") {
+TEST_CASE("a method that restarts leaves no levels of its first attempt") {
   // As salient smoothing does that gives way to the exact algorithm in the middle.
   const TriangleMesh mesh = sphere(1).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 35));

@@ -36,7 +36,7 @@ TEST_CASE("a journal gives back the entries of the same key") {
   CHECK_FALSE(std::filesystem::exists(path));  // it had none, and nobody added any
 }
 
-TEST_CASE("a journal that was cut off is read to where it is whole") {
+TEST_CASE("a truncated journal is read up to its last complete entry") {
   const test::Scratch folder;
   const Json key = "k";
   const std::string head = "{\"schema\":\"morsel.journal/1\",\"key\":\"k\"}\n";
@@ -55,7 +55,7 @@ TEST_CASE("a journal that was cut off is read to where it is whole") {
   }
 }
 
-TEST_CASE("a damaged line of a journal counts as absent, is told once, and the others stay") {
+TEST_CASE("a damaged line of a journal counts as absent, is reported once, and the others stay") {
   const test::Scratch folder;
   const std::filesystem::path path = folder / "j";
   { Journal(path, "k").add(1); }
@@ -100,7 +100,7 @@ TEST_CASE("an entry that its reader refuses is dropped") {
   CHECK(taken == std::vector<std::uint64_t>{1, 2, 1, 2});
 }
 
-TEST_CASE("a journal of another key is begun anew and that is told") {
+TEST_CASE("a journal of another key is replaced, with a warning") {
   const test::Scratch folder;
   { Journal(folder / "j", 1).add(1); }
   Journal journal(folder / "j", 2);
@@ -126,7 +126,7 @@ TEST_CASE("bug: a file with a journal's name was emptied whatever it was") {
   CHECK_THROWS_AS(Journal(folder / "d", "k"), core::Error);
 }
 
-TEST_CASE("a journal is gone once its run is done, and stays if it is not") {
+TEST_CASE("a journal is removed once its run is complete, and stays otherwise") {
   const test::Scratch folder;
   const std::filesystem::path path = folder / "j";
   { Journal(path, 1).add(1); }
@@ -158,7 +158,7 @@ TEST_CASE("a journal takes entries of several threads") {
   CHECK(Journal(folder / "j", 1).entries().size() == 200);
 }
 
-TEST_CASE("trials come back from their journal as they were") {
+TEST_CASE("trials are read back from their journal unchanged") {
   const test::Scratch folder;
   tools::Trial trial;
   trial.points.minima = 3;

@@ -21,7 +21,7 @@ std::string nested(std::size_t depth, const std::string& innermost = "") {
   return std::string(depth, '[') + innermost + std::string(depth, ']');
 }
 
-/// What reading says; the sentences are ours, whatever the library throws.
+/// The message of reading; it is the project's own, whatever the library throws.
 std::string refusal(std::string_view text, const tools::JsonLimits& limits = {}) {
   try {
     static_cast<void>(read_json(text, "x.json", limits));
@@ -166,7 +166,7 @@ TEST_CASE("bug: a report whose method has a number as its name was an internal e
                     Contains("methods has 3000002 entries, not at most 10000"));
 }
 
-TEST_CASE("another document is told by its schema, as soon as that is known") {
+TEST_CASE("another document is refused by its schema, as soon as that is known") {
   const auto read = [](const std::string& text) {
     std::istringstream in(text);
     return tools::read_report(in, "r.json");

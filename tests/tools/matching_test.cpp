@@ -85,7 +85,7 @@ TEST_CASE("matching is one to one and the nearest pair goes first") {
   REQUIRE(m.moved.size() == 1);
   CHECK(m.moved[0].reference == 1);
   CHECK(m.removed == 1);
-  // 3 takes 4, so 2 has to be content with 0.
+  // 3 is matched with 4, so 2 is matched with 0.
   const Matching chain =
       match_critical_points(strip(), points({{2, kMin}, {3, kMin}}), points({{0, kMin}, {4, kMin}}), 3);
   CHECK(chain.moved.size() == 2);

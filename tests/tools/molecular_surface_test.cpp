@@ -44,7 +44,7 @@ double signed_volume(const TriangleMesh& mesh) {
   return volume;
 }
 
-/// All that a caller is promised, whatever the atoms.
+/// The guarantees of the interface, for any atoms.
 void check_promise(const MolecularSurface& surface) {
   CHECK_NOTHROW(surface.mesh.validate());
   CHECK(surface.mesh.is_closed());
@@ -126,7 +126,7 @@ TEST_CASE("a ring of atoms has a hole") {
   }
 }
 
-TEST_CASE("the solvent excluded surface of two atoms is the one of the textbook") {
+TEST_CASE("the solvent excluded surface of two atoms is the analytic one") {
   // Two balls of radius r, 2 c apart: spheres, and between them the inner half of a torus along which the
   // probe rolls.
   const double r = 1.7, c = 2, probe = 1.4, h = 0.1;
@@ -207,7 +207,7 @@ TEST_CASE("surfaces of random molecules are closed manifolds") {
     }
 }
 
-TEST_CASE("atoms on the grid in the same place or just touching make no trouble") {
+TEST_CASE("atoms on grid points, in one place or just touching give manifolds") {
   const std::vector<std::vector<Atom>> molecules = {
       {atom_at({0, 0, 0}, 1.5), atom_at({0, 0, 0}, 1.5)},    // one upon the other
       {atom_at({0, 0, 0}, 2), atom_at({0.5, 0, 0}, 1)},      // one within the other

@@ -46,7 +46,7 @@ std::vector<Point> moves(const TriangleMesh& mesh, const PerturbedMesh& perturbe
 
 }  // namespace
 
-TEST_CASE("random streams are fixed for good") {
+TEST_CASE("random streams have fixed values") {
   RandomStream random(1, RandomUse::normal_noise, {2, 3});
   const std::uint64_t first = random.next();
   CHECK(first == RandomStream(1, RandomUse::normal_noise, {2, 3}).next());
@@ -60,7 +60,7 @@ TEST_CASE("random streams are fixed for good") {
           CHECK(seen.insert(RandomStream(seed, use, {i, j}).next()).second);
 }
 
-TEST_CASE("random numbers are distributed as they should") {
+TEST_CASE("random numbers have the right distributions") {
   const std::size_t count = 200'000;
   std::vector<double> normal, square, fourth, uniform;
   std::vector<std::size_t> die(6, 0);
@@ -81,7 +81,7 @@ TEST_CASE("random numbers are distributed as they should") {
   for (const std::size_t face : die) CHECK(static_cast<double>(face) == Approx(count / 6.0).epsilon(0.03));
 }
 
-TEST_CASE("estimates have the intervals of the textbook") {
+TEST_CASE("estimates have the tabulated intervals") {
   const std::vector<double> values = {1, 2, 3, 4};
   const tools::Estimate four = tools::estimate(values);
   CHECK(four.mean == 2.5);

@@ -216,7 +216,7 @@ TEST_CASE("a line is cut off at the frame") {
   }
 }
 
-TEST_CASE("with a diagonal both axes are alike and infinity has a line above") {
+TEST_CASE("with a diagonal both axes have one range and infinity has a line above") {
   Plot plot = of_points({-1, 2, 0}, {5, 3, kInfinity});
   plot.diagonal = true;
   const std::string svg = svg_of(plot);
@@ -262,7 +262,7 @@ TEST_CASE("plots without data, with one point and of one value can be drawn") {
   CHECK_THAT(svg_of(only_infinite), Contains("h0"));
 }
 
-TEST_CASE("a million marks become a small file that says so") {
+TEST_CASE("a million marks are thinned to a small file with a note") {
   std::mt19937_64 random(7);
   std::vector<double> x(1'000'000), y(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -310,7 +310,7 @@ TEST_CASE("a million marks become a small file that says so") {
   CHECK(png_of(plot, 1050).size() < 500'000);
 }
 
-TEST_CASE("a line of a million points loses none that are seen") {
+TEST_CASE("a line of a million points loses no visible ones") {
   std::vector<double> x, y;
   for (int i = 1; i <= 1'000'000; ++i) {
     x.push_back(i);
@@ -328,7 +328,7 @@ TEST_CASE("a line of a million points loses none that are seen") {
   }
 }
 
-TEST_CASE("the same bytes from any thread, with other plots drawn at the same time") {
+TEST_CASE("a plot has the same bytes from any thread, with other plots drawn at the same time") {
   Plot plot = of_points({1, 2, 3, -4e5}, {2, 3, kInfinity, 7});
   plot.diagonal = true;
   plot.title = "\u00fcber \u2202\u03c6";

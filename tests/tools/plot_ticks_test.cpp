@@ -59,7 +59,7 @@ TEST_CASE("very large and very small numbers share a factor") {
   CHECK(make_ticks({-1e300, 1e300}, kLinear, 4).factor == 300);
 }
 
-TEST_CASE("what all numbers have in common is an offset") {
+TEST_CASE("the common part of all numbers is an offset") {
   Ticks ticks = make_ticks({1e9, 1e9 + 9.5e-4}, kLinear, 5);
   CHECK(ticks.offset == 1e9);
   CHECK(ticks.offset_text == "1,000,000,000");
@@ -122,7 +122,7 @@ TEST_CASE("symmetric ticks are powers of both signs and 0") {
   CHECK(values(make_ticks({-1e-4, 0}, small, 2)) == Values{-1e-4, -1e-5, 0});
 }
 
-TEST_CASE("an axis has some air, and a length even for a constant") {
+TEST_CASE("an axis has a margin, and a length even for a constant") {
   CHECK(padded({0, 100}, kLinear) == Interval{-4, 104});
   CHECK(padded({5, 5}, kLinear) == Interval{2.5, 7.5});
   CHECK(padded({-5, -5}, kLinear) == Interval{-7.5, -2.5});

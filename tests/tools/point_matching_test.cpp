@@ -102,7 +102,7 @@ TEST_CASE("the radius is inclusive, and one of 0 matches what is at the same pla
   CHECK(PointMatcher(on_line({0}), 1).match({}).empty());
 }
 
-TEST_CASE("matching is the best of all ways") {
+TEST_CASE("matching agrees with brute force") {
   std::mt19937 random(3);
   for (int trial = 0; trial < 400; ++trial) {
     const auto reference = random_points(random() % 7, random);

@@ -15,7 +15,7 @@ using tools::Provenance;
 
 namespace {
 
-/// With all that formats have to be careful with.
+/// With all characters that formats must escape.
 Provenance awkward() {
   Provenance provenance("morsel field 'a\"b -- <&>\\.off' --method salient",
                         {{"field", "vertex-scalar:file=x\\,y\nz"}, {"target", 7}},
@@ -41,7 +41,7 @@ TEST_CASE("a provenance is one line of ASCII that any markup can hold") {
   CHECK(document["methods"][1]["name"] == "tps+tps");
 }
 
-TEST_CASE("its lines are short, and together they are it") {
+TEST_CASE("a provenance is split into short lines that join to it") {
   const Provenance provenance = awkward();
   std::string joined;
   for (const std::string& line : provenance.lines()) {
@@ -78,13 +78,13 @@ TEST_CASE("a provenance is found in every kind of file") {
   CHECK(tools::find_provenance("vertex,provenance\n1," + tools::csv_field(json)) == expected);
 }
 
-TEST_CASE("an HTML comment holds nothing that ends it") {
+TEST_CASE("an HTML comment contains nothing that ends it") {
   const std::string comment = awkward().html_comment();
   CHECK(comment.starts_with("<!-- {"));
   CHECK(comment.find("--", 4) == comment.size() - 4);
 }
 
-TEST_CASE("what has none gives null, a damaged one is refused") {
+TEST_CASE("a file without provenance gives null, a damaged one is refused") {
   const std::string json = awkward().json();
   CHECK(tools::find_provenance("").is_null());
   CHECK(tools::find_provenance("OFF\n0 0 0\n").is_null());
@@ -132,7 +132,7 @@ TEST_CASE("a provenance has all members that it is read for, with their types") 
   }
 }
 
-TEST_CASE("a command without what leaves the contents of files as they are") {
+TEST_CASE("a command omits options that do not change the contents of files") {
   const auto command = [](const std::vector<std::string>& words) { return tools::shaping_command(words); };
   CHECK(command({"morsel", "field", "a b.off", "-o", "x.txt", "--threads", "3", "--method", "salient"}) ==
         "morsel field 'a b.off' --method salient");

@@ -11,7 +11,7 @@
 using namespace morsel;
 using Catch::Contains;
 
-TEST_CASE("every entry can be made with its defaults or says what it needs") {
+TEST_CASE("every entry can be made with its defaults or reports the missing keys") {
   for (const auto& entry : tools::Registry::standard().functions()) {
     core::ParameterReader reader = core::ParameterReader::for_help(std::string(entry.name));
     CHECK(entry.make(reader) != nullptr);
@@ -36,7 +36,7 @@ TEST_CASE("a chain keeps its steps in order") {
   CHECK(chain.steps[1].name == "tps");
 }
 
-TEST_CASE("a method that starts anew can only begin a chain") {
+TEST_CASE("a method that ignores its input can only begin a chain") {
   CHECK(tools::Registry::standard().make_method("denoise:iterations=2+salient+tps").steps.size() == 3);
   CHECK_THROWS_WITH(tools::Registry::standard().make_method("salient+denoise"),
                     Contains("first step") && Contains("salient"));

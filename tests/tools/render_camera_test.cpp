@@ -1,4 +1,4 @@
-// Where pictures are taken from.
+// Cameras of pictures.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -36,7 +36,7 @@ TEST_CASE("named views are exactly along the axes") {
     CHECK_THROWS_AS(named_view(wrong), core::InvalidArgument);
 }
 
-TEST_CASE("views along a direction keep up up") {
+TEST_CASE("views along a direction keep the up axis upwards") {
   for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z})
     for (const Point& toward :
          {Point(1, 2, 3), Point(0, 5, 0), Point(0, 0, -1), Point(-1, 0, 0), Point(1e-9, 1, 0)}) {
@@ -86,7 +86,7 @@ TEST_CASE("rays go through the points that they were projected from") {
   }
 }
 
-TEST_CASE("the best view is that of what weighs most, unless something is in front of it") {
+TEST_CASE("the best view shows the largest weights, unless they are occluded") {
   const Body ball = make_body(sphere(3).mesh());
   const Rays rays(ball.mesh);
   for (const Point& side :

@@ -24,7 +24,7 @@ std::uint32_t hex_of(const Color& color) {
   return std::uint32_t{r} << 16 | std::uint32_t{g} << 8 | b;
 }
 
-/// What is left of a colour for who lacks one kind of cones (Machado, Oliveira, Fernandes 2009).
+/// A colour as seen without one kind of cones (Machado, Oliveira, Fernandes 2009).
 Color seen_without(bool red, const Color& c) {
   Eigen::Matrix3f m;
   if (red)

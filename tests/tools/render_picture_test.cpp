@@ -1,4 +1,4 @@
-// Pictures: what is in which pixel.
+// Pictures: the colours of pixels.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -243,7 +243,7 @@ TEST_CASE("a report collected is the report written and read") {
   CHECK(tools::report_differences(read, collected).empty());
 }
 
-TEST_CASE("differences in the rows of a report are told like all others") {
+TEST_CASE("differences in the rows of a report are reported like all others") {
   std::ostringstream text;
   tools::JsonStream stream(text);
   write_report(stream);

@@ -1,4 +1,4 @@
-// What the recipes of figures are made with: finding meshes, regions, and close-ups. Pictures are compared by
+// The parts of a reproduction: finding meshes, regions, and close-ups. Pictures are compared by
 // tests/cli/test_reproduce.py.
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -88,7 +88,7 @@ TEST_CASE("meshes are found by name, and by a word in it") {
   CHECK_THROWS_AS(find_meshes(data.path, samples.path), core::BadInput);
 }
 
-TEST_CASE("meshes that are not there are all told") {
+TEST_CASE("all missing meshes are reported") {
   const Folder empty, samples;
   CHECK_THROWS_AS(find_meshes(empty.path, samples.path), core::BadInput);
   CHECK_THROWS_AS(find_meshes(empty.path / "gone", samples.path), core::BadInput);
@@ -218,7 +218,7 @@ TEST_CASE("a view shows what faces it and what nothing hides") {
   CHECK(hidden > 3);
 }
 
-TEST_CASE("a close-up's window is as far as its radius") {
+TEST_CASE("a close-up's window extends to its radius") {
   const TriangleMesh mesh = sphere(3).mesh();
   for (const double aspect : {1., 1.5, 0.6}) {
     const render::Camera camera = render::fit_camera(mesh.positions(), render::named_view("30/10"), aspect);

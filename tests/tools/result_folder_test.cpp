@@ -78,7 +78,7 @@ TEST_CASE("a folder of results is a new one, an empty one, or one that has a lis
   CHECK_THROWS_AS(ResultFolder(theirs / "thesis.txt/below"), core::WriteFailed);
 }
 
-TEST_CASE("a folder of results in which nothing was made is as it was before", "[results]") {
+TEST_CASE("a folder of results in which nothing was made is left unchanged", "[results]") {
   const test::Scratch scratch;
   fs::create_directory(scratch / "empty");
   fs::create_directory_symlink("empty", scratch / "link");
@@ -107,7 +107,7 @@ TEST_CASE("a folder of results in which nothing was made is as it was before", "
   CHECK_FALSE(fs::exists(scratch / "d/e"));
 }
 
-TEST_CASE("a batch of version 0.1 is told to be one", "[results]") {
+TEST_CASE("a folder of a batch of version 0.1 is recognised", "[results]") {
   const test::Scratch scratch;
   scratch.file("out/state/sub/a.off.json", "{\"files\": [], \"schema\": \"morsel.batch-state/1\"}");
   CHECK(has(said<core::InvalidArgument>([&] { const ResultFolder folder(scratch / "out"); }), "morsel 0.1"));
@@ -115,7 +115,7 @@ TEST_CASE("a batch of version 0.1 is told to be one", "[results]") {
   CHECK_FALSE(has(said<core::InvalidArgument>([&] { const ResultFolder folder(scratch / "other"); }), "0.1"));
 }
 
-TEST_CASE("what was made is listed once and may be replaced", "[results]") {
+TEST_CASE("results are listed once and may be replaced", "[results]") {
   const test::Scratch scratch;
   const std::string odd = "odd\n%\xff \"name";
   {
@@ -135,7 +135,7 @@ TEST_CASE("what was made is listed once and may be replaced", "[results]") {
         std::string(kFirst) + "+a.txt\n+sub/deeper/b.txt\n+odd%0A%25%FF%20%22name\n");
 }
 
-TEST_CASE("what is not listed is neither replaced nor removed", "[results]") {
+TEST_CASE("unlisted files are neither replaced nor removed", "[results]") {
   const test::Scratch scratch;
   ResultFolder folder(scratch / "out");
   put(folder, "mine/a.txt", "mine");
@@ -164,7 +164,7 @@ TEST_CASE("what is not listed is neither replaced nor removed", "[results]") {
   CHECK(test::contents(scratch / "out/mine/b.txt") == "theirs");
   CHECK(test::contents(scratch / "elsewhere/c.txt") == "theirs");
   CHECK(list_of(scratch / "out") == std::string(kFirst) + "+mine/a.txt\n-mine/a.txt\n");
-  // What was removed is nobody's.
+  // A removed file is no longer listed.
   scratch.file("out/mine/a.txt", "theirs");
   CHECK_THROWS_AS(folder.claim("mine/a.txt"), core::WriteFailed);
 }
@@ -181,7 +181,7 @@ TEST_CASE("a listed file that has become a link is not followed", "[results]") {
   CHECK(test::contents(scratch / "kept.txt") == "mine");
 }
 
-TEST_CASE("the run's other outputs are not the folder's to replace", "[results]") {
+TEST_CASE("the run's other outputs are not replaced by the folder", "[results]") {
   const test::Scratch scratch;
   {
     ResultFolder before(scratch / "out");
@@ -194,7 +194,7 @@ TEST_CASE("the run's other outputs are not the folder's to replace", "[results]"
   folder.claim("b.png");
 }
 
-TEST_CASE("a folder that becomes empty goes with its last file", "[results]") {
+TEST_CASE("a folder that becomes empty is removed with its last file", "[results]") {
   const test::Scratch scratch;
   ResultFolder folder(scratch / "out");
   put(folder, "a/b/1", "");
@@ -213,7 +213,7 @@ TEST_CASE("a folder that becomes empty goes with its last file", "[results]") {
   CHECK(folder.files_in("a").empty());
 }
 
-TEST_CASE("a line that was cut off is no line; any other damage is refused", "[results]") {
+TEST_CASE("a truncated last line is ignored; any other damage is refused", "[results]") {
   const test::Scratch scratch;
   const auto list = [&](const std::string& text) { return scratch.file("out/.morsel-results", text); };
   scratch.file("out/a.txt", "1");
@@ -270,7 +270,7 @@ TEST_CASE("a list without its first line is that of an empty folder or none", "[
   }
 }
 
-TEST_CASE("many may list their files at the same time", "[results]") {
+TEST_CASE("many threads and processes may list their files at the same time", "[results]") {
   const test::Scratch scratch;
   ResultFolder one(scratch / "out");
   ResultFolder other(scratch / "out");
@@ -299,7 +299,7 @@ TEST_CASE("10,000 meshes are listed at an equal cost each", "[results]") {
   CHECK(seconds(10000, 12000) < 10 * first + 0.5);
 }
 
-TEST_CASE("what one holds others wait for, unless told to stop", "[results]") {
+TEST_CASE("others wait while one holds the folder, unless stopped", "[results]") {
   const test::Scratch scratch;
   ResultFolder one(scratch / "out");
   std::atomic<bool> released = false;
@@ -327,7 +327,7 @@ TEST_CASE("what one holds others wait for, unless told to stop", "[results]") {
   CHECK(was_released);
 }
 
-TEST_CASE("work folders are their makers' own and go with them", "[results]") {
+TEST_CASE("work folders belong to their process and are removed with it", "[results]") {
   const test::Scratch scratch;
   ResultFolder folder(scratch / "out");
   scratch.file("kept/a.txt", "theirs");
@@ -349,7 +349,7 @@ TEST_CASE("work folders are their makers' own and go with them", "[results]") {
   CHECK(test::contents(scratch / "kept/a.txt") == "theirs");
 }
 
-TEST_CASE("what a killed run left of its work is removed, and nothing else", "[results]") {
+TEST_CASE("work folders of a killed run are removed, and nothing else", "[results]") {
   const test::Scratch scratch;
   { const ResultFolder made(scratch / "out"); }
   scratch.file("out/.morsel-results",
@@ -376,7 +376,7 @@ TEST_CASE("what a killed run left of its work is removed, and nothing else", "[r
   CHECK(fs::exists(scratch / "elsewhere/foreign/lock"));
 }
 
-TEST_CASE("a path names a file whatever it is called", "[results]") {
+TEST_CASE("different paths of one file are equal", "[results]") {
   const test::Scratch scratch;
   const fs::path file = scratch.file("folder/a");
   fs::create_hard_link(file, scratch / "hard");

@@ -34,7 +34,7 @@ StabilityResult run(const core::LoadedMesh& mesh, const StabilityRequest& asked)
   return run_stability(mesh, tools::prepare(asked));
 }
 
-/// All that may not depend on threads or on what else runs.
+/// Everything that must not depend on threads or on other trials.
 auto figures(const tools::PerturbationOutcome& outcome) {
   std::vector<std::tuple<std::size_t, std::size_t, std::size_t, double, double>> rows;
   for (const tools::Trial& trial : outcome.trials)
@@ -121,7 +121,7 @@ TEST_CASE("the chance level of a radius of nothing is the share of vertices that
   CHECK(outcome.perturbations[0].chance().mean == Approx(expected).epsilon(0.1));
 }
 
-TEST_CASE("extrema alone are held against each other if wanted") {
+TEST_CASE("extrema alone are compared if requested") {
   StabilityRequest asked = request({"conventional"});
   asked.noise = {0.2};
   asked.points = tools::PointChoice::extrema;
@@ -132,7 +132,7 @@ TEST_CASE("extrema alone are held against each other if wanted") {
     CHECK(trial.agreement.found == trial.points.minima + trial.points.maxima);
 }
 
-TEST_CASE("a trial is the same whatever else runs and at any number of threads") {
+TEST_CASE("a trial does not depend on other trials nor on the number of threads") {
   StabilityRequest asked = request({"conventional", "laplacian:iterations=3"});
   asked.noise = {0.05, 0.3};
   asked.decimate = {0.7};
@@ -164,7 +164,7 @@ TEST_CASE("a trial is the same whatever else runs and at any number of threads")
   CHECK(figures(run(mesh, asked).outcomes[0].perturbations[0]) != figures(one.outcomes[0].perturbations[0]));
 }
 
-TEST_CASE("agreement is with another field's points where that is the reference") {
+TEST_CASE("agreement is with the points of the reference field") {
   StabilityRequest asked = request({"conventional"});
   asked.fields = {"mean-curvature", "height"};
   asked.noise = {0};
@@ -178,7 +178,7 @@ TEST_CASE("agreement is with another field's points where that is the reference"
   CHECK(other.outcomes[1].agreement() == 1);
 }
 
-TEST_CASE("an error in a trial names it, and of several the first is told") {
+TEST_CASE("an error in a trial names it, and of several the first is reported") {
   StabilityRequest asked = request({"conventional"});
   asked.fields = {"geodesic:source=0"};  // which decimation drops sooner or later
   asked.decimate = {0.9, 0.05};

@@ -122,7 +122,7 @@ TEST_CASE("a target gives the same bits at any number of threads") {
   CHECK(run(1) == run(4));
 }
 
-TEST_CASE("persistence tells the most persistent extrema") {
+TEST_CASE("persistence gives the most persistent extrema") {
   const TriangleMesh mesh = sphere(3).mesh();
   const ScalarField input(mesh, random_values(mesh.vertex_count(), 5));
   const persistence::Diagram diagram = persistence::pair_extrema(input);
@@ -137,14 +137,14 @@ TEST_CASE("persistence tells the most persistent extrema") {
   CHECK(persistence::persistent_extrema(diagram, 0).empty());
 }
 
-TEST_CASE("a target of nothing is refused") {
+TEST_CASE("a target of 0 is refused") {
   tools::ComparisonRequest request;
   request.target = 0;
   CHECK_THROWS_AS(tools::prepare(request), core::InvalidArgument);
   CHECK_THROWS_WITH(tools::prepare(request), Catch::Contains("target of 0"));
 }
 
-TEST_CASE("a method that takes the function again gives the target the field that it begins with") {
+TEST_CASE("a method that evaluates the function again gives the target its initial field") {
   const TriangleMesh mesh = jittered(sphere(4).mesh(), 0.02, 5);
   const core::LoadedMesh loaded{mesh, {}};
   const ScalarField input =

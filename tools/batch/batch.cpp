@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr int kWriteFailedCode = 4;  // of the program
 
-/// Of a mesh whose results have no place here: it fails without being tried, as often as it is asked for.
+/// Of a mesh whose results can have no file here: it fails in every run without being started.
 MeshError no_place(const std::string& reason) {
   ChildEnd end;
   end.exit_code = kWriteFailedCode;
@@ -96,8 +96,7 @@ class Run {
     state.error = error_of(end, options_.limits);
     if (!state.error) {
       take_result(results_.path() / work / "report.json", state);
-      state.key["sha256"] =
-          state.result.at("mesh").at("sha256");  // of what was read, should it have changed since
+      state.key["sha256"] = state.result.at("mesh").at("sha256");  // of the bytes that were read
       outcome.sha256 = state.key["sha256"];
     }
     publish(outcome.mesh.name, work, state);
@@ -106,15 +105,15 @@ class Run {
     if (tell_) tell_(outcome);
   }
 
-  /// Puts what was made in the place of what was made before. Whenever this is broken off, the state's
-  /// absence says so; and runs that make the same mesh's things, perhaps with other options, do not mix them.
+  /// Replaces the earlier files of a mesh by the new ones. If this is interrupted, the state is missing; and
+  /// runs that make files of the same mesh, perhaps with other options, do not mix them.
   void publish(const std::string& name, const fs::path& work, MeshState& state) {
     const std::vector<Product> products = products_of(name, request_, OutFolder());
     if (!state.error) state.files = made_files(products, results_.path() / work);
     write_state(results_.path() / work / "state.json", state);
     const fs::path state_place = OutFolder().state(name);
     const ResultFolder::Hold hold(results_);
-    results_.remove(state_place);  // it says nothing of the files that come
+    results_.remove(state_place);  // it does not describe the new files
     std::set<fs::path> made;
     for (const std::string& file : state.files) {
       const fs::path place = place_of(file, products);

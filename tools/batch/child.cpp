@@ -37,7 +37,7 @@ constexpr std::size_t kKeptText = 2000;  // bytes of standard error: its end, wh
   ::sigprocmask(SIG_SETMASK, &mask, nullptr);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(127);  // it ended before that was asked for
+  if (::getppid() != parent) ::_exit(127);  // it ended before the call above
   ::dup2(null, STDIN_FILENO);
   ::dup2(null, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
@@ -134,8 +134,8 @@ std::optional<ChildEnd> Child::read() {
     const ssize_t size = ::read(output_, buffer.data(), buffer.size());
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && errno == EAGAIN) return std::nullopt;
-    if (size < 0) kill_group();    // nobody would hear of its end
-    if (size <= 0) return wait();  // nobody has the other end any more
+    if (size < 0) kill_group();    // its end could not be read
+    if (size <= 0) return wait();  // the other end is closed
     text_.append(buffer.data(), static_cast<std::size_t>(size));
     if (text_.size() > kKeptText) text_.erase(0, text_.size() - kKeptText);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// A process that works for this one, within limits, and never outlives it.
+/// A child process within limits, which never outlives this one.
 
 #include <sys/types.h>
 
@@ -22,7 +22,7 @@ struct ChildLimits {
 struct ChildEnd {
   int exit_code = -1;      ///< −1 if a signal ended it
   int signal = 0;          ///< 0 if none did
-  bool timed_out = false;  ///< ended by us, at its limit
+  bool timed_out = false;  ///< killed at its time limit
   std::string message;     ///< the end of what it wrote to standard error, on one line
   double seconds = 0;
 };
@@ -32,7 +32,7 @@ struct ChildEnd {
 /// are /dev/null. Moved, not copied.
 class Child {
  public:
-  /// `words`: the program's file (not looked for in PATH), the name it is told, its arguments. Throws
+  /// `words`: the program's file (not looked for in PATH), its argv[0], its arguments. Throws
   /// std::system_error if no process can be made; a program that cannot be run ends with 127.
   Child(const std::vector<std::string>& words, const ChildLimits& limits);
   ~Child();
@@ -40,12 +40,12 @@ class Child {
   Child& operator=(Child&&) = delete;
 
   using Clock = std::chrono::steady_clock;
-  /// Readable when read() has something to do: text came, or the child ended.
+  /// Readable when there is output to read() or the child ended.
   int descriptor() const { return output_; }
-  /// When kill_late() has something to do.
+  /// When kill_late() is to be called.
   std::optional<Clock::time_point> deadline() const { return killed_ ? std::nullopt : deadline_; }
   void kill_late();
-  /// Takes in what there is, without waiting; how the child ended, once it has.
+  /// Reads the available output, without waiting; returns how the child ended, once it has.
   std::optional<ChildEnd> read();
 
  private:

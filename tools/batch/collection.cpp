@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What cannot be asked about is read as a list, which says why.
+/// A path whose status is unknown is read as a list, which reports the error.
 bool is_folder(const fs::path& path) {
   std::error_code error;
   return fs::is_directory(path, error);
@@ -62,8 +62,7 @@ std::vector<CollectionMesh> of_list(const fs::path& list, const Names& files) {
   return meshes;
 }
 
-/// The mesh of this name in a folder, if it is what of_folder() would find, which passes over folders that
-/// are links.
+/// The mesh of this name in a folder, if of_folder() would find it, which skips folders that are links.
 std::optional<CollectionMesh> in_folder(const fs::path& folder, const std::string& name) {
   if (name.empty() || mesh_name(name) != name || !core::has_mesh_extension(name)) return std::nullopt;
   fs::path path = folder;

@@ -1,5 +1,5 @@
 #pragma once
-/// The meshes of a collection: those of a folder or of a list, with the names that their results go by.
+/// The meshes of a collection: those of a folder or of a list, with the names of their results.
 
 #include <filesystem>
 #include <string>
@@ -16,18 +16,18 @@ struct CollectionMesh {
 
 /// Of a folder: all .off, .obj, .ply and .stl files in it and the folders in it, by name. Of any other file:
 /// a mesh on each line, in the order of the lines; relative paths begin at the list's folder; empty lines and
-/// those that begin with # are passed over.
+/// those that begin with # are skipped.
 ///
 /// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws
 /// BadInput where the folder or list cannot be read or has no mesh, where two meshes have one name, and where
 /// one's name is a folder of another's.
 ///
-/// With names, only the meshes that are called so, in the same order, and little time for all the others;
-/// throws InvalidArgument on a name that is not there.
+/// With names, only the meshes of these names, in the same order, without reading the whole collection where
+/// possible; throws InvalidArgument on a name that is not there.
 std::vector<CollectionMesh> read_collection(const std::filesystem::path& folder_or_list,
                                             const std::vector<std::string>& names = {});
 
-/// What a mesh of this path within a collection is called. Empty for a path that names no file.
+/// The name of a mesh of this path within a collection. Empty for a path that names no file.
 std::string mesh_name(const std::filesystem::path& path);
 
 }  // namespace morsel::tools::batch

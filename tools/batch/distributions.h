@@ -15,8 +15,8 @@ struct MethodTotals {
   std::vector<double> totals;
 };
 
-/// How many meshes have how many critical points, in bins of equal width on a logarithmic axis, a line a
-/// method.
+/// The histogram of the meshes' numbers of critical points, in bins of equal width on a logarithmic axis, a
+/// line a method.
 plot::Plot histogram(const std::vector<MethodTotals>& methods);
 
 /// The share of meshes with at most so many critical points, a line a method.

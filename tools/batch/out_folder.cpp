@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestEnding = std::string_view(".first.png").size();
-constexpr std::size_t kRoomBelow = 256;  // for what is in a folder of a mesh, and for "thumbnails/"
+constexpr std::size_t kRoomBelow = 256;  // for files in a folder of a mesh, and for "thumbnails/"
 
 /// The longest name that a file may have here.
 std::size_t longest_name(fs::path folder) {

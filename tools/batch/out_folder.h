@@ -1,5 +1,5 @@
 #pragma once
-/// Where a batch's results are in its folder.
+/// The layout of a batch's folder of results.
 
 #include <filesystem>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace morsel::tools::batch {
 
-/// Where things are; none is made by asking for its path. `name` is a mesh's within its collection. Without a
+/// Paths of the results; nothing is created. `name` is a mesh's within its collection. Without a
 /// root they are paths within the folder, as result_folder.h has them.
 class OutFolder {
  public:
@@ -24,12 +24,12 @@ class OutFolder {
   /// These two are folders.
   std::filesystem::path figures(const std::string& name) const { return file("figures", name, ""); }
   std::filesystem::path exports(const std::string& name) const { return file("exports", name, ""); }
-  /// What is not whole yet is in folders in this one.
+  /// Incomplete files are in folders in this one.
   std::filesystem::path work() const { return root_ / "work"; }
 
-  /// Why results of this mesh could have no file here, such as a name that is too long for the file system
-  /// with its ending; empty if they could. Asks the system about the folder, or the nearest around it that is
-  /// there.
+  /// Why results of this mesh cannot have files here, such as a name that is too long for the file system
+  /// with its ending; empty if they can. Queries the file system of the folder, or of the nearest existing
+  /// one around it.
   std::string refusal(const std::string& name) const;
 
  private:

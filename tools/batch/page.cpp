@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShownFirst = 500;  // rows; the others when all are asked for
+constexpr std::size_t kShownFirst = 500;  // rows; the others on request
 
 std::vector<MethodTotals> totals_of(const std::vector<MeshOutcome>& outcomes,
                                     const std::vector<std::string>& names) {
@@ -68,7 +68,7 @@ std::string link_to(const fs::path& path, const std::string& markup) {
   return "<a href=\"" + path_text(path.generic_string()) + "\">" + markup + "</a>";
 }
 
-/// What a click on a mesh shows: the best there is.
+/// The most detailed output of a mesh, to which it is linked.
 fs::path best_of(const std::string& name, const BatchRequest& request) {
   const OutFolder beside;
   return request.pages     ? beside.page(name)
@@ -149,8 +149,7 @@ std::string table_head(const BatchRequest& request) {
   return head + "</tr>\n";
 }
 
-/// What was asked for, as words of the command line; not where it went, so that a page says the same wherever
-/// it is.
+/// The request as words of the command line, without the output folder, so that pages do not depend on it.
 std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
   std::vector<std::string> words = {"morsel", "batch", options.collection};
   for (std::string& word : request_words(request)) words.push_back(std::move(word));
@@ -161,8 +160,8 @@ std::string request_line(const BatchRequest& request, const SummaryOptions& opti
   return command_line(words);
 }
 
-/// Of what shows the whole collection: its hash is that of the lines that sha256sum prints for its meshes.
-/// Parameters are resolved mesh by mesh, in the summary's table and document.
+/// Provenance of the collection's files: their hash is that of the lines that sha256sum prints for its
+/// meshes. Parameters are resolved mesh by mesh, in the summary's table and document.
 Provenance provenance_of(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                          const SummaryOptions& options) {
   std::string sums;

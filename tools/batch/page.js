@@ -19,8 +19,9 @@ for (const [column, head] of heads.entries()) {
   });
 }
 
-// What is looked for is in a mesh's name, its status or its error. Of very many rows the first are shown until all are asked for: browsers take
-// long to lay out ten thousand.
+// The search text is looked for in a mesh's name, status and error. Of very many rows only the first are
+// shown until all are requested: browsers
+  // take long to lay out ten thousand.
 const find = document.getElementById("find");
 const found = document.getElementById("found");
 const all = document.getElementById("all");

@@ -85,7 +85,7 @@ Json mesh_key(const Json& common, const fs::path& mesh) {
   key["sha256"] = nullptr;
   try {
     key["sha256"] = sha256_of_file(mesh);
-  } catch (const core::BadInput&) {  // of which the reader of meshes has more to tell
+  } catch (const core::BadInput&) {  // the reader of meshes reports the error
   }
   return key;
 }

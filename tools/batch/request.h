@@ -1,5 +1,5 @@
 #pragma once
-/// What a collection is run with, and the key by which it is known whether a mesh's report is still right.
+/// The request of a collection, and the key that decides whether a mesh's report is up to date.
 
 #include <filesystem>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace morsel::tools::batch {
 
-/// What the results follow from, besides the meshes.
+/// Everything that determines the results besides the meshes.
 struct BatchRequest {
   ComparisonRequest comparison;
   bool repair = false;
@@ -25,7 +25,7 @@ struct BatchRequest {
   render::FigureText figure;  ///< how pictures are taken, where there are any
 };
 
-/// One of the things that are made of a mesh, besides its state.
+/// One of the outputs of a mesh, besides its state.
 struct Product {
   bool wanted;
   bool is_folder;
@@ -39,18 +39,17 @@ std::vector<std::string> made_files(const std::vector<Product>& products, const 
 /// Where such a file belongs; empty if it is none of these.
 std::filesystem::path place_of(const std::string& made_file, const std::vector<Product>& products);
 
-/// Valid UTF-8 of any bytes (a path, an error), as JSON documents have it: what is read back from one is the
-/// same text.
+/// Valid UTF-8 of any bytes (a path, an error), which JSON documents reproduce exactly.
 std::string valid_text(const std::string& text);
 
-/// {"tool", "request", "files"}: all that reports follow from, except the mesh. "files" has name and hash of
-/// each file that a value in --field or --method names. Throws BadInput on one that cannot be read.
+/// {"tool", "request", "files"}: everything that determines reports, except the mesh. "files" has name and
+/// hash of each file that a value in --field or --method names. Throws BadInput on one that cannot be read.
 Json common_key(const BatchRequest& request);
 
 /// `common` with the mesh's "sha256"; null for one that cannot be read.
 Json mesh_key(const Json& common, const std::filesystem::path& mesh);
 
-/// What `compare` and `batch` are told in the same words.
+/// The words of the command line that `compare` and `batch` have in common.
 std::vector<std::string> request_words(const BatchRequest& request);
 
 /// The arguments of the program that compare one mesh, the program's name first; it writes its products into

@@ -26,12 +26,12 @@ class StopAlarm {
  public:
   explicit StopAlarm(std::stop_token token) : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
-    const SignalsBlocked blocked;  // a handler that requests the stop would wait for what is being made here
+    const SignalsBlocked blocked;  // a handler that requests the stop would deadlock
     callback_.emplace(std::move(token), Ring{descriptor_});
   }
   ~StopAlarm() {
     const SignalsBlocked blocked;
-    callback_.reset();  // nobody rings any more
+    callback_.reset();  // no callback runs after this
     ::close(descriptor_);
   }
   StopAlarm(const StopAlarm&) = delete;
@@ -55,7 +55,7 @@ struct Running {
   Child child;
 };
 
-/// Milliseconds for poll(), rounded up so that nobody wakes just before the time.
+/// Milliseconds for poll(), rounded up so that it does not return just before the time.
 int wait_time(const std::list<Running>& running) {
   std::optional<Child::Clock::time_point> first;
   for (const Running& one : running)
@@ -65,8 +65,8 @@ int wait_time(const std::list<Running>& running) {
   return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
 }
 
-/// None if the system has no room for a process now. Then those that run are waited for; if none runs, the
-/// error is thrown.
+/// None if the system cannot start a process now. Then a running one is waited for; if none runs, the error
+/// is thrown.
 std::optional<Child> started(const std::vector<std::string>& words, const ChildLimits& limits,
                              bool is_alone) {
   try {
@@ -90,7 +90,7 @@ void run_children(const ChildTasks& tasks, std::size_t jobs, const ChildLimits& 
                   const std::stop_token& stop, const core::Progress& progress) {
   if (jobs < 1) throw std::logic_error("run_children: no jobs");
   const StopAlarm alarm(stop);
-  std::list<Running> running;  // destroyed first: nobody is left when this is left
+  std::list<Running> running;  // destroyed first: no child is left on return
   std::size_t next = 0;
   std::size_t ended = 0;
   while (ended < tasks.count) {
@@ -111,7 +111,7 @@ void run_children(const ChildTasks& tasks, std::size_t jobs, const ChildLimits& 
         continue;
       }
       if (stop.stop_requested())
-        throw core::Cancelled();  // what ended because all of us are told to stop has not failed
+        throw core::Cancelled();  // a child that ended by the same signal has not failed
       const std::size_t task = one->task;
       one = running.erase(one);
       ++ended;

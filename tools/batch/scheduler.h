@@ -12,7 +12,7 @@
 
 namespace morsel::tools::batch {
 
-/// What the children are and who hears of them; i is in [0, count).
+/// The child processes and the callback at their end; i is in [0, count).
 struct ChildTasks {
   std::size_t count = 0;
   std::function<std::vector<std::string>(std::size_t i)>
@@ -22,8 +22,8 @@ struct ChildTasks {
 
 /// Runs the children in order, at most `jobs` (≥ 1) at a time, each within the limits, and calls `end` in the
 /// order in which they end; all by the calling thread, which sleeps meanwhile. Throws Cancelled when a stop
-/// is requested by either token (of `stop` alone it is told in its sleep), and what the two functions throw;
-/// all children have ended then.
+/// is requested by either token (only `stop` wakes it at once), and what the two functions throw; all
+/// children have ended then.
 void run_children(const ChildTasks& tasks, std::size_t jobs, const ChildLimits& limits,
                   const std::stop_token& stop = {}, const core::Progress& progress = {});
 

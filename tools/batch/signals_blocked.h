@@ -1,5 +1,5 @@
 #pragma once
-/// A stretch of work that no signal handler of this thread interrupts.
+/// A scope in which no signal handler of this thread runs.
 
 #include <pthread.h>
 

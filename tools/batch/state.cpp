@@ -30,7 +30,7 @@ constexpr int kMostExitCode = 255;
 constexpr int kMostSignal = 64;
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // a thousand times what a state has
 
-/// Whether what a file could not be read for is its disk or network, not the file.
+/// Whether the error of reading a file is that of its disk or network, not of the file.
 bool is_of_a_device(const std::string& message) {
   constexpr std::array kErrors = {EIO, ESTALE, ETIMEDOUT, ENODEV, EHOSTDOWN};
   return std::any_of(kErrors.begin(), kErrors.end(), [&](int error) {
@@ -102,7 +102,7 @@ void check_method(const JsonView& method) {
   check_persistence(method["persistence"]);
 }
 
-/// All that the summary, its page and its plots take from a state's result and timings.
+/// Checks all that the summary, its page and its plots read from a state's result and timings.
 void check_result(const JsonView& result, const JsonView& timings, std::size_t methods) {
   check_members(result, {"mesh", "field", "methods"});
   check_mesh(result["mesh"]);
@@ -113,7 +113,7 @@ void check_result(const JsonView& result, const JsonView& timings, std::size_t m
       step == "name" ? static_cast<void>(seconds.text()) : static_cast<void>(seconds.number(0));
 }
 
-/// A method of a report without what is listed of it.
+/// A method of a report without its lists.
 Json method_result(const JsonView& method) {
   Json kept;
   for (const char* key :
@@ -214,7 +214,7 @@ std::optional<MeshState> read_state(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return std::nullopt;
   if (const std::uintmax_t size = fs::file_size(path, error); !error && size > kMostBytes)
-    throw core::BadInput(path.string() + " is no state: it has " + std::to_string(size) + " bytes");
+    throw core::BadInput(path.string() + " is not a state: it has " + std::to_string(size) + " bytes");
   const core::FileBytes bytes(path, path.string());
   return parse_state(bytes.view(), path.string());
 }

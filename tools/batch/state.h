@@ -1,6 +1,6 @@
 #pragma once
-/// What is known of each mesh of a collection, in a file beside its report: the reason why a later run may
-/// pass it over.
+/// The state of each mesh of a collection, in a file beside its report, by which a later run decides whether
+/// to skip it.
 
 #include <filesystem>
 #include <optional>
@@ -22,13 +22,12 @@ struct MeshError {
   int signal = 0;      ///< 0: none
   std::string message;
 
-  /// Whether it may be the machine's doing, not the mesh's: the disk full, its memory used up, killed by
-  /// somebody.
+  /// Whether the cause may be the machine, not the mesh: a full disk, no memory, a signal from outside.
   bool may_pass() const;
 };
 
 struct MeshState {                 // NOLINT(bugprone-exception-escape): of the JSON library
-  Json key;                        ///< what it was made from (request.h)
+  Json key;                        ///< of the request (request.h)
   std::optional<MeshError> error;  ///< none: done
   ChildLimits limits;              ///< under which it failed
   Json result;                     ///< of the report: "mesh", "field", "methods" with their counts
@@ -37,23 +36,22 @@ struct MeshState {                 // NOLINT(bugprone-exception-escape): of the 
   double seconds = 0;              ///< from the child's start to its end
 };
 
-/// What a child's end means; none if it ended well.
+/// The error of a child's end; none if it succeeded.
 std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits);
 
-/// What the summary needs of a report, of which the report's items are the larger part. Throws BadInput if it
-/// is damaged.
+/// Takes from a report what the summary needs, without its items, which are the larger part. Throws BadInput
+/// if it is damaged.
 void take_result(const std::filesystem::path& report, MeshState& state);
 
-/// Whether the mesh may be passed over: its key is as it was, and all its files are there, or it failed
-/// within the same limits and would again.
+/// Whether the mesh may be skipped: its key is unchanged, and all its files exist, or it failed within the
+/// same limits and would fail again.
 bool is_settled(const MeshState& state, const Json& key, const ChildLimits& limits,
                 const std::vector<Product>& products);
 
 /// Throws WriteFailed.
 void write_state(const std::filesystem::path& path, const MeshState& state);
-/// None if there is none, or another version's. Throws BadInput if it is damaged: not JSON, too large, or
-/// anything in it has not the type and range that write_state() gives it, so that whoever uses a state need
-/// not look.
+/// None if there is none, or another version's. Throws BadInput if it is damaged: not JSON, too large, or any
+/// member lacks the type and range that write_state() gives it, so that users of a state need not check.
 std::optional<MeshState> read_state(const std::filesystem::path& path);
 /// The same of a state's text; errors call it `name`.
 std::optional<MeshState> parse_state(std::string_view text, const std::string& name);

@@ -27,13 +27,13 @@ std::string to_string(Status status);
 
 /// Writes into the folder: summary.csv, a row for each mesh and method with all resolved parameters;
 /// summary.json ("morsel.batch/1", see batch.schema.json), whose "timings" is all that differs between two
-/// runs; plots/*.svg, distributions over the collection; and index.html, which shows it all. Throws
+/// runs; plots/*.svg, distributions over the collection; and index.html, which shows all of these. Throws
 /// WriteFailed.
 void write_summary(const std::vector<MeshOutcome>& outcomes, const BatchRequest& request,
                    const SummaryOptions& options, ResultFolder& out);
 
-/// Throws WriteFailed if one of these files could not be written, as something of somebody else is in its
-/// place.
+/// Throws WriteFailed if one of these files could not be written because a file that is not the program's is
+/// in its place.
 void check_summary(ResultFolder& out);
 
 /// A method's number of pairs with a persistence over 1 % of its field's extent, infinite ones included.

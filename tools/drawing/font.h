@@ -1,5 +1,5 @@
 #pragma once
-/// The bytes of the font that pictures are lettered in.
+/// The bytes of the font of pictures and plots.
 
 #include <cstddef>
 

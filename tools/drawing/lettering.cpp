@@ -51,7 +51,7 @@ cairo_font_face_t* make_font() {
                          static_cast<FT_Long>(kFontSize), 0, &holder->face) != 0)
     throw std::bad_alloc();
   cairo_font_face_t* font = cairo_ft_font_face_create_for_ft_face(holder->face, 0);
-  // cairo keeps a font for a while after its last use; the face goes when cairo lets go of it.
+  // cairo keeps a font for a while after its last use; the face is freed when cairo frees the font.
   static const cairo_user_data_key_t key{};
   if (cairo_font_face_set_user_data(font, &key, holder.get(), [](void* face) {
         delete static_cast<Face*>(face);
@@ -70,7 +70,7 @@ void check_text(std::string_view text) {
     const std::size_t length = character_length(text, i);
     if (length == 0)
       throw core::InvalidArgument("byte " + std::to_string(i) +
-                                  " of a text to be drawn is no UTF-8, or a control character");
+                                  " of a text to be drawn is not UTF-8, or a control character");
     i += length;
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The font of plots and pictures, and how wide a text is in it.
+/// The font of plots and pictures, and the width of texts in it.
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@ using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-iden
 namespace morsel::tools::drawing {
 
 /// DejaVu Sans as it is built into the program, so that nothing drawn depends on the fonts of the machine.
-/// One for each drawing: neither cairo's fonts nor FreeType's are to be used by several threads.
+/// One for each drawing: neither cairo's fonts nor FreeType's may be used by several threads.
 class Lettering {
  public:
   Lettering();
@@ -19,8 +19,8 @@ class Lettering {
   Lettering(const Lettering&) = delete;
   Lettering& operator=(const Lettering&) = delete;
 
-  /// Of a line of UTF-8, in the unit of `size`, which is that of the em. Throws InvalidArgument if it is not
-  /// UTF-8.
+  /// The width of a line of UTF-8, in the unit of `size`, the size of the em. Throws InvalidArgument if it is
+  /// not UTF-8.
   double width(std::string_view text, double size);
   /// The text, or as much of its beginning as fits into `limit` with an ellipsis.
   std::string shortened(std::string_view text, double size, double limit);

@@ -9,7 +9,7 @@
 
 namespace morsel::tools {
 
-/// Throws InvalidArgument unless write_cut_mesh() knows the path's ending; to be asked before long work.
+/// Throws InvalidArgument unless write_cut_mesh() knows the path's ending; to be called before long work.
 void check_cut_mesh_path(const std::filesystem::path& path);
 
 /// Writes the mesh cut open: .off, or .ply with the vertex property `input_vertex`, the number that a

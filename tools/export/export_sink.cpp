@@ -35,7 +35,7 @@ void write_points(const std::filesystem::path& path, const core::LoadedMesh& loa
     file.write(",");
     file.write_number(outcome.field.value(point.vertex));
     file.write(",");
-    file.write_number(persistence[point.vertex]);  // "inf" where it never dies
+    file.write_number(persistence[point.vertex]);  // "inf" if it is essential
     file.write(",");
     if (outcome.origins[i] != core::kNone)
       file.write_number(std::uint64_t{loaded.source.numbering.input_vertex(outcome.origins[i])});

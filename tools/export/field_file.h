@@ -18,7 +18,7 @@ void write_field(const std::filesystem::path& path, const core::ScalarField& fie
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
                  const std::string& name, const Provenance& provenance);
 
-/// Throws InvalidArgument unless write_field() knows the path's ending; to be asked before long work.
+/// Throws InvalidArgument unless write_field() knows the path's ending; to be called before long work.
 void check_field_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

@@ -15,9 +15,8 @@ namespace morsel::tools {
 ///                  KIND_merges_into: the label of the cell of the level before and after that its cell is
 ///                  linked to
 ///   complex.K.vtp  the complex as complex_file.h's, and per node `parent`, the vertex of its critical
-///   point's parent
-/// K is the level's place, 0 the finest, so that ParaView opens each kind as a series; −1 stands where there
-/// is no link.
+///                  point's parent
+/// K is the level's number, 0 the finest, so that ParaView opens each kind as a series; −1 means no link.
 class HierarchyExport : public HierarchySink {
  public:
   /// Refers to `folder` and `loaded`.

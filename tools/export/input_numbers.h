@@ -1,5 +1,5 @@
 #pragma once
-/// What is on a mesh, in the vertex numbers of its input file.
+/// Fields and triangles of a mesh in the vertex numbers of its input file.
 
 #include <vector>
 

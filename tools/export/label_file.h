@@ -23,8 +23,9 @@ struct Labels {
 /// −1, one that repair split the label of its first copy:
 ///   .ply  the surface (binary), the labels as int properties of vertices and faces
 ///   .vtp  the surface, the labels as arrays of points and cells, and `field` as an array `field_name` of
-///   points .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and
-///   NAME.faces.txt in the order of the faces of the others
+///         points
+///   .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and NAME.faces.txt in
+///         the order of the faces of the others
 /// Faces are the mesh's triangles: the input's faces in its order, polygons cut into triangles, without those
 /// that repair dropped. Returns what was written. Throws InvalidArgument on another ending, WriteFailed where
 /// writing fails; of the two text files then none or, should the second fail as it is finished, the first
@@ -38,7 +39,7 @@ std::vector<std::filesystem::path> write_labels(const std::filesystem::path& pat
 /// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending.
 std::vector<std::filesystem::path> label_files(const std::filesystem::path& path);
 
-/// The same; throws WriteFailed, too, unless they can be written: to be asked before long work.
+/// The same; throws WriteFailed, too, unless they can be written: to be called before long work.
 std::vector<std::filesystem::path> check_label_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

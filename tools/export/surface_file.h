@@ -1,5 +1,5 @@
 #pragma once
-/// A surface with what was measured on it, as one file for ParaView.
+/// A surface with its field, critical points and segments, as one file for ParaView.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace morsel::tools {
 
-/// What the file shows; refers to the caller's data.
+/// The file's content; refers to the caller's data.
 struct SurfaceFile {
   const core::LoadedMesh& loaded;
   const std::string& field_name;
@@ -26,7 +26,7 @@ struct SurfaceFile {
 };
 
 /// Per vertex the field, critical_type, persistence and input_vertex; per vertex and triangle the labels
-/// descending, ascending and morse_smale; `more` are arrays of one value a triangle. Nobody waits until the
+/// descending, ascending and morse_smale; `more` are arrays of one value a triangle. Does not wait until the
 /// file is on disk. Throws WriteFailed.
 void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
                         const Provenance& provenance, const std::vector<VtpArray>& more = {});

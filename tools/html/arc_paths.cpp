@@ -12,7 +12,7 @@ using core::Index;
 using core::kNone;
 using core::TriangleMesh;
 
-/// The saddles, the one with the largest reach first; among equals as the complex has them.
+/// The saddles by falling reach; equal ones in the complex's order.
 std::vector<Index> by_falling_reach(std::span<const double> reach) {
   std::vector<Index> order(reach.size());
   std::iota(order.begin(), order.end(), Index{0});
@@ -44,7 +44,7 @@ ArcPaths descending_paths(const mscomplex::MorseSmaleComplex& complex, std::span
     const mscomplex::CriticalCell& saddle = gradient.saddles()[i];
     for (const Index start : complex.mesh().edge_vertices(saddle.cell)) {
       const std::size_t first = paths.cells.size();
-      if (start == saddle.vertex && walked[start]) continue;  // a multiple saddle goes down here once
+      if (start == saddle.vertex && walked[start]) continue;  // a multiple saddle descends here once
       if (start != saddle.vertex) paths.cells.push_back(saddle.vertex);
       Index v = start;
       for (; v != kNone && !walked[v]; v = gradient.descend(v)) {

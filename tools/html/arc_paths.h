@@ -9,19 +9,18 @@
 
 namespace morsel::tools::html {
 
-/// The arcs of one kind as polylines. Arcs that merge share their further way; here it belongs to the arc of
-/// the saddle with the largest reach (arc_reach()), and those of others end where they meet it. So a piece is
-/// to be seen up to its polyline's reach, and all together there are no more pieces than cells and saddles,
-/// however long the arcs are.
+/// The arcs of one kind as polylines. The common part of arcs that merge belongs to the arc of the saddle
+/// with the largest reach (arc_reach()), and the other arcs end where they meet it. So a piece is shown up to
+/// its polyline's reach, and there are no more pieces than cells and saddles, however long the arcs are.
 ///
 /// Descending: cells are vertices, from the saddle's on. Ascending: cells are triangles, and the line runs
 /// from the saddle's vertex by their barycentres and the midpoints of the edges between them, in which it may
 /// end as well.
 struct ArcPaths {
   std::vector<std::uint32_t> saddle;  ///< per polyline: the saddle's vertex
-  std::vector<double> reach;          ///< per polyline: the persistence up to which it is to be seen
+  std::vector<double> reach;          ///< per polyline: the persistence up to which it is shown
   std::vector<std::uint32_t> length;  ///< per polyline: its number of cells
-  std::vector<std::uint8_t> end;      ///< per polyline: where it goes from its last cell (kEnd…)
+  std::vector<std::uint8_t> end;      ///< per polyline: its end after its last cell (kEnd…)
   std::vector<std::uint32_t> cells;   ///< of all polylines, one after the other
 
   static constexpr std::uint8_t kEndThere = 0;   ///< nowhere

@@ -17,9 +17,9 @@ using mscomplex::ArcKind;
 using mscomplex::Cancellation;
 using mscomplex::MorseSmaleComplex;
 
-/// Goes, for one saddle after the other from the last to be cancelled to the first, along its arcs as they
-/// are when its turn comes. What one of them has passed, all that come after it leave alone: their ways on
-/// from there are the same, and end earlier. So each saddle is passed once.
+/// Follows, from the last saddle to be cancelled to the first, each saddle's arcs as they are when it is
+/// cancelled. Saddles that were visited are not visited again: the paths from there are the same, and end
+/// earlier. So each saddle is visited once.
 class Passage {
  public:
   Passage(const mscomplex::PersistenceHierarchy& hierarchy, ArcKind kind)
@@ -59,7 +59,7 @@ class Passage {
         open.pop_back();
         for (const Index arc : arcs_[s]) {
           Index end = complex_.arc_end(arc);
-          while (cancelled_by_[end] < turn_[s]) {  // neither is of something that is never cancelled
+          while (cancelled_by_[end] < turn_[s]) {  // so neither is kNone
             const Cancellation& cancellation = cancellations_[cancelled_by_[end]];
             const Index passed = cancellation.arc / 4;
             if (reach[passed] >= 0) break;
@@ -76,7 +76,7 @@ class Passage {
  private:
   const MorseSmaleComplex& complex_;
   std::span<const Cancellation> cancellations_;
-  std::vector<Index> turn_;          // per saddle: the cancellation that takes it
+  std::vector<Index> turn_;          // per saddle: its cancellation
   std::vector<Index> cancelled_by_;  // per node of an extremum, likewise
   std::vector<std::array<Index, 2>> arcs_;
 };

@@ -11,13 +11,12 @@
 
 namespace morsel::tools::html {
 
-/// Appends arrays to a stream. Each call returns what the page needs to find and read the array again:
+/// Appends arrays to a stream. Each call returns the page's reference to the array:
 /// {"type", "offset", "bytes", "count"}, where `type` is
 ///   u8, u16, f64  numbers, little-endian
-///   delta         unsigned 32-bit numbers of which most are near the one before: the differences d, from 0
-///   on,
-///                 as 2d or −2d − 1, seven bits a byte from the lowest on, the eighth telling that more
-///                 follow
+///   delta         unsigned 32-bit numbers of which most are near the one before: the differences d,
+///                 beginning with that to 0, as 2d or −2d − 1, seven bits a byte from the lowest on; the
+///                 eighth bit is set if more follow
 class Buffers {
  public:
   explicit Buffers(PackedStream& stream) : stream_(stream) {}

@@ -13,8 +13,8 @@
 namespace morsel::tools {
 namespace {
 
-/// JSON inside an element: as "<" is only found in its texts, it can be written in a way that no parser of
-/// HTML takes for the beginning of anything.
+/// JSON inside an element: "<" occurs in its strings only and is escaped, so that no parser of HTML sees a
+/// tag.
 std::string without_markup(const std::string& json) {
   std::string text;
   text.reserve(json.size());

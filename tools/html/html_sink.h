@@ -1,5 +1,5 @@
 #pragma once
-/// The page of `morsel compare --html`: a comparison to look at and to turn in one's hands, in one file.
+/// The page of `morsel compare --html`: an interactive comparison in one file.
 
 #include <memory>
 #include <string>
@@ -11,17 +11,18 @@
 
 namespace morsel::tools {
 
-/// Writes, while the comparison runs, an HTML document that needs nothing but itself: no network, no server,
-/// no other file. In it are
-///   #page     JSON, "morsel.page/1": the command line, the report without its items ("morsel.comparison/1"),
-///   and
-///             for the mesh and each method where their arrays are (html/page_data.h)
+/// Writes, while the comparison runs, a self-contained HTML document: it needs no network, no server and no
+/// other file. Its elements are
+///   #page     JSON, "morsel.page/1": the command line, the report without its items
+///             ("morsel.comparison/1"), and the references to the arrays of the mesh and of each method
+///             (html/page_data.h)
 ///   #buffers  those arrays (html/buffers.h), one after the other, deflated, in base64: positions (16 bits a
 ///             coordinate of the bounding box), triangles, and per method the field (16 bits between
 ///             percentiles), critical points (values in full), pairs, segment labels and arcs
 ///   #three    three.js r111, deflated, in base64
-/// Nothing that comes from file names or parameters can end the element that it is in, and the page shows it
-/// as text alone. But for the timings in the report the bytes are the same at any number of threads.
+/// File names and parameters are escaped so that they cannot end the element that they are in, and the page
+/// shows them as text alone. But for the timings in the report the bytes are the same at any number of
+/// threads.
 ///
 /// Throws WriteFailed. No more than one method's arrays are in memory at a time.
 class HtmlSink : public ComparisonSink {

@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes on their way into a page: compressed, then written as text.
+/// Bytes of a page, compressed and written as text.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace morsel::tools::html {
 
-/// Writes what it is given, deflated (zlib's format, RFC 1950) and in base64, to a file while it comes. The
+/// Writes its input at once to a file, deflated (zlib's format, RFC 1950) and in base64. The
 /// same input gives the same text. Throws WriteFailed, and std::bad_alloc.
 class PackedStream {
  public:
-  /// Refers to `file`, to which nobody else may write before finish().
+  /// Refers to `file`, which must not be written to otherwise before finish().
   explicit PackedStream(core::FileWriter& file);
   ~PackedStream();
   PackedStream(const PackedStream&) = delete;
@@ -22,7 +22,7 @@ class PackedStream {
 
   void write(const void* data, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  /// What is still on its way, and the end. Nothing may be written afterwards.
+  /// Writes what is buffered and ends the stream. Nothing may be written afterwards.
   void finish();
   /// Bytes taken so far, before they were compressed.
   std::uint64_t size() const;

@@ -23,7 +23,8 @@ double percentile(std::vector<double>& values, double share) {
   return *place;
 }
 
-/// What lies beyond these would only take steps away from the rest: their colours are the ends of the scale.
+/// Values beyond these percentiles have the colours of the scale's ends, so that the steps resolve the
+/// others.
 constexpr double kLowest = 0.005;
 constexpr double kHighest = 0.995;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a page holds of a mesh and of each method: arrays in its buffers, and metadata that tell where.
+/// The data of a mesh and of each method in a page: arrays in its buffers, and metadata that refer to them.
 
 #include <span>
 #include <vector>
@@ -15,14 +15,14 @@ namespace morsel::tools::html {
 Json write_mesh(const core::LoadedMesh& loaded, Buffers& buffers);
 
 /// {"name", "values", "points", "pairs", "segments", "arcs"}. Vertices are the mesh's here.
-///   values    {"low", "high", "data"}: low + (high − low) · data / 65535; what lies outside is cut off
-///   points    {"vertex", "place", "type" (1 minimum, 2 saddle, 3 maximum), "multiplicity", "value", "origin"
-///   (1 +
-///             vertex, or 0 if the way was lost), "match" (1 + its counterpart's number among the first
-///             method's points, or 0)}; persistence follows from the pairs
+///   values    {"low", "high", "data"}: low + (high − low) · data / 65535; values outside are clamped
+///   points    {"vertex", "place", "type" (1 minimum, 2 saddle, 3 maximum), "multiplicity", "value",
+///             "origin" (1 + vertex, or 0 if it has none), "match" (1 + its counterpart's number among the
+///             first method's points, or 0)}; persistence follows from the pairs
 ///   pairs     {"extremum", "saddle"}: numbers of points, by ascending persistence; number of points + k is
-///   loop k's cap segments  {"ascending", "descending"}: a label per triangle arcs      {"descending",
-///   "ascending"}: html/arc_paths.h, the saddle as a number of a point
+///             loop k's cap
+///   segments  {"ascending", "descending"}: a label per triangle
+///   arcs      {"descending", "ascending"}: html/arc_paths.h, the saddle as a number of a point
 Json write_method(const MethodOutcome& outcome, Buffers& buffers);
 
 }  // namespace morsel::tools::html

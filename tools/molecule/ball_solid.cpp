@@ -18,7 +18,7 @@ class BallSolid final : public Solid {
   void evaluate(std::span<const core::Point> places, std::span<const core::Index> balls,
                 std::span<double> values) const override {
     for (std::size_t k = 0; k < places.size(); ++k) {
-      // With no ball in reach, the distance is not known and need not be.
+      // With no ball within reach the distance is unknown and not needed.
       double least = std::numeric_limits<double>::max();
       for (const core::Index i : balls)
         least = std::min(least, (places[k] - balls_[i].center).norm() - balls_[i].radius);

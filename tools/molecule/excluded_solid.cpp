@@ -56,9 +56,9 @@ Intervals complement(const Intervals& covered) {
 }
 
 /// The surface that the probe's center may reach consists of parts of the spheres with the probe's radius
-/// added, which meet in arcs, which meet in points. From inside, the nearest point of it is on the sphere
-/// that surrounds the place most closely, straight outwards, if no other ball covers that point; else it is
-/// on an arc or at an end of one.
+/// added, which meet in arcs, which meet in points. From inside, its nearest point is the radial projection
+/// on the sphere whose surface is nearest outwards, if no other ball covers that point; else it is on an arc
+/// or at an end of one.
 class ExcludedSolid final : public Solid {
  public:
   ExcludedSolid(std::vector<Ball> balls, double probe, double depth)
@@ -180,7 +180,7 @@ class ExcludedSolid final : public Solid {
       around = i;
     }
     if (around == core::kNone) return 0;
-    if (deepest >= most) return most;  // nothing can be nearer than it is out of one ball
+    if (deepest >= most) return most;  // the distance is at least that out of one ball
     const Point outwards = place - balls_[around].center;
     const double length = outwards.norm();
     if (length > 0 &&

@@ -27,8 +27,8 @@ constexpr double kNearest = 0.01;
 /// Values of larger size are cut off; only those at the surface matter.
 constexpr double kFarthest = 1000;
 
-/// Makes the blocks that hold all grid points within the solid's reach of a ball, and those next to them:
-/// what the surface is interpolated between.
+/// Makes the blocks that contain all grid points within the solid's reach of a ball, and those next to them,
+/// between which the surface is interpolated.
 void make_leaves(const Solid& solid, std::span<const Ball> balls, const Grid& grid,
                  openvdb::FloatGrid& values, const core::Progress& progress) {
   auto accessor = values.getAccessor();

@@ -1,5 +1,5 @@
 #pragma once
-/// From a solid to the quadrilaterals around it, on a grid. Internal.
+/// The quadrilateral surface of a solid on a grid. Internal.
 
 #include <array>
 #include <span>
@@ -29,7 +29,7 @@ struct QuadMesh {
 QuadMesh mesh_solid(const Solid& solid, std::span<const Ball> balls, const Grid& grid,
                     const core::Progress& progress);
 
-/// The number of the grid's points that mesh_solid() would ask for, or somewhat more.
+/// The number of grid points at which mesh_solid() would evaluate, or somewhat more.
 double grid_size(const Solid& solid, std::span<const Ball> balls, double spacing);
 
 }  // namespace morsel::tools

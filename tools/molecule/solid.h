@@ -1,5 +1,5 @@
 #pragma once
-/// What a molecular surface bounds, as a function that is negative inside. Internal.
+/// The solid within a molecular surface, as a function that is negative inside. Internal.
 
 #include <memory>
 #include <span>
@@ -17,16 +17,16 @@ struct Ball {
 };
 
 /// A solid given by a continuous function: negative inside, positive outside, and close to its surface about
-/// the distance to it in Å, so that the surface may be interpolated linearly. Immutable; may be asked from
-/// any number of threads.
+/// the distance to it in Å, so that the surface may be interpolated linearly. Immutable; may be evaluated
+/// from any number of threads.
 class Solid {
  public:
   virtual ~Solid() = default;
 
-  /// Farther than this from the centers of all balls, everything is outside.
+  /// Points farther than this from the centers of all balls are outside.
   virtual double reach() const = 0;
 
-  /// Balls whose centers are farther away do not matter at a place; at least reach().
+  /// Balls whose centers are farther from a place do not change the function there; at least reach().
   virtual double influence() const { return reach(); }
 
   /// The function at `places`, given the numbers (ascending) of all balls whose centers lie within

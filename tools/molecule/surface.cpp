@@ -100,7 +100,7 @@ std::vector<core::Triangle> triangulate(const QuadMesh& quads) {
   return triangles;
 }
 
-/// A closed manifold, or nothing.
+/// A closed manifold; none if it is not one.
 std::optional<TriangleMesh> try_grid(const Solid& solid, std::span<const Ball> balls, const Grid& grid,
                                      const core::Progress& progress) {
   QuadMesh quads = mesh_solid(solid, balls, grid, progress);
@@ -146,7 +146,7 @@ TriangleMesh keep_components(const TriangleMesh& mesh, const std::vector<bool>& 
   return {std::move(positions), std::move(triangles)};
 }
 
-/// The wall of a cavity is turned inside out: its volume is negative.
+/// The wall of a cavity has a negative volume.
 MolecularSurface finish(const TriangleMesh& mesh, bool keep_cavities) {
   const std::vector<Extent> extents = component_extents(mesh);
   std::vector<bool> keep(extents.size());
@@ -205,7 +205,7 @@ MolecularSurface molecular_surface(std::span<const core::Atom> atoms, const Surf
   throw core::BadInput("at a resolution of " + core::shortest(options.resolution) +
                        " Å the surface of these " + std::to_string(atoms.size()) +
                        " atoms pinches on all of " + std::to_string(kMostGrids) +
-                       " grids; another resolution will do");
+                       " grids; choose another resolution");
 }
 
 }  // namespace morsel::tools

@@ -11,7 +11,7 @@
 
 namespace morsel::tools {
 
-/// With atom i at c_i, of van der Waals radius r_i:
+/// Kinds of surfaces, with atom i at c_i, of van der Waals radius r_i:
 enum class SurfaceKind {
   gaussian,  ///< Σ_i exp(B (1 − ‖x − c_i‖² / r_i²)) = 1 (Blinn 1982); smooth
   ses,  ///< solvent-excluded (Richards 1977, Connolly 1983): what a probe rolling over the atoms cannot enter
@@ -36,7 +36,7 @@ void check_surface_options(const SurfaceOptions& options);
 
 struct MolecularSurface {
   core::TriangleMesh mesh;
-  std::size_t cavities = 0;  ///< components that were found to be cavities' walls, kept or not
+  std::size_t cavities = 0;  ///< components that are cavities' walls, kept or not
   double area = 0;           ///< of the mesh, in Å²
   double volume = 0;         ///< enclosed by it, in Å³
   int grids_tried = 1;       ///< 2 or more: the surface on the grids before was not a manifold
@@ -50,9 +50,9 @@ struct MolecularSurface {
 /// quadrilateral cut along the diagonal that gives the larger smallest angle (the first diagonal if there is
 /// none). Vertices lie within about half a spacing of the true surface, much nearer where that is smooth;
 /// details below the spacing are lost, no atom is. Dual contouring can pinch a surface at an edge or vertex
-/// where two sheets of it pass one cell; OpenVDB's does not promise not to, though it did on none of
-/// thousands of molecules and grids of noise. Such a mesh would be thrown away, and another made on a grid
-/// shifted by a fraction of the spacing, up to 8 in all.
+/// where two sheets of it pass one cell; OpenVDB does not exclude that, though it happened on none of
+/// thousands of molecules and grids of noise. Such a mesh is discarded, and another made on a grid shifted by
+/// a fraction of the spacing, up to 8 in all.
 ///
 /// Throws InvalidArgument if an option is out of range; BadInput if there are no atoms, if the resolution is
 /// too coarse for the smallest atom (a ball must hold a grid point: √3/2 spacings ≤ r) or so fine that the

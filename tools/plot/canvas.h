@@ -1,5 +1,5 @@
 #pragma once
-/// What plots are drawn with: a few shapes, by different means.
+/// The interface by which plots are drawn: a few shapes, on different media.
 
 #include <string_view>
 #include <vector>
@@ -41,7 +41,7 @@ struct Letters {
 /// Lengths of strokes and gaps of a dash, in widths of the pen.
 std::vector<double> dash_lengths(Dash dash);
 
-/// The corners of a mark about the origin, in one sense; not of a disc.
+/// The corners of a mark about the origin, in one orientation; not of a disc.
 std::vector<Spot> mark_corners(Mark mark, double radius);
 
 class Canvas {
@@ -49,12 +49,12 @@ class Canvas {
   virtual ~Canvas() = default;
   virtual void line(const std::vector<Spot>& spots, const Pen& pen) = 0;
   virtual void rectangle(const Box& box, const Pen& pen) = 0;
-  /// All together of this opacity, also where they lie over one another.
+  /// All of them have this opacity together, also where they overlap.
   virtual void marks(const std::vector<Spot>& spots, Mark mark, double radius, Color color,
                      double opacity) = 0;
   /// `spot` is where the baseline begins, or its middle or end. `text` is UTF-8.
   virtual void text(Spot spot, std::string_view text, const Letters& letters) = 0;
-  /// What follows, until close(), belongs together and is named.
+  /// Begins a named group, which ends at close().
   virtual void open(std::string_view name) = 0;
   virtual void close() = 0;
 };

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kPersistenceRange = 1e-5;  // of the largest one
 
-/// The steps' counts end to end; a step that counted has its input, where the one before ended, as its first.
+/// The steps' counts joined; the first count of a step is that of its input, which is the last one of the
+/// step before.
 std::vector<std::size_t> iteration_counts(const std::vector<StepOutcome>& steps) {
   std::vector<std::size_t> counts;
   for (const StepOutcome& step : steps)
@@ -68,7 +69,7 @@ double linear_part(std::span<const MethodCurves> methods) {
   const double lowest = quantile(0), first = quantile(1), third = quantile(3), highest = quantile(4);
   const double largest = std::max(std::abs(lowest), std::abs(highest));
   if (!(third - first < kSmallPart * (highest - lowest)) || largest < 1e-200) return 0;
-  // Far from 0 a logarithm spreads nothing.
+  // Far from 0 a logarithm does not spread the values.
   if (std::min(std::abs(lowest), std::abs(highest)) > largest / 10 && lowest * highest > 0) return 0;
   return std::pow(10, std::floor(std::log10(largest / kDecades)));
 }

@@ -10,7 +10,7 @@
 
 namespace morsel::tools::plot {
 
-/// The points of a persistence diagram by what they are. x is the birth, y the death, +∞ for what never dies.
+/// The points of a persistence diagram by type. x is the birth, y the death, +∞ for essential classes.
 struct DiagramPoints {
   std::vector<double> x;
   std::vector<double> y;
@@ -23,7 +23,7 @@ struct MethodCurves {
   DiagramPoints saddle_maximum;
   DiagramPoints saddle_cap;
   /// Each component's minimum, the saddles that are paired with no extremum and, of closed components, the
-  /// maximum. (The top class of a bounded component is a cap, which is born at +∞ and has no place in a
+  /// maximum. (The top class of a bounded component is a cap, which is born at +∞ and has no point in a
   /// diagram.)
   DiagramPoints essential;
   std::vector<double> persistences;  ///< of the finite pairs, ascending
@@ -40,11 +40,12 @@ MethodCurves curves_of(const MethodOutcome& outcome);
 /// The persistence diagram of one method, a column wide. `field` is what the axes are labelled with.
 Plot diagram_plot(const MethodCurves& method, const std::string& field);
 
-/// Those of all methods with the same axes, side by side on the width of a page.
+/// The diagrams of all methods with the same axes, side by side on the width of a page.
 Plot diagram_sheet(const std::vector<MethodCurves>& methods, const std::string& field);
 
-/// How many finite pairs have at least a persistence, against it, both logarithmic; a line a method. It
-/// begins at a 100,000th of the largest persistence; what is below, zeros included, is counted nowhere in it.
+/// The number of finite pairs with at least a persistence against that persistence, both logarithmic; a line
+/// a method. It begins at a 100,000th of the largest persistence; smaller ones, zeros included, are not
+/// counted.
 Plot persistence_plot(const std::vector<MethodCurves>& methods, const std::string& field);
 
 /// Critical points against iteration, a line for each method that iterates; without panels if none does.

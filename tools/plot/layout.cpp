@@ -57,7 +57,7 @@ class Layouter {
     std::string unit = ticks.factor == 0 ? "" : power_of_ten(ticks.factor);
     if (!axis.unit.empty()) unit += (unit.empty() ? "" : " ") + axis.unit;
     std::string text = axis.label;
-    // What is shown is the value without the offset.
+    // The label is the value without the offset.
     if (!ticks.offset_text.empty()) {
       const bool negative = ticks.offset < 0;
       const std::string digits =

@@ -1,5 +1,5 @@
 #pragma once
-/// Where everything in a plot goes.
+/// The layout of a plot.
 
 #include <string>
 #include <vector>

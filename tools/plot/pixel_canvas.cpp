@@ -106,7 +106,7 @@ std::string PixelCanvas::png() {
   };
   if (cairo_status(context_) != CAIRO_STATUS_SUCCESS ||
       cairo_surface_write_to_png_stream(surface_, append, &bytes) != CAIRO_STATUS_SUCCESS)
-    throw std::bad_alloc();  // all that can happen to a sound drawing
+    throw std::bad_alloc();  // the only possible failure of a valid drawing
   return bytes;
 }
 

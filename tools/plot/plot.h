@@ -13,8 +13,8 @@ namespace morsel::tools::plot {
 /// sRGB, 0xRRGGBB.
 using Color = std::uint32_t;
 
-/// Colours that the colour-blind tell apart, on white, the strongest first (Okabe and Ito 2008, without their
-/// yellow).
+/// Colours that the colour-blind can distinguish, on white, the strongest first (Okabe and Ito 2008, without
+/// their yellow).
 inline constexpr Color kPalette[] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
 
 enum class Scale {
@@ -23,16 +23,16 @@ enum class Scale {
   symmetric  ///< asinh: linear about 0, logarithmic far from it on both sides
 };
 
-/// Where the values go: a finite one by the scale; +∞ on a line of its own beyond the y axis's upper end.
+/// The positions of values: a finite one by the scale; +∞ on a line of its own beyond the y axis's upper end.
 struct Axis {
   std::string label = {};
   std::string unit = {};  ///< shown in brackets after the label
   Scale scale = Scale::linear;
   double linear = 1;  ///< how far from 0 a symmetric scale is about linear; > 0
-  /// What is shown; by default what the values need, and a little air around them.
+  /// The range shown; by default that of the values with a small margin.
   std::optional<double> lower = {};
   std::optional<double> upper = {};
-  /// Of a linear axis of kinds in place of numbers: the i-th stands at i, shortened where it has no room.
+  /// Of a linear axis with categories instead of numbers: the i-th is at i, shortened where it has no room.
   std::vector<std::string> names = {};
 };
 
@@ -71,8 +71,8 @@ struct Plot {
   std::string title = {};
   Axis x = {};
   Axis y = {};
-  /// Both axes have the same scale and show the same range and the diagonal is drawn, as persistence diagrams
-  /// have it.
+  /// Both axes have the same scale and show the same range, and the diagonal is drawn, as in persistence
+  /// diagrams.
   bool diagonal = false;
   std::vector<Panel> panels = {};
   std::size_t columns = 1;              ///< of panels
@@ -90,10 +90,10 @@ struct Plot {
 /// time and the machine's fonts. Text is text in DejaVu Sans; where that is missing, another font is fitted
 /// into the same place.
 ///
-/// Of crowded marks, of which many lie over one another, only some are drawn: where a series has more than
-/// one for 5 square points of its panel (8,000 in a column's), one in each cell of a grid, and a note below
-/// the plot tells how many these are. Lines lose the points that do not move them by a fifth of a printer's
-/// point. So files stay below some hundred kilobytes however many points there are. O(number of points).
+/// Of crowded marks only some are drawn: where a series has more than one for 5 square points of its panel
+/// (8,000 in a column's), one in each cell of a grid, and a note below the plot has their number. Lines lose
+/// the points that do not move them by a fifth of a printer's point. So files stay below some hundred
+/// kilobytes however many points there are. O(number of points).
 ///
 /// Throws InvalidArgument for a plot that cannot be drawn: no panel, x and y of different sizes, NaN,
 /// infinities other than y = +∞ of marks, values beyond ±1e300 or of 0 or less on a logarithmic axis, limits

@@ -14,7 +14,7 @@ namespace morsel::tools::plot {
 /// A plot and its file's name without the ending.
 using NamedPlot = std::pair<std::string, Plot>;
 
-/// Each as .svg and as .png of 300 pixels an inch, in parallel, with where it comes from in it. Throws what
+/// Each as .svg and as .png of 300 pixels an inch, in parallel, with its provenance. Throws what
 /// claim(), write_svg() and write_png() throw.
 void write_plots(ResultFolder& folder, std::vector<NamedPlot> plots, const Provenance& provenance);
 

@@ -15,7 +15,7 @@ namespace morsel::tools {
 /// Writes into one folder, each as .svg and as .png of 300 pixels an inch:
 ///   NAME.diagram  the method's persistence diagram
 ///   diagrams      those of all methods, with the same axes
-///   persistence   how many pairs are how persistent, a line a method
+///   persistence   the number of pairs against persistence, a line a method
 ///   iterations    critical points against iteration, a line for each method that iterates; if any does
 /// NAME is the method's; a second method of the same name gets "-2", and so on. Keeps 24 bytes a pair and
 /// method.
@@ -25,13 +25,13 @@ class PlotSink : public ComparisonSink {
   PlotSink(ResultFolder& folder, Provenance provenance);
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
-  /// Writes what shows all methods. To be called once, at the end.
+  /// Writes the plots of all methods together. To be called once, at the end.
   void finish();
 
  private:
   ResultFolder& folder_;
   Provenance provenance_;  // without methods
-  Provenance all_;         // with all that came by
+  Provenance all_;         // with all methods
   std::string field_;
   FileNames names_;
   std::vector<plot::MethodCurves> methods_;

@@ -54,7 +54,7 @@ Interval shown(const Bounds& data, const Axis& axis) {
   const bool empty = data.lower > data.upper;
   Interval interval =
       empty ? (log ? Interval{1, 10} : Interval{0, 1}) : padded({data.lower, data.upper}, axis);
-  const auto beyond = [&](double limit, double sign) {  // where the other limit leaves nothing of the data
+  const auto beyond = [&](double limit, double sign) {  // if the other limit excludes all data
     return log ? limit * std::pow(10, sign) : limit + sign * std::max(1., std::abs(limit));
   };
   if (axis.lower) interval.lower = *axis.lower;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the axes of a plot show.
+/// The ranges of a plot's axes.
 
 #include "morsel/tools/plot/plot.h"
 #include "morsel/tools/plot/ticks.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// What is left of many points when they are drawn: clipped, and without what the eye does not see.
+/// Reduction of many points for drawing: clipping, and removal of invisible differences.
 
 #include <cstddef>
 #include <vector>

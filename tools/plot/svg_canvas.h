@@ -12,7 +12,7 @@ namespace morsel::tools::plot {
 /// Coordinates have two decimals.
 class SvgCanvas : public Canvas {
  public:
-  /// Refers to the lettering, by which texts are fitted into their places.
+  /// Refers to the lettering, by which texts are given their widths.
   SvgCanvas(double width, double height, std::string_view title, std::string_view metadata,
             drawing::Lettering& lettering);
   void line(const std::vector<Spot>& spots, const Pen& pen) override;

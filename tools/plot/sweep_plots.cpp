@@ -20,7 +20,7 @@ std::size_t total_of(const morse::CriticalPoints& points) { return points.total(
 
 double count_of(const SweepRow& row, Count count) { return static_cast<double>(count(row.critical_points)); }
 
-/// Where the values of a variation stand, and in which order lines go through them.
+/// The positions of a variation's values, and the order in which lines go through them.
 class ValueAxis {
  public:
   explicit ValueAxis(const Variation& variation) : places_(numbers_of(variation.values, unit_)) {

@@ -10,7 +10,7 @@
 namespace morsel::tools::plot {
 namespace {
 
-constexpr double kAir = 0.04;         // of an interval, at each end
+constexpr double kPadding = 0.04;     // of an interval, at each end
 constexpr double kSameValue = 1e-12;  // differences below this share of the values are not resolved
 constexpr double kNothing = 1e-290;   // values below are taken for 0
 constexpr int kMostDigits = 5;        // before the decimal point
@@ -79,7 +79,7 @@ Ticks linear_ticks(Interval shown, int count) {
     for (int i = 0; i < digits_of(spread); ++i) unit *= 10;
     offset = first * step.multiple / unit * unit;
     ticks.offset = parse(offset, step.exponent);
-    // Without the zeros that its last places are.
+    // Without trailing zeros.
     std::int64_t number = offset;
     int exponent = step.exponent;
     for (; exponent < 0 && number % 10 == 0; ++exponent) number /= 10;
@@ -160,7 +160,7 @@ Ticks symmetric_ticks(Interval shown, double linear, int count) {
   const int high = static_cast<int>(std::floor(std::log10(std::max(-shown.lower, shown.upper)) + 1e-9));
   const auto within = [&](double value) { return value >= shown.lower && value <= shown.upper; };
   Ticks ticks;
-  // Fewer and fewer: those at the ends of the linear part go before the step is made larger.
+  // Reduces their number: those at the ends of the linear part are dropped before the step is made larger.
   for (int attempt = 2; attempt / 2 <= std::max(1, high - low + 1); ++attempt) {
     const int stride = attempt / 2, first = low + attempt % 2;
     ticks = {};
@@ -235,17 +235,17 @@ Interval padded(Interval data, const Axis& axis) {
   const bool constant = data.size() <= std::max(kSameValue * largest, kNothing);
   if (axis.scale == Scale::log) {
     if (constant) return {data.lower / 2, data.upper * 2};
-    const double factor = std::pow(data.upper / data.lower, kAir);
+    const double factor = std::pow(data.upper / data.lower, kPadding);
     return {data.lower / factor, data.upper * factor};
   }
   if (constant && largest <= kNothing) return {-1, 1};
   if (axis.scale == Scale::symmetric && !constant) {
     const double lower = along(data.lower, axis), upper = along(data.upper, axis);
-    const double air = kAir * (upper - lower);
-    return {axis.linear * std::sinh(lower - air), axis.linear * std::sinh(upper + air)};
+    const double padding = kPadding * (upper - lower);
+    return {axis.linear * std::sinh(lower - padding), axis.linear * std::sinh(upper + padding)};
   }
-  const double air = constant ? largest / 2 : kAir * data.size();
-  return {data.lower - air, data.upper + air};
+  const double padding = constant ? largest / 2 : kPadding * data.size();
+  return {data.lower - padding, data.upper + padding};
 }
 
 Ticks make_ticks(Interval shown, const Axis& axis, int count) {

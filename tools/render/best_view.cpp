@@ -18,7 +18,7 @@ using core::Index;
 using core::Point;
 
 constexpr std::size_t kLookedAt = 5000;
-constexpr double kLowest = -10;  // degrees: who looks at a thing looks from above
+constexpr double kLowest = -10;  // degrees: views are mostly from above
 constexpr double kHighest = 50;
 
 struct Seen {

@@ -17,7 +17,7 @@ using core::Point;
 
 constexpr double kOpening = 24;  // degrees
 
-/// To the picture's right, up, and to the viewer, when one looks at the front.
+/// To the picture's right, up, and to the viewer, in the front view.
 std::array<Point, 3> axes(UpAxis up) {
   switch (up) {
     case UpAxis::x:

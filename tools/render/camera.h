@@ -1,5 +1,5 @@
 #pragma once
-/// Where a picture is taken from.
+/// The camera of a picture.
 
 #include <Eigen/Core>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace morsel::tools::render {
 
-/// Which way a mesh stands.
+/// The axis of a mesh that points up.
 enum class UpAxis { x, y, z };
 std::string to_string(UpAxis up);
 
@@ -31,10 +31,10 @@ View view_at(double azimuth, double elevation, UpAxis up = UpAxis::y);
 View view_from(const core::Point& toward, UpAxis up = UpAxis::y);
 
 /// "front", "back", "left", "right", "top", "bottom" or "azimuth/elevation" in degrees. Throws
-/// InvalidArgument, saying what there is, on anything else ("best", which depends on the mesh, included).
+/// InvalidArgument, listing the views, on anything else ("best", which depends on the mesh, included).
 View named_view(std::string_view text, UpAxis up = UpAxis::y);
 
-/// A pinhole camera. The film is the square [−1, 1]² or what shows of it, x to the right, y up.
+/// A pinhole camera. The film is the square [−1, 1]² or a part of it, x to the right, y up.
 struct Camera {
   core::Point eye;
   core::Point right;

@@ -28,7 +28,7 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   Size size() const { return size_; }
-  /// Puts a picture over what is there, pixel by pixel; what hangs over is cut off.
+  /// Draws a picture over the canvas, pixel by pixel, clipped.
   void draw(const Image& image, int x, int y);
   /// One line of UTF-8 with its baseline at y; `size` is that of the em. Throws InvalidArgument on other
   /// bytes.

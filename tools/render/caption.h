@@ -8,10 +8,10 @@
 
 namespace morsel::tools::render {
 
-/// The size of letters that suits a picture.
+/// The size of letters for a picture of this size.
 double letter_size(Size size);
 
-/// How high the strip is that a caption takes; 0 if it is empty. Lines are separated by \\n.
+/// The height of a caption's strip; 0 if it is empty. Lines are separated by \\n.
 int caption_height(const std::string& text, double em);
 /// Draws it in the middle of [x, x + width] from y on: the first line black, the others grey.
 void draw_caption(Canvas& canvas, const std::string& text, double em, double x, double y, double width);

@@ -13,7 +13,7 @@ using Color = Eigen::Vector3f;
 /// 0xRRGGBB as web pages write it (sRGB).
 Color from_hex(std::uint32_t hex);
 
-/// sRGB, rounded to bytes; what lies outside [0, 1] is cut off.
+/// sRGB, rounded to bytes and clamped to [0, 1].
 std::array<std::uint8_t, 3> to_bytes(const Color& color);
 
 /// Lightness in [0, 1] and two opponent axes, in which equal distances look about equal (Ottosson 2020).

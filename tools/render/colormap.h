@@ -1,5 +1,5 @@
 #pragma once
-/// Colour maps that are even to the eye and can be told apart by the colour-blind.
+/// Perceptually uniform colour maps, readable by the colour-blind.
 
 #include <string>
 #include <string_view>
@@ -16,7 +16,7 @@ class Colormap {
   explicit Colormap(std::string_view name);
 
   const std::string& name() const { return name_; }
-  /// Whether the middle is neutral and both ends alike in weight.
+  /// Whether the middle is neutral and both ends have the same lightness.
   bool is_diverging() const { return diverging_; }
   /// The colour at t in [0, 1]; beyond, that of the end.
   Color operator()(double t) const;
@@ -28,9 +28,9 @@ class Colormap {
 };
 
 /// Diverging ones first. "viridis" is of van der Walt and Smith (2015, CC0), "cividis" of Nuñez, Anderton,
-/// Renslow (2018, CC0), both by 33 points of their tables. "blue-orange", "purple-green" and "sand" are drawn
-/// here, in OKLab: their lightness falls evenly from the middle to the ends, or from the lower end to the
-/// upper.
+/// Renslow (2018, CC0), both by 33 points of their tables. "blue-orange", "purple-green" and "sand" are
+/// defined here, in OKLab: their lightness falls evenly from the middle to the ends, or from the lower end to
+/// the upper.
 std::vector<std::string_view> colormap_names();
 
 }  // namespace morsel::tools::render

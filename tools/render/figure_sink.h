@@ -17,8 +17,8 @@ namespace morsel::tools::render {
 
 /// Writes, into one folder:
 ///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's
-///   arcs where there
-///              are no more than 500 points; all from the same side, each with its own colours' range
+///              arcs if there are no more than 500 points; all in the same view, each with its own range of
+///              colours
 ///   sheet.png  these side by side, with captions (method, counts)
 /// NAME is the method's; a second method of the same name gets "-2", and so on. Called by the thread that
 /// made it.
@@ -39,7 +39,7 @@ class FigureSink : public ComparisonSink {
   const core::LoadedMesh& loaded_;
   CameraText camera_;
   Provenance provenance_;  // without methods
-  Provenance all_;         // with all that came by
+  Provenance all_;         // with all methods
   core::Progress progress_;
   PictureRequest request_;
   std::optional<Studio> studio_;

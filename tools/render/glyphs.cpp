@@ -18,14 +18,14 @@ using core::TriangleMesh;
 const Color kDescendingColor = from_hex(0x24425f);
 const Color kAscendingColor = from_hex(0x6b2a24);
 
-/// A place on the surface where an arc turns.
+/// A corner of an arc on the surface.
 struct Knot {
   Point point;
   Point normal;
   bool fixed = false;
 };
 
-/// What is drawn of a complex: knots, and the steps between them, each once.
+/// The drawing of a complex: knots, and the steps between them, each once.
 class Net {
  public:
   Net(const Body& body, const mscomplex::MorseSmaleComplex& complex) : body_(body), complex_(complex) {
@@ -127,14 +127,14 @@ class Net {
         return v;
       }
     }
-    return corners[0];  // cannot be: a triangle in no pair is a maximum's
+    return corners[0];  // unreachable: an unpaired triangle is a maximum's
   }
 
   const Body& body_;
   const mscomplex::MorseSmaleComplex& complex_;
   std::vector<Index> vertex_;    // knot of each vertex
   std::vector<Index> triangle_;  // knot of each triangle's barycentre
-  std::vector<bool> way_down_;   // vertices from which the way down is drawn
+  std::vector<bool> way_down_;   // vertices from which the descending path is drawn
 };
 
 /// The point of the surface nearest along the normal, if there is one within reach.
@@ -144,7 +144,7 @@ bool to_surface(const Rays& rays, Point& point, const Point& normal, double reac
   Hit hit;
   float best = kFar;
   for (const float side : {1.f, -1.f})
-    // From a little behind, so that a point on the surface meets it.
+    // From slightly behind, so that a point on the surface hits it.
     if (rays.first(p - side * 1e-5f * n, side * n, 0, r, hit) &&
         std::abs(hit.distance - 1e-5f) < std::abs(best))
       best = side * (hit.distance - 1e-5f);
@@ -181,7 +181,8 @@ void straighten(Net& net, const Rays& rays, double freedom) {
   }
 }
 
-/// Adds a step as capsules, in halves where the straight way leaves the surface by more than a tube can hide.
+/// Adds a step as capsules, halved where the straight segment leaves the surface by more than a tube can
+/// hide.
 void add_step(Scene& scene, const Rays& rays, const Knot& a, const Knot& b, double radius, const Color& color,
               int depth) {
   const double length = (b.point - a.point).norm();

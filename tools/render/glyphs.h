@@ -19,7 +19,8 @@ struct GlyphSizes {
   double tube;
 };
 
-/// So large that they are seen and so small that so many of them, spread over the surface, do not hide it.
+/// Large enough to be visible and small enough that `points` of them, spread over the surface, do not hide
+/// it.
 GlyphSizes glyph_sizes(const Body& body, std::size_t points);
 
 /// The paper's colours: minima blue, saddles green, maxima red.
@@ -30,11 +31,11 @@ Color color_of(morse::CriticalType type);
 void add_points(Scene& scene, const morse::CriticalPoints& points, double radius,
                 std::span<const core::Index> places = {});
 
-/// Adds the complex's arcs, or those of one kind, as tubes along the surface: every step that arcs share
-/// once. Zigzags of edges and triangles are drawn straighter, by averaging and putting back on the surface,
-/// but nothing is moved by more than `freedom` (in the body's unit; 0: not at all), critical points never:
-/// less than the radius keeps tubes on the borders of segments. `rays` are of the body alone. `complex` is
-/// one of the body's mesh, whatever its size. O(length of what is drawn).
+/// Adds the complex's arcs, or those of one kind, as tubes along the surface: with steps that arcs share
+/// drawn once. Zigzags of edges and triangles are smoothed by averaging and projecting back to the surface;
+/// no point is moved by more than `freedom` (in the body's unit; 0: not at all) and critical points not at
+/// all: less than the radius keeps tubes on the borders of segments. `rays` are of the body alone. `complex`
+/// is one of the body's mesh, whatever its size. O(length of what is drawn).
 void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
               double freedom = std::numeric_limits<double>::infinity(),
               std::optional<mscomplex::ArcKind> only = {});

@@ -12,7 +12,7 @@
 namespace morsel::tools::render {
 namespace {
 
-/// Whether there was memory for it: exceptions must not pass through C.
+/// False if memory ran out: exceptions must not pass through C.
 bool append(std::string& bytes, const void* data, std::size_t size) noexcept {
   try {
     bytes.append(static_cast<const char*>(data), size);
@@ -22,8 +22,7 @@ bool append(std::string& bytes, const void* data, std::size_t size) noexcept {
   }
 }
 
-// libpng reports by longjmp, over which nothing with a destructor may be alive: so all that lives here is
-// plain.
+// libpng reports by longjmp, which must not skip destructors: so all variables here are plain.
 bool encode(const Image& image, bool opaque, std::string& bytes, png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(
@@ -70,7 +69,7 @@ std::string encode_png(const Image& image) {
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   const bool done = info != nullptr && encode(image, opaque, bytes, png, info);
   png_destroy_write_struct(&png, &info);
-  if (!done) throw std::bad_alloc();  // what else can go wrong in memory
+  if (!done) throw std::bad_alloc();  // the only possible failure in memory
   return bytes;
 }
 

@@ -24,7 +24,7 @@ std::size_t hidden(const Image& picture, const Square& at) {
   return count;
 }
 
-/// How much of two squares is both's.
+/// The area of the intersection of two squares.
 double overlap(const Square& a, double x, double y, double side) {
   const double w = std::min(a.x + a.side, static_cast<int>(x + side)) - std::max<double>(a.x, x);
   const double h = std::min(a.y + a.side, static_cast<int>(y + side)) - std::max<double>(a.y, y);

@@ -15,8 +15,8 @@ FilmWindow window_around(const Camera& camera, const core::Point& center, double
 void draw_window(Canvas& canvas, Size picture, const FilmWindow& window, double em);
 
 /// Traces what lies within `radius` (in the body's unit, above 0) of `center`, seen by the same camera, and
-/// puts it, framed, into the corner of the picture where it hides least of `picture`, which is on the canvas
-/// at (0, 0). Two lines lead to a frame around the region. Throws InvalidArgument on a radius out of range.
+/// draws it, framed, in the corner where it hides least of `picture`, which is on the canvas at (0, 0). Two
+/// lines lead to a frame around the region. Throws InvalidArgument on a radius out of range.
 void draw_inset(Canvas& canvas, const Image& picture, const Tracer& tracer, const Camera& camera,
                 const TraceOptions& options, const core::Point& center, double radius, double em,
                 const core::Progress& progress = {});

@@ -9,8 +9,8 @@
 
 namespace morsel::tools::render {
 
-/// What a field measures, in words ("mean curvature"), and its unit in terms of the mesh's ("1/length"; empty
-/// if it has none or nothing is known of it). `method` is the last step that made it: saliency has no unit.
+/// The name of a field's quantity ("mean curvature") and its unit in terms of the mesh's ("1/length"; empty
+/// if it has none or is unknown). `method` is the last step that made it: saliency has no unit.
 struct Quantity {
   std::string words;
   std::string unit;
@@ -19,10 +19,10 @@ Quantity quantity_of(const std::string& function, const std::string& method = {}
 
 /// Round numbers from low to high, five or so (never more than nine).
 std::vector<double> ticks(double low, double high);
-/// As short as tells the ticks apart, with a true minus sign.
+/// The shortest text that distinguishes the ticks, with a minus sign (U+2212).
 std::string tick_text(double value, double step);
 
-/// How wide the strip is that the bar takes; `em` is the size of its letters.
+/// The width of the bar's strip; `em` is the size of its letters.
 int legend_width(Canvas& canvas, const ValueScale& scale, const Quantity& quantity, double em);
 /// Draws it into a strip from `x` on, in the middle of `height`. Values that are cut off are shown by
 /// arrowheads.

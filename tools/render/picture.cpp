@@ -59,7 +59,7 @@ Studio::Studio(const core::TriangleMesh& mesh)
 
 View Studio::view(const std::string& name, UpAxis up, const core::Progress& progress) const {
   if (name != "best") return named_view(name, up);
-  if (!(unit_ > 0)) return view_at(0, 0, up);  // a point looks the same from everywhere
+  if (!(unit_ > 0)) return view_at(0, 0, up);  // all vertices coincide: every view is the same
   return best_view(body_, rays_, view_weights(body_, progress), up, progress);
 }
 

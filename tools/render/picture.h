@@ -22,7 +22,7 @@ namespace morsel::tools::render {
 /// What the surface is coloured by.
 enum class Show { field, descending, ascending, morse_smale, plain };
 
-/// What lies around a vertex: a region that is shown magnified.
+/// A region around a vertex that is shown magnified.
 struct Inset {
   core::Index vertex = core::kNone;  ///< the mesh's number
   core::Length radius = core::Length::epsilons(15);
@@ -43,7 +43,7 @@ struct PictureRequest {
   std::optional<Inset> close_up;  ///< fills the picture, seen by the camera that would show all
 };
 
-/// What is in a picture.
+/// The content of a picture.
 struct Subject {
   const core::ScalarField& field;
   const Measurement* measurement = nullptr;  ///< must be there for points, arcs and segments
@@ -65,7 +65,7 @@ class Studio {
   View view(const std::string& name, UpAxis up = UpAxis::y, const core::Progress& progress = {}) const;
 
   /// For each vertex, whether a square picture shows it: it faces the camera, the cosine being at least
-  /// `least_cosine`, and nothing is in between. Parallel.
+  /// `least_cosine`, and is not occluded. Parallel.
   std::vector<bool> shown(const View& view, double least_cosine) const;
 
   /// Throws InvalidArgument on options out of range, a subject of another mesh, or one without a measurement

@@ -38,7 +38,7 @@ struct Rays::Scene {
       rtcReleaseDevice(device);
       throw std::bad_alloc();
     }
-    // Rays must not slip through between neighbouring triangles.
+    // Rays must not pass between neighbouring triangles.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   }
   ~Scene() {
@@ -53,7 +53,7 @@ struct Rays::Scene {
     if (geometry == nullptr) throw std::bad_alloc();
     return geometry;
   }
-  /// Numbered by what it holds.
+  /// Geometries are numbered by their kind.
   void attach(RTCGeometry geometry, Hit::Kind kind) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(kind));
@@ -92,8 +92,7 @@ Rays::Rays(const core::TriangleMesh& mesh, std::span<const Ball> balls, std::spa
     scene_->attach(geometry, Hit::Kind::capsule);
   }
   {
-    // Of things equally near, the order of the tree decides which is met, and threads would decide that
-    // order.
+    // Among equally near intersections the order of the tree decides, which would depend on the threads.
     const core::ThreadLimit one(1);
     rtcCommitScene(scene_->scene);
   }
@@ -143,7 +142,7 @@ bool Rays::any(const Vec3& origin, const Vec3& direction, float near, float far)
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene_->scene, &context, &ray);
-  return ray.tfar < 0;  // how Embree says it
+  return ray.tfar < 0;  // Embree's mark of a hit
 }
 
 }  // namespace morsel::tools::render

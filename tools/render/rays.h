@@ -13,7 +13,7 @@ namespace morsel::tools::render {
 
 using Vec3 = Eigen::Vector3f;
 
-/// What a ray meets first.
+/// The first intersection of a ray.
 struct Hit {
   enum class Kind : std::uint8_t { triangle, sphere, capsule };
   Kind kind = Kind::triangle;
@@ -35,9 +35,8 @@ struct Capsule {
   float radius;
 };
 
-/// A set of things that rays are sent against, of about unit size. Immutable; safe from any number of
-/// threads. Answers do not depend on the number of threads that it was made or is asked with. Throws
-/// std::bad_alloc if there is not enough memory.
+/// A set of surfaces for ray intersections, of about unit size. Immutable; safe from any number of threads.
+/// Results do not depend on the number of threads. Throws std::bad_alloc if there is not enough memory.
 class Rays {
  public:
   explicit Rays(const core::TriangleMesh& mesh, std::span<const Ball> balls = {},
@@ -46,10 +45,10 @@ class Rays {
   Rays(Rays&&) noexcept;
   Rays& operator=(Rays&&) noexcept;
 
-  /// The first thing between `near` and `far` along the ray; false if there is none. Nothing is met inside
-  /// balls and capsules that the ray starts in.
+  /// The first intersection between `near` and `far` along the ray; false if there is none. Balls and
+  /// capsules are not hit from inside.
   bool first(const Vec3& origin, const Vec3& direction, float near, float far, Hit& hit) const;
-  /// Whether anything is there.
+  /// Whether there is any intersection.
   bool any(const Vec3& origin, const Vec3& direction, float near, float far) const;
 
  private:

@@ -25,7 +25,7 @@ Color palette_color(std::size_t k) {
   const std::size_t round = k / kLight.size();
   constexpr std::array<float, 6> kShift = {0, -0.11f, 0.06f, -0.2f, -0.055f, -0.155f};
   lab[0] = std::clamp(lab[0] + kShift[round % kShift.size()], 0.3f, 0.96f);
-  // Beyond these only the numbers differ, and a hair of lightness.
+  // Beyond these only the numbers differ, and the lightness slightly.
   lab[0] -= 0.004f * static_cast<float>(round / kShift.size());
   return from_oklab(lab).cwiseMax(0.f).cwiseMin(1.f);
 }
@@ -94,8 +94,8 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
           nearest[k] = k == other ? 0 : std::min(nearest[k], (lab[k] - lab[other]).norm());
       }
       std::size_t best = palette.size();
-      // Far enough is far enough: among such colours the least used, so that the picture is not all of two of
-      // them.
+      // Among colours that are far enough the least used one, so that two colours do not dominate the
+      // picture.
       constexpr float kEnough = 0.16f;
       for (std::size_t k = 0; k < palette.size(); ++k) {
         if (nearest[k] <= 0) continue;

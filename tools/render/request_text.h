@@ -1,5 +1,5 @@
 #pragma once
-/// Requests for pictures as the command line words them.
+/// Requests for pictures in the syntax of the command line.
 
 #include <cstdint>
 #include <string>
@@ -22,7 +22,7 @@ InsetText parse_inset(const std::string& text);
 /// Throws InvalidArgument if the input has no such vertex, or repair dropped it.
 Inset find_inset(const InsetText& text, const core::LoadedMesh& loaded);
 
-/// How the camera stands, and a region to magnify.
+/// The camera's position, and a region to magnify.
 struct CameraText {
   std::string view = "best";
   UpAxis up = UpAxis::y;
@@ -32,7 +32,7 @@ struct CameraText {
   void check() const;
 };
 
-/// How the pictures of a comparison are taken.
+/// The settings of a comparison's pictures.
 struct FigureText {
   std::string size = "1200x840";
   CameraText camera;
@@ -44,7 +44,7 @@ struct FigureText {
 /// "field", "descending", "ascending", "morse-smale", "plain"
 std::string to_string(Show show);
 
-/// All that a picture's looks follow from besides the subject, vertices by their numbers in the input file.
+/// All settings that determine a picture besides the subject, vertices by their numbers in the input file.
 /// `caption`: as it is drawn.
 Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
                      const core::VertexNumbering& numbering);

@@ -21,7 +21,8 @@ Image make_sheet(const std::vector<Panel>& panels, const std::string& title = {}
 /// A picture with a caption below, so much higher.
 Image with_caption(const Image& image, const std::string& caption, bool transparent = false);
 
-/// Half as wide and as high (rounded down, at least 1): each pixel the mean of four, in linear light.
+/// The image at half the width and height (rounded down, at least 1): each pixel the mean of four, in linear
+/// light.
 Image halved(const Image& image);
 
 }  // namespace morsel::tools::render

@@ -17,7 +17,7 @@ namespace morsel::tools::render {
 std::filesystem::path thumbnail_path(const std::filesystem::path& prefix, const std::string& which);
 
 /// Writes PREFIX.first.png and PREFIX.last.png, 240 x 180 pixels each: the surface coloured by the method's
-/// field, with its critical points. Of a single method both are there, and equal.
+/// field, with its critical points. With a single method both are written, and equal.
 class ThumbnailSink : public ComparisonSink {
  public:
   /// `methods`: how many there will be. Of `camera` the inset is left out. Throws WriteFailed if the files

@@ -30,7 +30,7 @@ std::uint32_t mixed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-/// Points of the unit square or line that fill it evenly, from a start of their own. In whole numbers, so
+/// Low-discrepancy points of the unit square or line, from a given start. In whole numbers, so
 /// that they are the same everywhere.
 class Sequence {
  public:
@@ -68,7 +68,7 @@ Eigen::Vector2f on_disc(Sequence::Pair p) {
   return {r * std::cos(angle), r * std::sin(angle)};
 }
 
-/// Where a ray met the scene and what is there.
+/// The intersection of a ray with the scene.
 struct Spot {
   Vec3 point;
   Vec3 facet;   // unit normal of what was hit, to the viewer
@@ -77,7 +77,7 @@ struct Spot {
   float gloss;
 };
 
-/// The light on a spot: a factor of its colour, and what is mirrored.
+/// The light at a point: a factor of its colour, and the specular part.
 struct Light {
   float diffuse = 0;
   float shine = 0;
@@ -112,7 +112,7 @@ class Shader {
     return s;
   }
 
-  /// What light reaches a spot, by `sky_rays` and `lamp_rays` from number `first` of their sequences on.
+  /// The light that reaches a point, by `sky_rays` and `lamp_rays` from number `first` of their sequences on.
   Light light(const Spot& s, const Lights& lights, const Sequence& sky, const Sequence& lamp,
               std::uint32_t first, std::uint32_t sky_rays, std::uint32_t lamp_rays) const {
     const Vec3 start = s.point + kClear * s.facet;
@@ -121,7 +121,7 @@ class Shader {
     for (std::uint32_t i = first * sky_rays; i < (first + 1) * sky_rays; ++i) {
       const Eigen::Vector2f d = on_disc(sky(i));
       Vec3 out = frame.at(d[0], d[1], std::sqrt(std::max(0.f, 1 - d.squaredNorm())));
-      const float height = out.dot(s.facet);  // the smooth surface sees a little below the facet's horizon
+      const float height = out.dot(s.facet);  // the smooth surface's horizon is slightly below the facet's
       if (height < 0) out -= 2 * height * s.facet;
       const float reach = kSkyReach * std::sqrt(sky.line(i)) + 0.01f;
       if (!rays_.any(start, out, 0, reach)) result.diffuse += 0.80f + 0.26f * out.dot(lights.up);
@@ -157,8 +157,8 @@ class Shader {
     const float side = sum.dot(s.facet) < 0 ? -1.f : 1.f;
     const float length = sum.norm();
     s.normal = length > 1e-6f ? Vec3(sum * (side / length)) : s.facet;
-    // Rays leave from the smooth surface that the normals speak of, which runs above the facets where it
-    // bulges (Hanika 2021): else the facets' edges would show in the shadows.
+    // Rays start on the smooth surface that the normals describe, which is above the facets where it is
+    // convex (Hanika 2021): else the facets' edges would be visible in the shadows.
     Vec3 lift = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
       const float below = std::min(0.f, side * (s.point - corner[i]).dot(normal[i]));
@@ -220,7 +220,7 @@ class Sampler {
       if (look(x, y, film(static_cast<std::uint32_t>(pixel.samples)), spot)) ++pixel.covered;
     }
     if (pixel.covered == 0) {
-      // A corner of something may still be in it.
+      // It may still contain a corner.
       for (; pixel.samples < options_.samples && pixel.covered == 0; ++pixel.samples)
         if (look(x, y, film(static_cast<std::uint32_t>(pixel.samples)), spots[0])) ++pixel.covered;
       if (pixel.covered == 0) return pixel;
@@ -289,7 +289,7 @@ class Sampler {
 };
 
 /// The light of an even pixel averaged with that of its even neighbours that face the same way and lie in one
-/// plane with it, so that no grain is left of the few rays that each had.
+/// plane with it, so that the few rays of each leave no noise.
 float smoothed(const std::vector<Pixel>& pixels, Size size, int x, int y) {
   constexpr int kReach = 3;
   constexpr std::array<float, kReach + 1> kWeight = {1, 0.75f, 0.5f,
@@ -340,7 +340,7 @@ Image Tracer::trace(const Camera& camera, const TraceOptions& options, const cor
   const Sampler sampler(scene_, rays_, camera, options);
   const int columns = (width + kTile - 1) / kTile;
   const int rows = (height + kTile - 1) / kTile;
-  constexpr int kBands = 20;  // between which progress is told
+  constexpr int kBands = 20;  // between which progress is reported
   for (int band = 0; band < kBands; ++band) {
     progress.update("rays", static_cast<double>(band) / kBands);
     const int first = rows * band / kBands;

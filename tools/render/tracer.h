@@ -1,5 +1,5 @@
 #pragma once
-/// Takes the picture of a scene, by rays.
+/// Renders a scene by ray tracing.
 
 #include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/camera.h"
@@ -24,17 +24,17 @@ struct TraceOptions {
   FilmWindow window;
 };
 
-/// A scene made ready for rays. Refers to the scene.
+/// A scene prepared for ray tracing. Refers to the scene.
 class Tracer {
  public:
   explicit Tracer(const Scene& scene);
 
   /// Smooth-shaded under a wide sky (ambient occlusion that fades out at 0.3 of the diagonal) and a soft lamp
   /// above on the left of the camera. A pixel whose first quarter of samples (four or more) all show one
-  /// piece of surface of one colour gets no more of them, and its light is averaged with that of such
-  /// neighbours in its plane; any other gets all. Samples are laid out evenly in every pixel, and rays over
-  /// blocks of pixels, by an additive recurrence (Roberts 2018): the same bytes for every number of threads.
-  /// Parallel. 64 bytes a pixel. Throws InvalidArgument on options out of range.
+  /// piece of surface of one colour is not sampled further, and its light is averaged with that of such
+  /// neighbours in its plane; any other gets all samples. Samples are laid out evenly in every pixel, and
+  /// rays over blocks of pixels, by an additive recurrence (Roberts 2018): the same bytes for every number of
+  /// threads. Parallel. 64 bytes a pixel. Throws InvalidArgument on options out of range.
   Image trace(const Camera& camera, const TraceOptions& options, const core::Progress& progress = {}) const;
 
   const Rays& rays() const { return rays_; }

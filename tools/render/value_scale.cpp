@@ -10,7 +10,7 @@
 namespace morsel::tools::render {
 namespace {
 
-/// The value that a share of the others lies below.
+/// The percentile of the values: a share of them lies below.
 double quantile(std::vector<double>& values, double share) {
   const auto k = static_cast<std::ptrdiff_t>(std::llround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + k, values.end());

@@ -1,5 +1,5 @@
 #pragma once
-/// Which value gets which colour.
+/// The mapping of values to colours.
 
 #include <optional>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace morsel::tools::render {
 
-/// What is asked for, before the values are known.
+/// The request, before the values are known.
 struct ScaleRequest {
   /// A name, or nothing: "blue-orange" where there is a centre, else "sand".
   std::string colormap;

@@ -26,7 +26,7 @@ Json model_section(const Model& model, const PictureOptions& pictures) {
       {"mesh", mesh_section(model.file().path, model.sha256(), model.mesh(), model.loaded().source.repairs)}};
 }
 
-/// A method on the field, with all its parameters, and what it left.
+/// A method on the field, with all its parameters and counts.
 Json run_section(const Model& model, const MethodRun& run) {
   return {{"specification", run.plan.chain.specification},
           {"field", field_section(run.made.input)},

@@ -21,7 +21,7 @@ using render::Show;
 
 // The least cosine between normal and line of sight at which one can look into a region.
 constexpr double kFacing = 0.7;
-constexpr core::Length kRegion = core::Length::epsilons(8);  // σ, as far as smoothing looks
+constexpr core::Length kRegion = core::Length::epsilons(8);  // σ, the radius of smoothing
 
 std::string letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
 
@@ -80,7 +80,7 @@ std::string region_text(const Model& model, const ComparedRegion& region) {
          core::to_string(region.radius);
 }
 
-/// What `morsel render` is to be told to make the panel.
+/// The arguments of `morsel render` that make the panel.
 std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutcome& figure,
                                     const PictureOptions& options, const render::PictureRequest& request) {
   const Model& model = *figure.model;
@@ -126,7 +126,7 @@ std::string caption_of(const PanelOutcome& panel, const FigureOutcome& figure) {
   return text;
 }
 
-/// Counts what became of the points from level to level.
+/// Counts the points that are kept, moved and new from level to level.
 class LinkCounter : public HierarchySink {
  public:
   void begin(const HierarchyBasis&) override {}
@@ -196,7 +196,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     request.show = panel.recipe->show;
     request.points = panel.recipe->points;
     request.arcs = panel.recipe->arcs;
-    request.legend = panel.recipe->region != Region::close_up;  // that of the whole picture serves
+    request.legend = panel.recipe->region != Region::close_up;  // the whole picture has it
     request.scale = scales.of(*panel.recipe);
     if (figure.region && panel.recipe->region != Region::none)
       (panel.recipe->region == Region::framed ? request.frame : request.close_up) =

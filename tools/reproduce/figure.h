@@ -1,5 +1,6 @@
 #pragma once
-/// Makes one figure: its panels, each as `morsel render` would, and the sheet that shows them side by side.
+/// Makes one figure: its panels, each equal to that of `morsel render`, and the sheet that shows them side by
+/// side.
 
 #include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/request_text.h"
@@ -14,7 +15,7 @@ struct PictureOptions {
   render::Size size{800, 680};  ///< of a panel
   int samples = 16;             ///< a pixel
   render::CameraText camera;    ///< its inset is not used
-  bool repair = false;          ///< told in the commands
+  bool repair = false;          ///< included in the commands
 };
 
 /// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods,

@@ -57,7 +57,7 @@ std::string region_compared(const FigureOutcome& figure) {
   const MethodRun& all = *figure.panels[0].run;
   const MethodRun& threshold = figure.model->run("tps:threshold=0.1%");
   std::string text =
-      "Cancelling pairs of at most 0.1 % of the curvature's extent, as the paper does, leaves " +
+      "Cancelling pairs of at most 0.1 % of the curvature's range, as the paper does, leaves " +
       grouped(threshold.total()) + " of the " + grouped(all.total()) +
       " critical points of this mesh, so (b) cancels as many pairs as leave " +
       grouped(figure.panels[1].run->total()) + ", for " + grouped(figure.panels[2].run->total()) + " in (c).";

@@ -1,5 +1,5 @@
 #pragma once
-/// What is seen in a figure, said from its numbers.
+/// Sentences about a figure, from its numbers.
 
 #include <string>
 
@@ -7,14 +7,14 @@
 
 namespace morsel::tools::reproduce {
 
-/// Figure 1: how many points are left of panel 1 in panel 3, and how salient (panel 2) the places are where
-/// they lie.
+/// Figure 1: how many points of panel 1 are left in panel 3, and the mean saliency rank (panel 2) of their
+/// vertices.
 std::string fewer_and_where(const FigureOutcome& figure);
 /// Figure 2: arcs and segments of both panels.
 std::string simpler_complex(const FigureOutcome& figure);
-/// Figure 3: what the paper's threshold would leave, and what both methods keep in the region.
+/// Figure 3: the count at the paper's threshold, and what both methods keep in the region.
 std::string region_compared(const FigureOutcome& figure);
-/// Figure 4: points and segments from level to level, and what became of the points.
+/// Figure 4: points and segments by level, and how many points are kept, moved and new.
 std::string levels_linked(const FigureOutcome& figure);
 
 }  // namespace morsel::tools::reproduce

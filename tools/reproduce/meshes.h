@@ -1,5 +1,5 @@
 #pragma once
-/// Which file stands in for which model of the paper.
+/// The meshes that stand in for the models of the paper.
 
 #include <filesystem>
 #include <string>
@@ -18,7 +18,7 @@ struct MeshFile {
 /// in `samples` where there is none. A mesh is a model's if its name is the model's ("lion.off"), or else if
 /// it has the model's name or one of its words in it, in any case; .off, .obj, .ply or .stl. Throws BadInput
 /// if `data` is no folder, holds none of the models or several meshes that could be one, and if neither
-/// folder has a model: one sentence that tells all the names that were looked for.
+/// folder has a model: one sentence that lists all the names that were looked for.
 std::vector<MeshFile> find_meshes(const std::filesystem::path& data, const std::filesystem::path& samples);
 
 }  // namespace morsel::tools::reproduce

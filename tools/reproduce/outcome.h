@@ -1,5 +1,5 @@
 #pragma once
-/// What came out of the recipes.
+/// The results of the recipes.
 
 #include <cstddef>
 #include <map>
@@ -28,7 +28,7 @@ struct MethodRun {
   std::size_t total() const { return measurement.critical_points.total(); }
 };
 
-/// A model: the mesh that stands in for it, and what methods made of its field, each run once.
+/// A model: the mesh that stands in for it, and the methods' results on its field, each run once.
 class Model {
  public:
   /// Reads the mesh; throws what core::read_mesh() throws.
@@ -42,7 +42,7 @@ class Model {
   const core::TriangleMesh& mesh() const { return loaded_.mesh; }
   const render::Studio& studio() const { return studio_; }
 
-  /// What was run until now, by method.
+  /// The runs so far, by method.
   const std::map<std::string, std::unique_ptr<const MethodRun>>& runs() const { return runs_; }
   /// Throws what make_field() and measure() throw.
   const MethodRun& run(const std::string& method, const core::Progress& progress = {});
@@ -76,7 +76,7 @@ struct PanelOutcome {
   std::string png;
 };
 
-/// What the links of a hierarchy say of one level.
+/// Counts from the links of one level of a hierarchy.
 struct LevelLinks {
   std::size_t points = 0;
   std::size_t cells = 0;  ///< Morse-Smale segments

@@ -134,20 +134,19 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       "again</title>\n"
       "<style>\n" +
       std::string(kStyle) +
-      "</style>\n</head>\n<body>\n<header><h1>Salient Critical Points for Meshes, made again</h1>\n"
+      "</style>\n</head>\n<body>\n<header><h1>Salient Critical Points for Meshes, reproduced</h1>\n"
       "<p class=\"hint\">The figures and the table of the paper, by morsel " +
       markup_text(kVersion) +
       ". Minima are blue, saddles green, maxima red; descending arcs are dark blue, ascending ones dark "
       "red.</p></header>\n"
       "<main>\n<section aria-labelledby=\"models\"><h2 id=\"models\">Models</h2>\n"
       "<p class=\"said\">The paper's models are not public. Other meshes stand in for them, so that numbers "
-      "agree in kind, "
-      "not in size.</p>\n" +
+      "agree in trend, not in size.</p>\n" +
       models_table(reproduction) + "</section>\n" + table_section(reproduction);
   for (const FigureOutcome& figure : reproduction.figures) text += figure_section(figure);
   std::vector<std::string> command = command_words(prepared.request);
   command.insert(command.begin() + 2, prepared.request.folder.string());
-  return text + "</main>\n<footer><p>All of this again:</p><pre class=\"copy\">" +
+  return text + "</main>\n<footer><p>The command:</p><pre class=\"copy\">" +
          markup_text(command_line(command)) + "</pre></footer>\n</body>\n</html>\n" +
          page_provenance(prepared, reproduction).html_comment();
 }

@@ -8,8 +8,8 @@
 
 namespace morsel::tools::reproduce {
 
-/// An HTML document that works from a double click and asks nothing of anywhere: every panel's picture is in
-/// it, the paper's words and numbers beside ours, and the command lines. No script.
+/// A self-contained HTML document: every panel's picture, the paper's statements and numbers beside the
+/// results, and the command lines. No script, no other file, no network.
 std::string make_page(const Prepared& prepared, const Reproduction& reproduction);
 
 /// The page's style sheet, as the build embeds it (html/embed.cmake).

@@ -1,6 +1,6 @@
 #pragma once
-/// What `morsel reproduce` makes again, as data: the paper's models, figures and table. Another figure is
-/// another entry.
+/// What `morsel reproduce` makes, as data: the paper's models, figures and table. A new figure is a new
+/// entry.
 
 #include <array>
 #include <cstddef>
@@ -22,7 +22,7 @@ inline constexpr std::string_view kField = "mean-curvature";
 struct ModelRecipe {
   std::string_view name;   ///< "lion": of the option, and of the file that is looked for first
   std::string_view paper;  ///< what the paper shows
-  /// Other words by which a file's name tells that it is this model.
+  /// Other words in a file's name that identify this model.
   std::vector<std::string_view> words;
   std::string_view sample;     ///< file name of the sample mesh that stands in
   std::string_view sample_is;  ///< what it shows
@@ -33,8 +33,8 @@ enum class Region : std::uint8_t { none, framed, close_up };
 
 struct PanelRecipe {
   std::string_view title = {};
-  /// A method as the command line words it; "{c}" in it stands for the number of critical points of panel
-  /// (c).
+  /// A method in the syntax of the command line; "{c}" in it stands for the number of critical points of
+  /// panel (c).
   std::string_view method = {};
   render::Show show = render::Show::field;
   bool points = true;
@@ -51,14 +51,14 @@ struct FigureRecipe {
   int number = 0;
   std::size_t model = 0;  ///< in models()
   std::string_view title;
-  std::string_view paper;  ///< what the paper says should be seen
+  std::string_view paper;  ///< what the paper says about it
   std::vector<PanelRecipe> panels;
   /// Two panels (by number): their region is where the first keeps most points and the second fewest.
   std::optional<std::array<std::size_t, 2>> compared = {};
   /// Panels that are levels of a hierarchy: the method without its iterations, and these.
   std::string_view hierarchy_method = {};
   std::string_view hierarchy_levels = {};
-  /// Says in a sentence or two what is seen here, from the numbers.
+  /// Makes the sentences about the figure from its numbers.
   std::string (*finding)(const FigureOutcome& figure) = nullptr;
 };
 
@@ -71,7 +71,7 @@ struct TableRow {
   std::optional<double> paper_seconds = {};
 };
 
-/// A column of ours: what the paper leaves open, decided.
+/// A column of results: a choice of what the paper leaves open.
 struct TableSetting {
   std::string_view keys;  ///< of method salient, besides the iterations
   std::string_view note;

@@ -18,7 +18,7 @@ std::string model_names() {
   return text;
 }
 
-/// Hands "VALUE" to every model and "MODEL=VALUE" to one.
+/// Assigns "VALUE" to every model and "MODEL=VALUE" to one.
 template <class Take>
 void for_models(const std::string& text, const Take& take) {
   const std::size_t equals = text.find('=');

@@ -1,5 +1,5 @@
 #pragma once
-/// All of it: figures, table, numbers and page in one folder.
+/// The reproduction: figures, table, numbers and page in one folder.
 
 #include <filesystem>
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace morsel::tools::reproduce {
 
-/// In the words of the command line.
+/// A request in the syntax of the command line.
 struct Request {
   std::filesystem::path folder;
   std::filesystem::path data;  ///< meshes of the paper's models; none if empty
@@ -23,17 +23,17 @@ struct Request {
   bool repair = false;
 };
 
-/// The command line that it came from, but for the folder, which changes nothing.
+/// The command line of the request, without the folder, which changes nothing.
 std::vector<std::string> command_words(const Request& request);
 
-/// A request whose words have been looked up.
+/// A checked request.
 struct Prepared {
   Request request;
   std::vector<MeshFile> files;           ///< one a model
   std::vector<PictureOptions> pictures;  ///< one a model
 };
 
-/// Throws InvalidArgument on wrong words, and what find_meshes() throws. Reads no mesh.
+/// Throws InvalidArgument on wrong values, and what find_meshes() throws. Reads no mesh.
 Prepared prepare(const Request& request);
 
 struct Reproduction {
@@ -46,7 +46,7 @@ struct Reproduction {
 /// Writes into the request's folder (result_folder.h) the figures (make_figure()), table1.csv,
 /// reproduction.json ("morsel.reproduction/1") and index.html, which holds all pictures. Everything but
 /// seconds is the same at any number of threads. Throws what meshes, methods, pictures and files throw; a
-/// folder that cannot be written to is told before the work.
+/// folder that cannot be written to is refused before the work.
 Reproduction run(const Prepared& prepared, const core::Progress& progress = {});
 
 /// The table as text for a terminal.

@@ -1,5 +1,5 @@
 #pragma once
-/// The paper's Table 1 beside ours.
+/// The paper's Table 1 beside the results.
 
 #include <string>
 #include <vector>

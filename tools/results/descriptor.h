@@ -1,5 +1,5 @@
 #pragma once
-/// Files and folders by descriptors: what is done below a folder without following a symbolic link.
+/// Files and folders by descriptors: operations below a folder that follow no symbolic link.
 
 #include <filesystem>
 #include <string>
@@ -28,7 +28,7 @@ enum class Missing { tell, make };
 
 /// The folder `relative` (normal, without "..") below the open folder `root`, which messages call `shown`.
 /// One that is missing is made, or the result is not open. Throws WriteFailed where a part of it is a
-/// symbolic link or no folder, or the system fails.
+/// symbolic link or not a folder, or the system fails.
 Descriptor open_below(int root, const std::filesystem::path& relative, Missing missing,
                       const std::filesystem::path& shown);
 

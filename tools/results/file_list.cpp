@@ -101,8 +101,8 @@ FileList::FileList(int folder, const fs::path& shown, const std::stop_token& sto
   unlock();
 }
 
-/// The first line, which a process that has just made the file has not written yet, or left cut off as it
-/// ended. The folder is as it was before then.
+/// The first line, which a process that has just made the file has not written yet, or not completely before
+/// it ended. The folder is unchanged in that case.
 void FileList::begin(int folder, const std::function<void()>& before_making) {
   before_making();
   try {
@@ -118,11 +118,11 @@ void FileList::lock(const std::stop_token& stop) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (::flock(file_.number(), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EINTR) continue;
-    if (errno != EWOULDBLOCK) break;  // there are no locks here
+    if (errno != EWOULDBLOCK) break;  // the file system has no locks
     if (stop.stop_requested()) throw core::Cancelled();
     if (std::chrono::steady_clock::now() > end)
       throw core::WriteFailed("cannot write into " + path_.parent_path().string() +
-                              ": another run has had it to itself for half a minute");
+                              ": another run has locked it for half a minute");
     std::this_thread::sleep_for(kPause);
   }
   try {

@@ -16,10 +16,9 @@ namespace morsel::tools {
 /// A file .morsel-results: a line {"schema":"morsel.results/1"}, then a line for each change: "+PATH" before
 /// a file or work folder appears, "-PATH" after it was removed. Paths are relative to the folder and written
 /// as URLs have them (%0A for a line break); those of work folders end with "/". Lines are appended only, so
-/// that any number of files cost the same each; one that was cut off by the end of a process is no line.
+/// that each file has the same cost; an incomplete last line, left by a process that ended, is ignored.
 ///
-/// What is read is as anybody may have written it: see read(). All but lock() and unlock() only while it is
-/// locked.
+/// The content is not trusted (see lock()). All functions but lock() and unlock() only while it is locked.
 class FileList {
  public:
   static constexpr const char* kName = ".morsel-results";
@@ -31,7 +30,7 @@ class FileList {
            const std::function<void()>& before_making);
 
   /// Waits, up to half a minute, while another run has it, then reads what is new. Locks nothing on a file
-  /// system without locks. Throws WriteFailed after that time, Cancelled when told to stop, BadInput on a
+  /// system without locks. Throws WriteFailed after that time, Cancelled on a stop, BadInput on a
   /// file with another first line, with a path that is absolute, not normal or has "..", or of more than 256
   /// MiB.
   void lock(const std::stop_token& stop);
@@ -62,7 +61,7 @@ class FileList {
   std::set<std::string, std::less<>> entries_;
 };
 
-/// A path as URLs have it: bytes that one does not hold as they are become %XX.
+/// A path in URL encoding: bytes that are not allowed in a URL become %XX.
 std::string path_text(std::string_view path);
 /// Whether the path can be that of a file in the folder: relative, normal, without ".." and not the list
 /// itself.

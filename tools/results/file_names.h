@@ -6,7 +6,7 @@
 
 namespace morsel::tools {
 
-/// File names for what may have the same name: NAME, then NAME-2, and so on.
+/// Distinct file names for equal names: NAME, then NAME-2, and so on.
 class FileNames {
  public:
   std::string next(const std::string& name);

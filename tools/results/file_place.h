@@ -1,5 +1,5 @@
 #pragma once
-/// What a path names, whatever it is called: two paths of one file are found to be so.
+/// The identity of a file, so that two paths of one file are equal.
 
 #include <sys/types.h>
 

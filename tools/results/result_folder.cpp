@@ -32,10 +32,10 @@ constexpr const char* kLock = "lock";  // in a work folder
 
 void check_inside(const fs::path& path) {
   if (!is_path_inside(path.native()))
-    throw core::InvalidArgument("\"" + path.string() + "\" is no path within a folder of results");
+    throw core::InvalidArgument("\"" + path.string() + "\" is not a path within a folder of results");
 }
 
-/// What is in an open folder besides a list of its files, if anything is.
+/// An entry of an open folder besides the list of its files, if there is one.
 std::optional<std::string> first_entry(int folder, const fs::path& shown) {
   const int again = ::openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const std::unique_ptr<DIR, int (*)(DIR*)> entries(again < 0 ? nullptr : ::fdopendir(again), &::closedir);
@@ -82,7 +82,7 @@ void refuse_if_not_empty(int folder, const fs::path& shown) {
                               ") and not one that morsel filled: choose a new or an empty folder");
 }
 
-/// False if somebody else has a lock on the file, and on a file system without locks, where nobody can tell.
+/// False if another process has locked the file, and on a file system without locks.
 bool try_lock(int file) {
   int result = 0;
   do result = ::flock(file, LOCK_EX | LOCK_NB);
@@ -152,7 +152,7 @@ void ResultFolder::remove_if_unused() noexcept {
       if (!list_->entries().empty() || ::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
     }
     made_.remove();
-  } catch (const std::exception&) {  // an empty list does no harm
+  } catch (const std::exception&) {  // an empty list is harmless
   }
 }
 
@@ -269,7 +269,7 @@ ResultFolder::Work::Work(ResultFolder& folder, const fs::path& around) : folder_
 }
 
 ResultFolder::Work::~Work() {
-  constexpr int kTries = 2;  // descriptors that another thread holds for a moment are no reason to leave it
+  constexpr int kTries = 2;  // another thread may hold descriptors for a moment
   for (int i = 0; i < kTries; ++i) {
     try {
       const Hold hold(folder_);
@@ -279,7 +279,7 @@ ResultFolder::Work::~Work() {
   }
 }
 
-/// Of a work folder that nobody uses. False if something of it is left.
+/// Of a work folder that no process uses. False if something of it is left.
 bool ResultFolder::remove_listed_work(const fs::path& around, const std::string& entry) {
   const fs::path relative = entry.substr(0, entry.size() - 1);
   const Descriptor outer = parent_of(relative, Missing::tell);
@@ -287,7 +287,7 @@ bool ResultFolder::remove_listed_work(const fs::path& around, const std::string&
   if (!around.empty())
     if (const Descriptor top = parent_of(around, Missing::tell); top.is_open())
       ::unlinkat(top.number(), around.filename().c_str(), AT_REMOVEDIR);  // unless something else is in it
-  list_->remove(entry);  // at the end: what fails before is left to the next run
+  list_->remove(entry);  // last: if something fails before, the next run removes it
   return true;
 }
 
@@ -299,12 +299,11 @@ void ResultFolder::remove_left_work(const fs::path& around) {
        at != list_->entries().end() && at->starts_with(prefix); ++at)
     if (at->ends_with('/')) left.push_back(*at);
   for (const std::string& entry : left)
-    if (nobody_works_in(entry.substr(0, entry.size() - 1))) remove_listed_work(around, entry);
+    if (is_abandoned(entry.substr(0, entry.size() - 1))) remove_listed_work(around, entry);
 }
 
-/// Whether a work folder is nobody's any more. One that cannot be told about, or has become something else,
-/// is left.
-bool ResultFolder::nobody_works_in(const fs::path& work) const {
+/// Whether no process uses a work folder. False if that is unknown, or if it is no longer a folder.
+bool ResultFolder::is_abandoned(const fs::path& work) const {
   try {
     const Descriptor folder = open_below(root_.number(), work, Missing::tell, path_);
     if (!folder.is_open()) return true;
@@ -319,7 +318,7 @@ void ResultFolder::remove_work(const fs::path& relative) noexcept {
   try {
     if (const Descriptor outer = parent_of(relative, Missing::tell); outer.is_open())
       remove_tree(outer.number(), relative.filename());
-  } catch (const std::exception&) {  // it goes with the work folder
+  } catch (const std::exception&) {  // it is removed with the work folder
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A folder that the program fills: what it made there is known, and nothing else is touched.
+/// A folder of results: only files that the program made there are replaced or removed.
 
 #include <filesystem>
 #include <mutex>
@@ -17,9 +17,9 @@
 namespace morsel::tools {
 
 /// A folder with a list of the files that were made in it (file_list.h). What is listed may be replaced and
-/// removed, and nothing else: a file of somebody else in the place of a result is refused, and no symbolic
-/// link below the folder is followed. The folder itself may be reached through links. Runs may share a
-/// folder, as may objects of one run.
+/// removed, and nothing else: an unlisted file in the place of a result is refused, and no symbolic link
+/// below the folder is followed. The folder itself may be reached through links. Runs may share a folder, as
+/// may objects of one run.
 ///
 /// Paths are relative to the folder, normal and without ".."; all functions may be called from several
 /// threads at once.
@@ -47,12 +47,11 @@ class ResultFolder {
   const std::filesystem::path& path() const { return path_; }
 
   /// The path to write a file to, which is listed from now on; the folders that it is in are made. Throws
-  /// WriteFailed if something that is not listed, or no file, has its place, or it is one of the outputs
-  /// `taken`.
+  /// WriteFailed if an unlisted entry or a folder is in its place, or it is one of the outputs `taken`.
   std::filesystem::path claim(const std::filesystem::path& file);
   /// Throws as claim(), and makes nothing.
   void check_free(const std::filesystem::path& file);
-  /// Throws WriteFailed where there could not be a folder: something else, or a link, is in its place.
+  /// Throws WriteFailed if something else than a folder, such as a link, is in its place.
   void check_folder(const std::filesystem::path& folder);
 
   /// While it lives, other runs wait before they list, move or remove anything here.
@@ -67,15 +66,15 @@ class ResultFolder {
     ResultFolder& folder_;
   };
 
-  /// Moves what was made in a work folder to its place, as claim() has it.
+  /// Moves a file from a work folder to its place, as by claim().
   void move(const std::filesystem::path& made, const std::filesystem::path& file);
   /// Removes a file, and folders that it leaves empty, if it is listed. Throws WriteFailed.
   void remove(const std::filesystem::path& file);
   /// The listed files in a folder and the folders in it.
   std::vector<std::string> files_in(const std::filesystem::path& folder);
 
-  /// A new folder in the folder `around`, listed, for files that are not whole yet; locked as long as the
-  /// object lives, and removed with all that is in it when that ends.
+  /// A new folder in the folder `around`, listed, for incomplete files; locked as long as the
+  /// object lives, and removed with its content at the end.
   class Work {
    public:
     Work(ResultFolder& folder, const std::filesystem::path& around);
@@ -102,7 +101,7 @@ class ResultFolder {
   /// The folder that a path is in. Not open if it is missing.
   Descriptor parent_of(const std::filesystem::path& relative, Missing missing) const;
   void refuse_foreign(const std::filesystem::path& file) const;
-  bool nobody_works_in(const std::filesystem::path& work) const;
+  bool is_abandoned(const std::filesystem::path& work) const;
   bool remove_listed_work(const std::filesystem::path& around, const std::string& entry);
 
   std::filesystem::path path_;

@@ -1,4 +1,4 @@
-// A camera that turns round a place, and what hands and keys do to it.
+// A camera that orbits a target, and its pointer and keyboard input.
 
 const directions = {
   '+z': [0, 0, 0],
@@ -48,7 +48,7 @@ class Orbit {
     camera.near = Math.max(this.distance - reach, 0.02 * this.distance, 0.004);
     camera.far = this.distance + reach;
     camera.aspect = aspect;
-    // a view that has become narrower sees as much from side to side as before
+    // a narrower view keeps its horizontal field of view
     camera.fov = 180 / Math.PI * 2 * Math.atan(Math.tan(fieldOfView / 2) * Math.max(1, this.fitted / aspect));
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();

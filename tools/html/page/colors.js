@@ -35,8 +35,8 @@ function ramp(stops) {
   return bytes;
 }
 
-// Lightness alone tells the distance from the middle, blue against orange the side: told apart by
-// colour-blind eyes too.
+// Lightness alone shows the distance from the middle, blue or orange the side: distinguishable by the
+// colour-blind too.
 const divergingRamp = ramp([
   lch(0.46, 0.115, 250), lch(0.70, 0.085, 245), lch(0.95, 0.004, 90), lch(0.74, 0.105, 62),
   lch(0.50, 0.115, 48)

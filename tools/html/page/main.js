@@ -10,7 +10,7 @@ function thresholdScale(page) {
       }
   if (!(most > 0)) return () => 0;
   least = Math.max(least, most * 1e-5);
-  // 0 shows all; then even steps of the logarithm; the last shows only what never dies
+  // 0 shows all; then even steps of the logarithm; the last shows essential points only
   return (step) => (step === 0 ? 0 : step === 1000 ? most : least * (most / least) ** (step / 1000));
 }
 
@@ -169,7 +169,7 @@ function start(page) {
 
 function problem(error) {
   element('problem').hidden = false;
-  element('problem').textContent = `Something does not work here: ${error.message}.`;
+  element('problem').textContent = `The page failed: ${error.message}.`;
 }
 
 async function open() {
@@ -177,7 +177,7 @@ async function open() {
     const library = make('script');
     library.textContent = new TextDecoder().decode(await inflate('three'));
     document.head.append(library);
-    window.morsel = start(await readPage());  // for tests and for the curious
+    window.morsel = start(await readPage());  // for tests and debugging
     document.body.dataset.state = 'ready';
   } catch (error) {
     problem(error);

@@ -62,11 +62,10 @@ class Axis {
   }
 }
 
-/** A figure with a caption, a drawing of its own size, and a line that tells what is under the pointer. */
+/** A figure with a caption, a drawing of its own size, and a line about what is under the pointer. */
 class Figure {
   /**
-   * draw(figure) is called whenever the size changes; hover(x, y) with pixels, or null, returns what to
-   * tell.
+   * draw(figure) is called whenever the size changes; hover(x, y) with pixels, or null, returns that line.
    */
   constructor(caption, describe) {
     this.svg = makeSvg('svg', {tabindex: '0', role: 'img', 'aria-label': describe});

@@ -1,6 +1,6 @@
 // Persistence diagrams, and the curves of counts.
 
-/** How many pairs are more persistent than x; `ascending` holds what is counted. */
+/** How many pairs are more persistent than x; `ascending` holds their persistences. */
 function countAbove(ascending, x) {
   let low = 0, high = ascending.length;
   while (low < high) {

@@ -1,8 +1,8 @@
-// What is told of the selected critical point.
+// The data of the selected critical point.
 
 /**
- * What became of a point in another method, in the words of the comparison: both are matched with the first
- * method's points.
+ * The counterpart of a point in another method, in the terms of the comparison: both are matched with the
+ * first method's points.
  */
 function fateIn(page, from, point, to) {
   const source = page.methods[from].points, target = page.methods[to].points;

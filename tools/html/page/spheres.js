@@ -45,7 +45,7 @@ void main() {
   vec3 base = vKind < 1.5 ? colors[0] : vKind < 2.5 ? colors[1] : colors[2];
   float key = max(dot(n, normalize(vec3(-0.35, 0.55, 0.85))), 0.0);
   vec3 color = base * (0.50 + 0.55 * key) + 0.35 * pow(key, 24.0);
-  color *= mix(0.55, 1.0, smoothstep(0.0, 0.42, n.z));  // a dark rim parts points from the surface and from each other
+  color *= mix(0.55, 1.0, smoothstep(0.0, 0.42, n.z));  // a dark rim separates points from surface and each other
   gl_FragDepthEXT = depthAt(vCenter + vRadius * n.z);
   gl_FragColor = vec4(color, 1.0 - smoothstep(1.0 - soft, 1.0 + soft, r));
 }`;

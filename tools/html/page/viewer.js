@@ -36,7 +36,7 @@ class View {
   }
 
   arcsOf(kind) {
-    if (!(kind in this.arcs)) {  // made when first asked for
+    if (!(kind in this.arcs)) {  // made when first needed
       const color = kind === 'descending' ? [0.05, 0.16, 0.45] : [0.50, 0.04, 0.10];
       this.arcs[kind] = new Arcs(arcPieces(this.mesh, this.method, kind), color);
       this.scene.add(this.arcs[kind].object);
@@ -144,7 +144,7 @@ class Viewer {
     const columns = this.columns(shown.length);
     element('views').style.setProperty('--columns', columns);
     const first = this.page.methods[0].values;
-    const isSigned = bothSigns(first.range);  // of one field, of all that methods make of it
+    const isSigned = bothSigns(first.range);  // one choice for the fields of all methods
     for (const view of this.views) {
       view.area.hidden = !state.shown[view.number];
       if (view.area.hidden) continue;
