@@ -11,6 +11,7 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/commands/table_target.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/plot/plot_files.h"
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/hashed_mesh.h"
@@ -45,6 +46,7 @@ std::vector<plot::NamedPlot> plots_of(const SweepReport& report) {
 
 int sweep(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
+  if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   const PreparedSweep prepared = prepare(options.request);
   RunFiles named;
   named.reads("MESH", options.mesh);

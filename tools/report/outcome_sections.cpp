@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/formats/version.h"
 
 namespace morsel::tools {
@@ -53,9 +54,15 @@ Json to_json(const std::vector<core::IterationRecord>& iterations) {
 
 Json tool_section() { return {{"name", "morsel"}, {"version", kVersion}}; }
 
+Json field_parameters(const FieldOutcome& outcome) {
+  Json parameters = to_json(outcome.parameters);
+  for (const FieldFile& file : outcome.files) parameters[file.key + "_sha256"] = sha256_of_file(file.path);
+  return parameters;
+}
+
 Json field_section(const FieldOutcome& outcome) {
   return {{"name", outcome.name},
-          {"parameters", to_json(outcome.parameters)},
+          {"parameters", field_parameters(outcome)},
           {"min", outcome.field.min()},
           {"max", outcome.field.max()}};
 }

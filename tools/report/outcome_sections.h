@@ -19,6 +19,9 @@ Json to_json(const std::vector<core::IterationRecord>& iterations);
 
 /// {"name", "version"} of the program.
 Json tool_section();
+/// A field's parameters as they were resolved, and KEY_sha256 for a KEY that names a file, which is read
+/// here. Throws BadInput if it cannot be.
+Json field_parameters(const FieldOutcome& outcome);
 /// {"name", "parameters", "min", "max"}
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
