@@ -29,10 +29,11 @@ install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/mor
               ${CMAKE_CURRENT_LIST_DIR}/FindCairo.cmake ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
         DESTINATION ${package_folder} COMPONENT development)
 
-# pkg-config, of the modules of the library: morsel-core, morsel-morse, … The files may be moved with what they name.
+# pkg-config, of what find_package(morsel) finds by default: morsel-core, morsel-morse, … The files may be moved with what
+# they name.
 file(RELATIVE_PATH prefix_from_here /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_here "${prefix_from_here}")
-foreach(module core persistence morse mscomplex)
+foreach(module core persistence morse mscomplex study)
   get_property(linked GLOBAL PROPERTY MORSEL_LINKED_${module})
   set(requires "")
   foreach(target IN LISTS linked)

@@ -5,19 +5,25 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND MORSEL_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
 endif()
 
-# morsel_add_module(NAME [WITHIN FOLDER] SOURCES … DEPENDS … PRIVATE_DEPENDS … PRECOMPILED …): the library target
-# morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as "morsel/FOLDER/NAME/….h" if it is
-# a room of that folder, in the build tree and after installation alike.
+# morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS … SOURCES … DEPENDS … PRIVATE_DEPENDS … PRECOMPILED …):
+# the library target morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as
+# "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and after installation alike.
+#   PROGRAM          it serves the program alone and is not installed
+#   PUBLIC_HEADERS   what users of the installed library may include. They include public headers only, which
+#                    tests/layers checks; all other headers are private: they are not installed
 #   DEPENDS          what its headers include or what it is linked with: consumers of the installed package get these too
 #   PRIVATE_DEPENDS  what only its sources include; of these, consumers need those that are more than headers
 #   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it shares. Sources
 #                    include what they use all the same: tools/lint compiles them without precompiled headers.
 function(morsel_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "WITHIN" "SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "PROGRAM" "WITHIN"
+                        "PUBLIC_HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
   set(target morsel_${name})
   set(outer ${name})
+  set(folder ${name})
   if(arg_WITHIN)
     set(outer ${arg_WITHIN})
+    set(folder ${arg_WITHIN}/${name})
   endif()
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(morsel::${name} ALIAS ${target})
@@ -48,8 +54,13 @@ function(morsel_add_module name)
   elseif(arg_PRECOMPILED)
     target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILED})
   endif()
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${arg_WITHIN}/${name} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel/${arg_WITHIN}
-          COMPONENT development FILES_MATCHING PATTERN "*.h")
+  if(arg_PROGRAM)
+    return()
+  endif()
+  foreach(header IN LISTS arg_PUBLIC_HEADERS)
+    cmake_path(GET header PARENT_PATH room)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel/${folder}/${room} COMPONENT development)
+  endforeach()
   morsel_export(${name} ${linked})
 endfunction()
 

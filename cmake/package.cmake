@@ -25,6 +25,6 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "nlohmann-json3-dev, libssl-dev, libopenvdb-dev, libembree-dev, libpng-dev, libcairo2-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "critical points of scalar fields on triangle meshes (development)
-The C++20 library of the program morsel: static libraries, headers and the CMake package. The component tools needs the
-suggested packages, the others do not.")
+The C++20 library of the program morsel: static libraries, headers, the CMake package and pkg-config files. The components
+of documents, pictures and molecules need the suggested packages, what find_package(morsel) finds by default does not.")
 include(CPack)

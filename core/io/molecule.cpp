@@ -143,6 +143,7 @@ std::string AtomsLeftOut::described() const {
 
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions& options,
                        const Progress& progress) {
+  require_molecules("reading atoms");
   check_options(options);
   Molecule molecule = choose_atoms(read_records(path, progress), path.string(), options);
   progress.update("reading the atoms", 1);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "morsel/core/parallel/progress.h"
@@ -76,13 +77,18 @@ struct Molecule {
   AtomsLeftOut left_out;
 };
 
+/// Throws InvalidArgument, saying how to have them, if this library was built without molecules
+/// (MORSEL_WITH_MOLECULES=OFF); `what` needs them ("atomic-density").
+void require_molecules(std::string_view what);
+
 /// Reads a .pdb or .ent, or a .cif or .mmcif file (by extension, any case; not compressed ones), by gemmi. Of
 /// an mmCIF file, the first block with atoms counts.
 ///
 /// Throws BadInput, naming the file and, where there is one, line or row, if it is missing, unreadable,
 /// damaged (a coordinate that is not a number) or of another kind; has no atoms, or none left by the options
 /// (saying what they left out); has no such model or chain (listing the chains); or if an atom that is taken
-/// is of no known element. Throws InvalidArgument if `model` is below 1 or `alternate` is none of the above.
+/// is of no known element. Throws InvalidArgument if `model` is below 1 or `alternate` is none of the above,
+/// and as require_molecules() does.
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions& options = {},
                        const Progress& progress = {});
 

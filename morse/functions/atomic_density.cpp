@@ -117,6 +117,7 @@ std::unique_ptr<core::MorseFunction> make_atomic_density(core::ParameterReader& 
   options.cutoff =
       reader.number("cutoff", options.cutoff, {0, true, 0.999999}, "terms below this are left out");
   core::MoleculeOptions molecule = core::read_molecule_options(reader);
+  if (!structure.empty()) core::require_molecules("atomic-density");  // empty: for help
   return std::make_unique<AtomicDensity>(structure, std::move(molecule), options);
 }
 

@@ -41,6 +41,13 @@ if(NOT output MATCHES "^1895 critical points.*\n97 critical points")
   message(FATAL_ERROR "the example is to print 1895 and 97 critical points")
 endif()
 
+configure_project(study)
+run(${CMAKE_COMMAND} --build ${WORK}/study)
+run(${WORK}/study/study ${MESH})
+if(NOT output STREQUAL "bend\nconventional: 1895\nsalient: 97\nten-times: 97\n")
+  message(FATAL_ERROR "the study is to print 1895, 97 and 97 critical points:\n${output}")
+endif()
+
 # The program works from where it was installed, too.
 if(EXISTS ${WORK}/moved/bin/morsel)
   run(${WORK}/moved/bin/morsel info ${MESH})

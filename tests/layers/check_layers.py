@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Fails when a source breaks the table of modules, or when a library module prints or exits.
+"""Fails when a source breaks the table of modules, when a library module prints or exits, or when a public
+header includes a private one.
 
     check_layers.py ROOT
 
 Each module may include itself and what MAY_INCLUDE lists; third-party headers are free, but for those of
 tests, reports and the command line. A library module throws and returns; only the program prints and exits.
+The public headers are those that PUBLIC_HEADERS of the modules' CMakeLists.txt list; all others are private,
+for sources of the tree.
 """
 
 import pathlib
@@ -21,8 +24,7 @@ MAY_INCLUDE = {
 }
 # The rooms of tools, from the ground up.
 FLOORS = (
-    ("formats", "results", "drawing"),
-    ("study",),
+    ("study", "formats", "results", "drawing"),
     ("molecule",),
     ("report",),
     ("export", "html"),
@@ -53,6 +55,11 @@ LINKS = re.compile(r"\bmorsel(?:::|_)(core|morse|persistence|mscomplex|tools|tes
 
 
 LINKS_ROOM = re.compile(r"\bmorsel(?:::|_)(%s)\b" % "|".join(room for room in FLOOR_OF if "." not in room))
+
+
+# morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS …
+MODULE = re.compile(r"\bmorsel_add_module\s*\(([^)]*)\)")
+KEYWORD = re.compile(r"[A-Z_]+")
 
 
 def without(text, drops):
@@ -122,6 +129,43 @@ def check_cmake(module, text, room=None):
             yield line_of(code, match.start()), f"{module} may not be linked with {match.group()}"
 
 
+def public_headers(text):
+    """Yields (line, header) for the public headers that a CMakeLists.txt lists."""
+    code = re.sub(r"#[^\n]*", lambda comment: " " * len(comment.group()), text)
+    for module in MODULE.finditer(code):
+        listed = False
+        for word in re.finditer(r"\S+", module.group(1)):
+            if KEYWORD.fullmatch(word.group()):
+                listed = word.group() == "PUBLIC_HEADERS"
+            elif listed:
+                yield line_of(code, module.start(1) + word.start()), word.group()
+
+
+def check_public_headers(root):
+    """Yields the complaints about the lists of public headers: each header exists, stands there once, and
+    includes public headers only."""
+    public, texts = set(), {}
+    for listing in sorted(root.rglob("CMakeLists.txt")):
+        if listing.relative_to(root).parts[0] not in MAY_INCLUDE:
+            continue
+        for line, name in public_headers(listing.read_text(encoding="utf-8")):
+            where = f"{listing.relative_to(root)}:{line}"
+            header = listing.parent / name
+            if header in public:
+                yield f"{where}: {name} is listed twice"
+            elif not header.is_file():
+                yield f"{where}: there is no header {name}"
+            else:
+                texts[header] = without(header.read_text(encoding="utf-8"), ("//", "/*", "R"))
+            public.add(header)
+    for header, code in texts.items():
+        for match in INCLUDE.finditer(code):
+            path = match.group(2)
+            if path.startswith("morsel/") and root / path.removeprefix("morsel/") not in public:
+                where = f"{header.relative_to(root)}:{line_of(code, match.start())}"
+                yield f'{where}: a public header may not include "{path}", which is private'
+
+
 def check(root):
     """The complaints about the tree at `root`, as "file:line: text", and the number of files that were
     read."""
@@ -143,6 +187,7 @@ def check(root):
                 continue
             files += 1
             complaints += [f"{path.relative_to(root)}:{line}: {text}" for line, text in found]
+    complaints += check_public_headers(root)
     return complaints, files
 
 

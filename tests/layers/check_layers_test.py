@@ -10,7 +10,7 @@ import unittest
 import check_layers
 
 CLEAN = {
-    "core/CMakeLists.txt": "morsel_add_module(core SOURCES a.cpp DEPENDS Eigen3::Eigen)\n",
+    "core/CMakeLists.txt": "morsel_add_module(core PUBLIC_HEADERS a.h SOURCES a.cpp DEPENDS Eigen3::Eigen)\n",
     "core/a.h": "#pragma once\n#include <Eigen/Core>\n#include <vector>\n",
     "core/a.cpp": '#include "morsel/core/a.h"\n',
     "morse/functions/height.cpp": '#include "morsel/core/a.h"\n#include "morsel/morse/functions/height.h"\n',
@@ -103,6 +103,30 @@ class CheckLayers(unittest.TestCase):
                 self.assertIn(said, found[0])
         self.assertEqual(complaints({"tools/batch/a.h": '#pragma once\n#include "morsel/tools/plot/b.h"\n',
                                      "tools/plot/CMakeLists.txt": "x(DEPENDS morsel::report morsel::core)\n"}), [])
+
+    def test_public_headers(self):
+        """Listed headers are there, once, and include none that is not listed, in whatever module."""
+        listing = "morsel_add_module(\n  core\n  PUBLIC_HEADERS a.h  # the first\n    deep/b.h\n  SOURCES a.cpp)\n"
+        public = {"core/CMakeLists.txt": listing, "core/deep/b.h": '#pragma once\n#include "morsel/core/a.h"\n'}
+        private = {"core/c.h": "#pragma once\n"}
+        includes_private = '#pragma once\n#include "morsel/core/c.h"\n'
+        self.assertEqual(complaints({**public, **private, "core/b.cpp": '#include "morsel/core/c.h"\n'}), [])
+        room = "morsel_add_module(study WITHIN tools PUBLIC_HEADERS d.h SOURCES d.cpp)\n"
+        for changes, where, said in (
+                ({"core/CMakeLists.txt": listing}, "core/CMakeLists.txt:4: ", "no header deep/b.h"),
+                ({**public, "core/CMakeLists.txt": listing.replace("deep/b.h", "a.h")},
+                 "core/CMakeLists.txt:4: ", "twice"),
+                ({**public, **private, "core/deep/b.h": includes_private}, "core/deep/b.h:2: ", "is private"),
+                ({"core/CMakeLists.txt": listing.replace("deep/b.h", ""), **private,
+                  "core/a.h": "#pragma once\n#include <morsel/core/c.h>\n"}, "core/a.h:2: ", "is private"),
+                ({**private, "tools/study/CMakeLists.txt": room,
+                  "tools/study/d.h": '#pragma once\n#include "morsel/core/a.h"\n#include "morsel/core/c.h"\n'},
+                 "tools/study/d.h:3: ", "is private")):
+            with self.subTest(changes=changes):
+                found = complaints(changes)
+                self.assertEqual(len(found), 1, found)
+                self.assertTrue(found[0].startswith(where), found)
+                self.assertIn(said, found[0])
 
     def test_links(self):
         found = complaints({"morse/CMakeLists.txt": "# morsel::persistence\nx(\nDEPENDS morsel::core morsel::mscomplex)\n"})

@@ -6,6 +6,7 @@
 #include "morsel/core/io/file_writer.h"
 #include "morsel/tools/batch/distributions.h"
 #include "morsel/tools/batch/request.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/markup.h"
 #include "morsel/tools/formats/text_table.h"
@@ -187,7 +188,8 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
   const Tally sums = tally(outcomes);
   const Provenance provenance = provenance_of(outcomes, request, options);
   std::string plots;
-  if (sums.done > 0) plots = write_plots(totals_of(outcomes, request.comparison.methods), out, provenance);
+  if (sums.done > 0 && drawing::has_pictures())
+    plots = write_plots(totals_of(outcomes, request.comparison.methods), out, provenance);
   const std::string title = markup_text(valid_text("morsel batch: " + options.collection));
   core::FileWriter file(out.claim("index.html"));
   file.write(

@@ -17,6 +17,7 @@
 #include "morsel/tools/batch/summary.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/results/result_folder.h"
 
@@ -112,6 +113,8 @@ std::string last_line(const batch::Tally& sums, const Options& options) {
 }
 
 int run(Options& options, const CommonOptions& common, Console& console) {
+  if (!options.no_thumbnails) drawing::require_pictures("morsel batch without --no-thumbnails");
+  if (options.request.figures) drawing::require_pictures("--figures");
   options.request.repair = common.repair;
   options.request.items = !options.no_items;
   options.request.thumbnails = !options.no_thumbnails;

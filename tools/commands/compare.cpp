@@ -16,6 +16,7 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/export/export_sink.h"
 #include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/html/html_sink.h"
@@ -202,6 +203,8 @@ class Outputs {
 
 int compare(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
+  if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
+  if (!options.thumbnails.empty()) drawing::require_pictures("--thumbnails");
   const ComparisonPlan comparison = prepare(options.request);
   options.figure.check();
   Outputs outputs(options, common, console.stop_token());

@@ -86,6 +86,7 @@ Json request_section(const Options& options, const core::MoleculeOptions& atoms)
 }
 
 int make(Options& options, const CommonOptions& common, Console& console) {
+  core::require_molecules("morsel molecule");
   const bool ply = is_ply(options.output);
   const core::MoleculeOptions wanted = molecule_options(options);
   options.surface.kind =

@@ -10,6 +10,7 @@
 #include "morsel/core/io/file_writer.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/colormap.h"
@@ -38,6 +39,7 @@ struct Options {
 };
 
 int draw(const Options& options, const CommonOptions& common, Console& console) {
+  drawing::require_pictures("morsel render");
   render::PictureRequest request = options.picture;
   request.size = render::parse_size(options.size);
   request.transparent = options.background == "transparent";

@@ -5,12 +5,14 @@
 
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/reproduce/reproduction.h"
 
 namespace morsel::tools {
 namespace {
 
 int make_again(reproduce::Request request, const CommonOptions& common, Console& console) {
+  drawing::require_pictures("morsel reproduce");
   request.repair = common.repair;
   const reproduce::Prepared prepared = reproduce::prepare(request);
   RunFiles files;

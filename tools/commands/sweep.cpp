@@ -11,6 +11,7 @@
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/commands/table_target.h"
+#include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/plot/plot_files.h"
 #include "morsel/tools/plot/sweep_plots.h"
 #include "morsel/tools/report/hashed_mesh.h"
@@ -45,6 +46,7 @@ std::vector<plot::NamedPlot> plots_of(const SweepReport& report) {
 
 int sweep(const Options& options, const CommonOptions& common, Console& console) {
   // Wrong names and unwritable targets are told before the work, not after it.
+  if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   const SweepPlan prepared = prepare(options.request);
   RunFiles named;
   named.reads("MESH", options.mesh);
@@ -61,7 +63,7 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   const std::vector<HashedFile> files = input_files(fields_of(prepared));
   std::optional<RowJournal> done;
   if (Journal* journal = target.open_journal(rows_key(about, files))) {
-    done.emplace(*journal, prepared);
+    done.emplace(*journal, prepared, files);
     for (const std::string& warning : journal->warnings()) console.warning(warning);
   }
   if (done && done->count() > 0)
@@ -71,7 +73,7 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   const std::vector<SweepRow> rows =
       run_sweep(input.loaded, prepared, done ? done->options() : SweepOptions(), console.progress());
 
-  const SweepReport report{input.loaded, about, options.request, prepared, rows};
+  const SweepReport report{input.loaded, about, options.request, prepared, rows, files};
   target.write([&](JsonSink& json) { write_sweep(json, report); },
                [&](std::ostream& out) { write_sweep_csv(out, report); });
   if (figures) {

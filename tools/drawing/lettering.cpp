@@ -11,6 +11,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/tools/drawing/font.h"
+#include "morsel/tools/drawing/pictures.h"
 
 namespace morsel::tools::drawing {
 namespace {
@@ -64,6 +65,8 @@ cairo_font_face_t* make_font() {
 }
 
 }  // namespace
+
+bool has_pictures() { return true; }
 
 void check_text(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {

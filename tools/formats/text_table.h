@@ -1,14 +1,14 @@
 #pragma once
 /// Plain-text tables and numbers for people.
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "morsel/core/text/grouped.h"
+
 namespace morsel::tools {
 
-/// 1234567 → "1,234,567".
-std::string grouped(std::uint64_t number);
+using core::grouped;
 
 /// As std::printf() writes it ("%.2f").
 std::string formatted(double value, const char* format);

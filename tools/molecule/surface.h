@@ -54,10 +54,10 @@ struct MolecularSurface {
 /// thousands of molecules and grids of noise. Such a mesh is discarded, and another made on a grid shifted by
 /// a fraction of the spacing, up to 8 in all.
 ///
-/// Throws InvalidArgument if an option is out of range; BadInput if there are no atoms, if the resolution is
-/// too coarse for the smallest atom (a ball must hold a grid point: √3/2 spacings ≤ r) or so fine that the
-/// grid would have more than 5 · 10⁸ points or 65,536 along one side, or if all 8 grids pinch. Time in the
-/// number of grid points near the molecule; 4 bytes each.
+/// Throws InvalidArgument if an option is out of range and as core::require_molecules() does; BadInput if
+/// there are no atoms, if the resolution is too coarse for the smallest atom (a ball must hold a grid point:
+/// √3/2 spacings ≤ r) or so fine that the grid would have more than 5 · 10⁸ points or 65,536 along one side,
+/// or if all 8 grids pinch. Time in the number of grid points near the molecule; 4 bytes each.
 MolecularSurface molecular_surface(std::span<const core::Atom> atoms, const SurfaceOptions& options = {},
                                    const core::Progress& progress = {});
 

@@ -14,7 +14,6 @@ namespace morsel::tools::plot {
 /// If nothing else varies, there is a line for the total and one for each type; if the other parameters have
 /// up to 14 combinations, a line for each; else the median, minimum and maximum over them. None if the
 /// variation has only one value.
-std::optional<Plot> sweep_plot(const PreparedSweep& prepared, const std::vector<SweepRow>& rows,
-                               std::size_t k);
+std::optional<Plot> sweep_plot(const SweepPlan& plan, const std::vector<SweepRow>& rows, std::size_t k);
 
 }  // namespace morsel::tools::plot

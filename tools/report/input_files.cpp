@@ -32,6 +32,13 @@ std::vector<HashedFile> input_files(const std::vector<std::string>& fields) {
   return files;
 }
 
+std::vector<HashedFile> hashed_files(const FieldOutcome& field) {
+  std::vector<HashedFile> files;
+  files.reserve(field.files.size());
+  for (const FieldFile& file : field.files) files.push_back({file.path, sha256_of_file(file.path)});
+  return files;
+}
+
 Json files_section(const std::vector<HashedFile>& files) {
   Json list = Json::array();
   for (const HashedFile& file : files) list.push_back({{"path", file.path}, {"sha256", file.sha256}});

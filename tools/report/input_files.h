@@ -7,6 +7,7 @@
 
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
 
@@ -18,6 +19,9 @@ std::vector<std::pair<std::string, std::string>> named_files(const std::string& 
 /// is missing, of which the function has more to tell. Throws InvalidArgument as make_function(), BadInput on
 /// one that cannot be read.
 std::vector<HashedFile> input_files(const std::vector<std::string>& fields);
+
+/// The files that a field was read from. Throws BadInput on one that cannot be read any more.
+std::vector<HashedFile> hashed_files(const FieldOutcome& field);
 
 /// [{"path", "sha256"}]
 Json files_section(const std::vector<HashedFile>& files);

@@ -1,5 +1,6 @@
 #include "morsel/tools/report/outcome_sections.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -53,9 +54,18 @@ Json to_json(const std::vector<core::IterationRecord>& iterations) {
 
 Json tool_section() { return {{"name", "morsel"}, {"version", kVersion}}; }
 
-Json field_section(const FieldSummary& field) {
+Json field_parameters(const FieldSummary& field, std::span<const HashedFile> known) {
+  Json parameters = to_json(field.parameters);
+  for (const FieldFile& file : field.files) {
+    const auto hashed = std::ranges::find(known, file.path, &HashedFile::path);
+    parameters[file.key + "_sha256"] = hashed != known.end() ? hashed->sha256 : sha256_of_file(file.path);
+  }
+  return parameters;
+}
+
+Json field_section(const FieldSummary& field, std::span<const HashedFile> known) {
   return {{"name", field.name},
-          {"parameters", to_json(field.parameters)},
+          {"parameters", field_parameters(field, known)},
           {"min", field.min},
           {"max", field.max}};
 }

@@ -1,11 +1,13 @@
 #pragma once
 /// What every JSON document of the program says of its field and methods, in the same words.
 
+#include <span>
 #include <vector>
 
 #include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/made_field.h"
 #include "morsel/tools/study/summary.h"
@@ -20,8 +22,11 @@ Json to_json(const std::vector<core::IterationRecord>& iterations);
 
 /// {"name", "version"} of the program.
 Json tool_section();
+/// A field's resolved parameters, and KEY_sha256 for a KEY that names a file. The hash is that of `known`, or
+/// else the file is read here. Throws BadInput if it cannot be read.
+Json field_parameters(const FieldSummary& field, std::span<const HashedFile> known = {});
 /// {"name", "parameters", "min", "max"}
-Json field_section(const FieldSummary& field);
+Json field_section(const FieldSummary& field, std::span<const HashedFile> known = {});
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);

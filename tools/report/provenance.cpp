@@ -117,8 +117,8 @@ Provenance::Provenance(std::string_view command, Json request, const FieldSource
 }
 
 void Provenance::set_field(const FieldOutcome& field) {
-  document_["field"] = {{"name", field.name}, {"parameters", to_json(field.parameters)}};
-  for (Json& file : files_section(field.files)) document_["inputs"].push_back(std::move(file));
+  document_["field"] = {{"name", field.name}, {"parameters", field_parameters(summary_of(field))}};
+  for (Json& file : files_section(hashed_files(field))) document_["inputs"].push_back(std::move(file));
 }
 
 void Provenance::add_method(const std::vector<StepOutcome>& steps) {

@@ -5,8 +5,9 @@
 #include "morsel/tools/report/sweep_row.h"
 
 namespace morsel::tools {
-RowJournal::RowJournal(Journal& journal, const SweepPlan& plan)
-    : journal_(journal), plan_(plan), rows_(plan.combinations.size()) {
+
+RowJournal::RowJournal(Journal& journal, const SweepPlan& plan, const std::vector<HashedFile>& files)
+    : journal_(journal), plan_(plan), files_(files), rows_(plan.combinations.size()) {
   std::map<std::string, SweepRow> known;
   journal.take_entries([&](const JsonView& entry) {
     known[entry["combination"].text()] = read_row(entry["result"], entry["seconds"]);
@@ -21,7 +22,7 @@ RowJournal::RowJournal(Journal& journal, const SweepPlan& plan)
 SweepOptions RowJournal::options() {
   return {rows_, [this](std::size_t i, const SweepRow& row) {
             journal_.add({{"combination", name(i)},
-                          {"result", row_section(row)},
+                          {"result", row_section(row, files_)},
                           {"seconds", seconds_section(row.seconds)}});
           }};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "morsel/tools/formats/journal.h"
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/study/sweep.h"
 
 namespace morsel::tools {
@@ -14,8 +15,9 @@ namespace morsel::tools {
 /// Keeps rows in a journal, an entry each.
 class RowJournal {
  public:
-  /// Refers to both. Entries that are not rows, all of one, are dropped.
-  RowJournal(Journal& journal, const SweepPlan& plan);
+  /// Refers to all three; `files` are those that the fields read. Entries that are not complete rows are
+  /// dropped.
+  RowJournal(Journal& journal, const SweepPlan& plan, const std::vector<HashedFile>& files);
 
   /// Rows of this sweep that the journal has.
   std::size_t count() const { return count_; }
@@ -27,6 +29,7 @@ class RowJournal {
 
   Journal& journal_;
   const SweepPlan& plan_;
+  const std::vector<HashedFile>& files_;
   std::vector<std::optional<SweepRow>> rows_;
   std::size_t count_ = 0;
 };

@@ -171,6 +171,9 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
          "f_score_half_width,recall,recall_half_width,precision,precision_half_width,drift,drift_half_width,"
          "chance,chance_half_width\n";
   const StabilityResult& result = report.result;
+  std::vector<Json> parameters;
+  parameters.reserve(result.fields.size());
+  for (const FieldOutcome& field : result.fields) parameters.push_back(field_parameters(summary_of(field)));
   for (const StabilityOutcome& outcome : result.outcomes)
     for (const PerturbationOutcome& perturbed : outcome.perturbations) {
       const Perturbation& perturbation = perturbed.perturbation;
@@ -183,7 +186,7 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       line.add(result.radius);
       line.add(to_string(report.plan.points));
       line.add(report.plan.functions[outcome.field].specification);
-      line.add_json(to_json(result.fields[outcome.field].parameters));
+      line.add_json(parameters[outcome.field]);
       line.add(report.plan.chains[outcome.method].specification);
       line.add_json(parameters_section(outcome.clean.steps));
       line.add(outcome.target ? std::to_string(*outcome.target) : "");

@@ -72,8 +72,8 @@ SweepSeconds read_seconds(const JsonView& seconds) {
 
 }  // namespace
 
-Json row_section(const SweepRow& row) {
-  return {{"field", field_section(row.field)},
+Json row_section(const SweepRow& row, std::span<const HashedFile> known) {
+  return {{"field", field_section(row.field, known)},
           {"method",
            {{"name", row.method_name()},
             {"parameters", parameters_section(row.steps)},

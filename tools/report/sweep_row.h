@@ -1,13 +1,17 @@
 #pragma once
 /// A row of a sweep as documents and journals hold it, written and read back.
 
+#include <span>
+
 #include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/study/sweep.h"
 
 namespace morsel::tools {
 
-/// {"field", "method", "iterations_run", "critical_points", "persistence"}, see sweep.schema.json
-Json row_section(const SweepRow& row);
+/// {"field", "method", "iterations_run", "critical_points", "persistence"}, see sweep.schema.json; `known` as
+/// for field_parameters().
+Json row_section(const SweepRow& row, std::span<const HashedFile> known = {});
 /// {"field", "method", "measuring"}
 Json seconds_section(const SweepSeconds& seconds);
 

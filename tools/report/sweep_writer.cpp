@@ -36,7 +36,7 @@ void write_row(JsonSink& json, const SweepReport& report, std::size_t i) {
   json.member("values", values);
   json.member("specification",
               {{"field", to_string(combination.field)}, {"method", to_string(combination.steps)}});
-  const Json row = row_section(report.rows[i]);
+  const Json row = row_section(report.rows[i], report.files);
   for (const auto& [key, value] : row.items()) json.member(key, value);
   json.end_object();
 }
@@ -108,7 +108,7 @@ void write_sweep_csv(std::ostream& out, const SweepReport& report) {
     for (const std::uint64_t pairs : persistence.above) line.add(pairs);
     line.add_json(row.min);
     line.add_json(row.max);
-    line.add_json(to_json(row.field.parameters));
+    line.add_json(field_parameters(row.field, report.files));
     line.add_json(parameters_section(row.steps));
     line.add(row.seconds.sum());
     out << line.text() << '\n';

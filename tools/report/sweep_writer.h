@@ -14,13 +14,14 @@
 
 namespace morsel::tools {
 
-/// A sweep; refers to all of it.
+/// A parameter sweep and the files that its fields read; refers to all of it.
 struct SweepReport {
   const core::LoadedMesh& loaded;
   const ReportInput& input;
   const SweepRequest& request;
   const SweepPlan& plan;
   const std::vector<SweepRow>& rows;
+  const std::vector<HashedFile>& files;
 };
 
 /// What was asked for, and with which ranges.

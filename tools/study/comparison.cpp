@@ -8,13 +8,11 @@
 namespace morsel::tools {
 namespace {
 
-std::vector<HashedFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
-  std::vector<HashedFile> files;
+std::vector<FieldFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
+  std::vector<FieldFile> files;
   for (const auto& [key, value] : parameters)
-    if (!function.file_key.empty() && key == function.file_key) {
-      const std::string& path = std::get<std::string>(value);
-      files.push_back({path, sha256_of_file(path)});
-    }
+    if (!function.file_key.empty() && key == function.file_key)
+      files.push_back({key, std::get<std::string>(value)});
   return files;
 }
 
@@ -24,9 +22,7 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
                             const core::Progress& progress) {
   const Stopwatch watch;
   core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
-  std::vector<HashedFile> files = files_of(function, result.parameters);
-  for (const HashedFile& file : files)
-    result.parameters.emplace_back(function.file_key + "_sha256", file.sha256);
+  std::vector<FieldFile> files = files_of(function, result.parameters);
   return {function.name, std::move(result.field), std::move(result.parameters), watch.seconds(),
           std::move(files)};
 }

@@ -15,7 +15,6 @@
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/persistence/pairing.h"
-#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/study/chain.h"
 #include "morsel/tools/study/matching.h"
 #include "morsel/tools/study/registry.h"
@@ -58,13 +57,19 @@ struct MethodOutcome {
   Timings timings;
 };
 
+/// A file that a Morse function read, besides the mesh's.
+struct FieldFile {
+  std::string key;  ///< of the function, which names it
+  std::string path;
+};
+
 /// The field before any method.
 struct FieldOutcome {
   std::string name;
   core::ScalarField field;
-  core::Parameters parameters;  ///< KEY_sha256 beside a KEY that names a file
+  core::Parameters parameters;
   double seconds = 0;
-  std::vector<HashedFile> files = {};  ///< that it was read from, besides the mesh's
+  std::vector<FieldFile> files = {};
 };
 
 /// Takes a Morse function on a loaded mesh.

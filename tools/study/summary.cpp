@@ -3,7 +3,7 @@
 namespace morsel::tools {
 
 FieldSummary summary_of(const FieldOutcome& outcome) {
-  return {outcome.name, outcome.parameters, outcome.field.min(), outcome.field.max()};
+  return {outcome.name, outcome.parameters, outcome.field.min(), outcome.field.max(), outcome.files};
 }
 
 PersistenceSummary summary_of(const persistence::Diagram& diagram, double extent) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "morsel/core/text/parameters.h"
 #include "morsel/persistence/diagram.h"
@@ -18,6 +19,7 @@ struct FieldSummary {
   core::Parameters parameters;
   double min = 0;
   double max = 0;
+  std::vector<FieldFile> files = {};
 };
 FieldSummary summary_of(const FieldOutcome& outcome);
 
