@@ -1,24 +1,10 @@
 #include "morsel/tools/formats/text_table.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "morsel/core/text/printable.h"
 
 namespace morsel::tools {
-
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (auto place = static_cast<std::ptrdiff_t>(text.size()) - 3; place > 0; place -= 3)
-    text.insert(static_cast<std::size_t>(place), ",");
-  return text;
-}
-
-std::string formatted(double value, const char* format) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 std::size_t display_width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(

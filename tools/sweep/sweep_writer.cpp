@@ -128,8 +128,8 @@ std::string sweep_table(const SweepReport& report) {
     row.push_back(grouped(persistence.at("pairs").get<std::uint64_t>()));
     row.push_back(grouped(persistence.at("above").at(1).at("pairs").get<std::uint64_t>()));
     const Json& largest = persistence.at("max");
-    row.push_back(largest.is_null() ? "" : formatted(largest.get<double>(), "%.6g"));
-    row.push_back(formatted(all_seconds(report.rows[i].seconds), "%.2f"));
+    row.push_back(largest.is_null() ? "" : core::to_digits(largest.get<double>()));
+    row.push_back(core::to_decimals(all_seconds(report.rows[i].seconds), 2));
   }
   return text_table(rows);
 }
