@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/field/link_changes.h"
+#include "morsel/core/field/classification.h"
 #include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "morsel/core/field/classification.h"
+#include "morsel/core/field/link.h"
 #include "morsel/core/field/scalar_field.h"
+#include "morsel/core/field/vertex_kind.h"
 #include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "morsel/core/field/classification.h"
+#include "morsel/core/field/link.h"
 #include "morsel/core/parallel/parallel.h"
 
 namespace morsel::mscomplex {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "morsel/core/field/classification.h"
+#include "morsel/core/field/link.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/parallel/radix_sort.h"
 #include "morsel/persistence/st_numbering.h"

@@ -9,13 +9,7 @@
 
 namespace morsel::core {
 
-/// What v is if is_lower(u), or is_lower(u, h) as in for_each_neighbor(), which is asked once for each
-/// neighbour in turn, tells which of them are lower. O(degree).
-template <class IsLower>
-VertexKind vertex_kind(const TriangleMesh& mesh, Index v, const IsLower& is_lower) {
-  return link_part(mesh, v, /*cap_inside=*/false, is_lower, [](Index) {}).kind();
-}
-
+/// From its link. O(degree).
 inline VertexKind vertex_kind(const ScalarField& field, Index v) {
   const auto rank = field.ranks();
   const Index center = rank[v];

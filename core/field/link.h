@@ -85,4 +85,11 @@ LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& 
   return part;
 }
 
+/// What v is if is_lower(u), or is_lower(u, h) as in for_each_neighbor(), which is asked once for each
+/// neighbour in turn, tells which of them are lower. O(degree).
+template <class IsLower>
+VertexKind vertex_kind(const TriangleMesh& mesh, Index v, const IsLower& is_lower) {
+  return link_part(mesh, v, /*cap_inside=*/false, is_lower, [](Index) {}).kind();
+}
+
 }  // namespace morsel::core

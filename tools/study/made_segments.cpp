@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/tools/formats/text_table.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::tools {
 
@@ -83,8 +83,8 @@ MadeSegments make_segments(const core::ScalarField& field, const SegmentRequest&
   made.segments = segmenter.segments(level_for(segmenter, request, field), progress);
   count_cancelled(made);
   if (request.segments && made.segments.count() > *request.segments)
-    made.note = "merging ends with " + grouped(made.segments.count()) + " segments, more than the " +
-                grouped(*request.segments) + " asked for: no pair is left to cancel; " +
+    made.note = "merging ends with " + core::grouped(made.segments.count()) + " segments, more than the " +
+                core::grouped(*request.segments) + " asked for: no pair is left to cancel; " +
                 why_more(request.kind);
   return made;
 }

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/mscomplex/hierarchy.h"
-#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
@@ -26,7 +26,7 @@ Simplified simplify(const core::ScalarField& field, const QuadRecipe& recipe,
 }
 
 std::string plural(std::size_t count, const char* one, const char* many) {
-  return grouped(count) + " " + (count == 1 ? one : many);
+  return core::grouped(count) + " " + (count == 1 ? one : many);
 }
 
 }  // namespace
@@ -93,10 +93,11 @@ std::string described(const Quadrangulation& result, double diagonal) {
   if (result.layout.missed > 0)
     text += "        " + plural(result.layout.missed, "arc takes", "arcs take") +
             " the way through the fewest triangles, a straight line being too fine for double precision\n";
-  text += "quads: " + grouped(result.mesh.quads.size()) + " on " + grouped(result.mesh.positions.size()) +
-          " vertices, of which " + grouped(q.extraordinary) + " extraordinary; by valence";
+  text += "quads: " + core::grouped(result.mesh.quads.size()) + " on " +
+          core::grouped(result.mesh.positions.size()) + " vertices, of which " +
+          core::grouped(q.extraordinary) + " extraordinary; by valence";
   for (std::size_t k = 0; k < q.valence.size(); ++k)
-    if (q.valence[k] > 0) text += " " + std::to_string(k) + ": " + grouped(q.valence[k]) + ",";
+    if (q.valence[k] > 0) text += " " + std::to_string(k) + ": " + core::grouped(q.valence[k]) + ",";
   text.pop_back();
   text += "\nangles: off 90° by " + core::to_decimals(q.angle_mean, 1) + "° in the mean, " +
           core::to_decimals(q.angle_max, 1) + "° at most; scaled Jacobian " +
