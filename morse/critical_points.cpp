@@ -7,22 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/field/link_changes.h"
+#include "morsel/core/field/classification.h"
 #include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
 
 using core::Index;
 
-std::string_view to_string(CriticalType type) {
-  static constexpr std::array<std::string_view, 4> kNames = {"regular", "minimum", "saddle", "maximum"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
 CriticalPoint classify_vertex(const core::ScalarField& field, Index v) {
-  const auto rank = field.ranks();
-  const Index center = rank[v];
-  return classify_link(field.mesh(), v, [&](Index u) { return rank[u] < center; });
+  const core::VertexKind kind = core::vertex_kind(field, v);
+  return {v, kind.type, kind.multiplicity};
 }
 
 namespace {
@@ -30,7 +24,7 @@ namespace {
 /// LinkChanges::bits() from which on a vertex is a saddle whose link must be walked.
 constexpr std::uint8_t kMany = 2 * core::LinkChanges::kMostChanges;
 
-/// What bits below kMany say about its vertex.
+/// What bits below kMany say about their vertex: looked up since computing it would branch.
 struct Verdict {
   CriticalType type = CriticalType::regular;
   bool is_critical = false;
@@ -39,10 +33,10 @@ struct Verdict {
 
 constexpr std::array<Verdict, kMany> make_verdicts() {
   std::array<Verdict, kMany> verdicts{};
-  for (unsigned tally = 0; tally < verdicts.size(); ++tally) {
-    const unsigned runs = tally / 4;
-    if (runs == 0) verdicts[tally] = {tally == 0 ? CriticalType::minimum : CriticalType::maximum, true, 1};
-    if (runs > 1) verdicts[tally] = {CriticalType::saddle, true, static_cast<std::uint8_t>(runs - 1)};
+  for (std::size_t bits = 0; bits < verdicts.size(); ++bits) {
+    const auto kind = core::LinkChanges::from_bits(static_cast<std::uint8_t>(bits)).kind();
+    verdicts[bits] = {kind.type, kind.type != CriticalType::regular,
+                      static_cast<std::uint8_t>(kind.multiplicity)};
   }
   return verdicts;
 }

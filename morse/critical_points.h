@@ -2,26 +2,23 @@
 /// Critical points of a piecewise-linear function, vertex by vertex.
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "morsel/core/field/link.h"
 #include "morsel/core/field/scalar_field.h"
+#include "morsel/core/field/vertex_kind.h"
 #include "morsel/core/parallel/progress.h"
 
 namespace morsel::morse {
 
-enum class CriticalType : std::uint8_t { regular, minimum, saddle, maximum };
+using core::CriticalType;
+using core::to_string;
 
-/// "regular", "minimum", "saddle", "maximum".
-std::string_view to_string(CriticalType type);
-
+/// A vertex and its core::VertexKind.
 struct CriticalPoint {
   core::Index vertex = core::kNone;
   CriticalType type = CriticalType::regular;
-  core::Index multiplicity = 1;  ///< k − 1 for a saddle with k runs of lower neighbours, 1 for an extremum
+  core::Index multiplicity = 1;
   friend bool operator==(const CriticalPoint&, const CriticalPoint&) = default;
 };
 
@@ -40,17 +37,12 @@ struct CriticalPoints {
 /// What a vertex is by its lower part of its link; is_lower(u) tells it of each neighbour u. O(degree).
 template <class IsLower>
 CriticalPoint classify_link(const core::TriangleMesh& mesh, core::Index v, const IsLower& is_lower) {
-  const core::LinkPart lower = core::link_part(mesh, v, /*cap_inside=*/false, is_lower, [](core::Index) {});
-  if (lower.empty) return {v, CriticalType::minimum, 1};
-  if (lower.whole) return {v, CriticalType::maximum, 1};
-  if (lower.runs <= 1) return {v, CriticalType::regular, 1};
-  return {v, CriticalType::saddle, lower.runs - 1};
+  const core::VertexKind kind = core::vertex_kind(mesh, v, is_lower);
+  return {v, kind.type, kind.multiplicity};
 }
 
-/// Type and multiplicity of one vertex from its lower link on the capped surface (Banchoff 1970; Ni, Garland,
-/// Hart 2004, section 3.1): no lower neighbour → minimum; all lower → maximum; one run of lower neighbours →
-/// regular; k ≥ 2 runs → saddle of multiplicity k − 1. At a boundary vertex the loop's cap counts as a higher
-/// neighbour, so it is never a maximum. O(degree).
+/// Type and multiplicity of one vertex from its lower link on the capped surface, by core::kind_of_link():
+/// a boundary vertex is never a maximum. O(degree).
 CriticalPoint classify_vertex(const core::ScalarField& field, core::Index v);
 
 /// All critical points. minima − saddle_multiplicity + maxima = χ(mesh), component by component. O(n),

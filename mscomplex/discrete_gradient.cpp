@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "morsel/core/field/link.h"
 #include "morsel/core/parallel/parallel.h"
 
 namespace morsel::mscomplex {
@@ -29,26 +30,15 @@ void DiscreteGradient::process_lower_star(std::span<const Index> rank, Index v, 
   const Index center = rank[v];
   auto& ring = scratch.ring;
   ring.clear();
-  const Index start = mesh_.vertex_halfedge(v);
-  Index h = start;
-  Index last = start;
-  bool all_lower = true;
-  bool any_lower = false;
-  const auto add = [&](Index halfedge, Index neighbor) {
-    ring.push_back({halfedge, rank[neighbor]});
-    const bool lower = ring.back().rank < center;
-    all_lower &= lower;
-    any_lower |= lower;
+  const auto is_lower = [&](Index u, Index halfedge) {
+    ring.push_back({halfedge, rank[u]});
+    return ring.back().rank < center;
   };
-  do {
-    add(h, mesh_.target(h));
-    last = h;
-    h = mesh_.next_around(h);
-  } while (h != start && h != kNone);
-  const bool boundary = h == kNone;
-  if (boundary) add(kNone, mesh_.apex(last));
+  const auto type = core::vertex_kind(mesh_, v, is_lower).type;
+  const bool boundary = ring.back().halfedge == kNone;
+  const Index last = boundary ? ring[ring.size() - 2].halfedge : ring.back().halfedge;
 
-  if (!any_lower) {
+  if (type == core::CriticalType::minimum) {
     lower_[v] = kNone;
     critical.minima.push_back(v);
     return;
@@ -70,7 +60,7 @@ void DiscreteGradient::process_lower_star(std::span<const Index> rank, Index v, 
   };
   const std::size_t n = ring.size();
 
-  if (all_lower && !boundary) {
+  if (type == core::CriticalType::maximum) {
     // Two fronts of pairs leave the lowest neighbour on both sides. ProcessLowerStars always advances the one
     // whose next triangle is lower, so they meet at the highest triangle.
     std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), is_lower_rank), ring.end());
@@ -94,7 +84,8 @@ void DiscreteGradient::process_lower_star(std::span<const Index> rank, Index v, 
     return;
   }
 
-  // Behind an upper neighbour, a closed link is a path like an open one.
+  // The critical edges come from the runs themselves; by Banchoff's count they are as many as the saddle's
+  // multiplicity. Behind an upper neighbour, a closed link is a path like an open one.
   if (!boundary && ring.front().rank < center)
     std::rotate(ring.begin(),
                 std::find_if(ring.begin(), ring.end(), [&](const auto& u) { return u.rank > center; }),

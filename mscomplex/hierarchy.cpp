@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel/union_find.h"
 #include "morsel/core/require.h"
+#include "morsel/persistence/elder_rule.h"
 
 namespace morsel::mscomplex {
 
@@ -18,25 +16,22 @@ using core::kNone;
 
 namespace {
 
-/// A saddle and the extremum that ends at it in one of the two sweeps.
-struct Pair {
-  double persistence;
-  Index sweep;     // 0 up, 1 down
-  Index time;      // of the saddle's vertex in that sweep
-  Index youth;     // of the extremum: the smaller, the younger
-  Index saddle;    // number, not node
-  Index extremum;  // node
-  auto key() const { return std::tuple(persistence, sweep, time, youth); }
-};
+/// The `count` numbers from `first` on, by ascending ranks; of equal ones the smaller first.
+template <class RankOf>
+std::vector<Index> by_rank(Index first, Index count, const RankOf& rank_of) {
+  std::vector<Index> order(count);
+  std::iota(order.begin(), order.end(), first);
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return std::pair(rank_of(a), a) < std::pair(rank_of(b), b); });
+  return order;
+}
 
-/// Extrema by age: `order[a]` is the a-th eldest, and `age` the other way round.
-struct Ages {
-  explicit Ages(std::vector<Index> eldest_first) : order(std::move(eldest_first)), age(order.size()) {
-    for (std::size_t a = 0; a < order.size(); ++a) age[order[a]] = static_cast<Index>(a);
-  }
-  std::vector<Index> order;
-  std::vector<Index> age;
-};
+/// The inverse of a permutation of consecutive nodes from `first` on, by their distance from it.
+std::vector<Index> places(std::span<const Index> nodes, Index first) {
+  std::vector<Index> place(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i] - first] = static_cast<Index>(i);
+  return place;
+}
 
 }  // namespace
 
@@ -52,59 +47,42 @@ PersistenceHierarchy::PersistenceHierarchy(const core::ScalarField& field, Morse
   progress.update("hierarchy", 1);
 }
 
-/// The elder rule (Edelsbrunner, Letscher, Zomorodian 2002) on the complex alone: its minima and descending
-/// arcs are as connected below any saddle as the sublevel set is, and so are tops and ascending arcs from
-/// above.
+/// The elder rule on the complex alone, not the pairs of persistence::pair_extrema(), since these do not tell
+/// which of the saddles at one vertex is meant: minima and descending arcs are as connected below any saddle
+/// as the sublevel set is, and so are tops and ascending arcs from above.
 void PersistenceHierarchy::pair_up(const core::ScalarField& field) {
-  const auto rank = field.ranks();
   const auto saddles = complex_.gradient().saddles();
-  const Index minima = complex_.minimum_count();
-  const Index tops = complex_.maximum_count() + complex_.cap_count();
-  const Index first_top = complex_.maximum_node(0);
-  const auto rank_of = [&](Index node) { return rank[complex_.node(node).vertex]; };
-
-  std::vector<Index> by_rank(saddles.size());
-  std::iota(by_rank.begin(), by_rank.end(), Index{0});
-  std::sort(by_rank.begin(), by_rank.end(), [&](Index a, Index b) {
-    return std::pair(rank[saddles[a].vertex], a) < std::pair(rank[saddles[b].vertex], b);
-  });
-  std::vector<Index> lowest_first(minima);
-  std::iota(lowest_first.begin(), lowest_first.end(), Index{0});
-  std::sort(lowest_first.begin(), lowest_first.end(),
-            [&](Index a, Index b) { return rank_of(a) < rank_of(b); });
-  std::vector<Index> highest_first(tops);  // caps lie above all maxima, later ones above earlier ones
-  std::iota(highest_first.begin(), highest_first.end(), Index{0});
-  std::sort(highest_first.begin(), highest_first.end(), [&](Index a, Index b) {
-    const auto height = [&](Index top) {
-      return top < complex_.maximum_count() ? std::uint64_t{rank_of(first_top + top)}
-                                            : (std::uint64_t{1} << 32) + top;
-    };
-    return height(a) > height(b);
-  });
-
-  std::vector<Pair> pairs;
-  const auto sweep = [&](Index kind, const std::vector<Index>& order, const Ages& ages, Index first_node,
-                         auto&& time_of) {
-    core::UnionFind sets(static_cast<Index>(ages.order.size()));
-    for (const Index s : order) {
-      const Index a = sets.find(ages.age[complex_.arc_end(4 * s + kind) - first_node]);
-      const Index b = sets.find(ages.age[complex_.arc_end(4 * s + 2 + kind) - first_node]);
-      if (!sets.unite(a, b)) continue;
-      const Index younger = std::max(a, b);
-      const Index node = first_node + ages.order[younger];
+  const auto node_vertex = [&](Index node) { return complex_.node(node).vertex; };
+  const auto node_rank = [&](Index node) { return field.rank(node_vertex(node)); };
+  const auto sweep = [&](Index kind, std::span<const Index> order, Index first,
+                         std::span<const Index> by_age) {
+    const std::vector<Index> age = places(by_age, first);
+    std::vector<persistence::Merge> merges;
+    merges.reserve(order.size());
+    for (const Index s : order)
+      merges.push_back(
+          {s, age[complex_.arc_end(4 * s + kind) - first], age[complex_.arc_end(4 * s + 2 + kind) - first]});
+    const auto is_same_vertex = [&](Index s, Index t) { return saddles[s].vertex == saddles[t].vertex; };
+    for (const auto& [youngest, s] :
+         persistence::apply_elder_rule(static_cast<Index>(age.size()), merges, is_same_vertex)) {
+      const Index node = by_age[youngest];
       if (complex_.kind(node) == NodeKind::cap) continue;  // at infinite persistence
-      const double persistence =
-          std::abs(field.value(saddles[s].vertex) - field.value(complex_.node(node).vertex));
-      pairs.push_back({persistence, kind, time_of(rank[saddles[s].vertex]), ~younger, s, node});
+      const double difference = field.value(saddles[s].vertex) - field.value(node_vertex(node));
+      cancellations_.push_back({4 * s + kind, node, kNone, std::abs(difference)});
     }
   };
-  sweep(0, by_rank, Ages(std::move(lowest_first)), 0, [](Index r) { return r; });
-  std::reverse(by_rank.begin(), by_rank.end());
-  sweep(1, by_rank, Ages(std::move(highest_first)), first_top, [](Index r) { return ~r; });
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.key() < b.key(); });
-  cancellations_.reserve(pairs.size());
-  for (const Pair& pair : pairs)
-    cancellations_.push_back({4 * pair.saddle + pair.sweep, pair.extremum, kNone, pair.persistence});
+
+  const Index first_top = complex_.maximum_node(0);
+  std::vector<Index> order =
+      by_rank(0, complex_.saddle_count(), [&](Index s) { return field.rank(saddles[s].vertex); });
+  cancellations_.reserve(order.size());
+  sweep(0, order, 0, by_rank(0, complex_.minimum_count(), node_rank));
+  std::reverse(order.begin(), order.end());
+  sweep(1, order, first_top,
+        persistence::tops_by_age(by_rank(first_top, complex_.maximum_count(), node_rank),
+                                 complex_.cap_node(0), complex_.cap_count()));
+  persistence::sort_by_persistence(std::span(cancellations_),
+                                   [](const Cancellation& c) { return c.persistence; });
 }
 
 /// Finds at which side of its saddle each extremum is when its turn comes, and who is at the other one.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/field/classification.h"
 #include "morsel/persistence/canceller.h"
 #include "morsel/persistence/count_search.h"
 
@@ -34,7 +35,7 @@ CancellationResult cancel(const core::ScalarField& f, const CancellationOptions&
       largest = std::max(largest, pair.persistence());
   const std::size_t cancelled = canceller.diagram().finite_count - staying.size();
   CancellationResult result{canceller.run(staying), cancelled, largest, 0, {}};
-  result.reached_count = detail::critical_count(result.field);
+  result.reached_count = core::critical_count(result.field);
   progress.update("cancellation", 1);
   return result;
 }

@@ -1,6 +1,5 @@
 #include "morsel/persistence/canceller.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "morsel/core/parallel/parallel.h"
@@ -39,12 +38,6 @@ std::vector<Role> Canceller::survivors(std::span<const PersistencePair> staying)
   for (const PersistencePair& pair : staying)
     roles[pair.extremum] = pair.kind == PairKind::minimum_saddle ? Role::minimum : Role::maximum;
   return roles;
-}
-
-std::size_t critical_count(const ScalarField& field) {
-  const std::vector<core::LinkChanges> types = core::link_changes(field.mesh(), field.ranks());
-  return static_cast<std::size_t>(
-      std::count_if(types.begin(), types.end(), [](core::LinkChanges type) { return !type.is_regular(); }));
 }
 
 }  // namespace morsel::persistence::detail

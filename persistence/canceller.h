@@ -1,7 +1,6 @@
 #pragma once
 /// Cancelling any number of pairs of one field. For the module's own use.
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -34,8 +33,5 @@ class Canceller {
   Sweeps sweeps_;
   Diagram diagram_;
 };
-
-/// Minima, saddle vertices and maxima: the total that classification gives. O(n), parallel.
-std::size_t critical_count(const core::ScalarField& field);
 
 }  // namespace morsel::persistence::detail

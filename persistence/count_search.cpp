@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "morsel/core/field/classification.h"
+
 namespace morsel::persistence::detail {
 namespace {
 
@@ -94,7 +96,7 @@ std::size_t CountSearch::nearest_estimate(long off) const {
 
 long CountSearch::measure(std::size_t cancelled) {
   core::ScalarField field = canceller_.run(diagram_.finite_pairs().subspan(cancelled));
-  const auto total = static_cast<long>(critical_count(field));
+  const auto total = static_cast<long>(core::critical_count(field));
   totals_[cancelled] = total;
   smallest_off_ = std::min(smallest_off_, total - estimate_[cancelled]);
   largest_off_ = std::max(largest_off_, total - estimate_[cancelled]);

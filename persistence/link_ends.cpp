@@ -49,12 +49,13 @@ LinkEnds make_room(const core::ScalarField& field, std::span<const core::LinkCha
   LinkEnds result;
   result.offset.resize(types.size());
   for (const Saddle& saddle : saddles)
-    if (const Index v = field.order()[saddle.rank]; types[v].changes() == core::LinkChanges::kMostChanges)
-      result.offset[v] = 2 * saddle.multiplicity + 2;
+    if (const Index v = field.order()[saddle.rank]; types[v].is_cut_off())
+      result.offset[v] = saddle.changes();
   Index end = 0;
   for (std::size_t v = 0; v < types.size(); ++v) {
-    const bool cut_off = types[v].changes() == core::LinkChanges::kMostChanges;
-    const Index count = cut_off ? result.offset[v] : types[v].is_saddle() ? types[v].changes() : 0;
+    const Index count = types[v].is_cut_off()  ? result.offset[v]
+                        : types[v].is_saddle() ? types[v].changes()
+                                               : 0;
     result.offset[v] = end;
     end += count;
   }
@@ -115,7 +116,7 @@ LinkEnds link_ends(const core::ScalarField& field, std::span<const core::LinkCha
   else
     fill<true>(field, types, ends, down_to_minima, up_to_maxima);
   core::parallel_for_each(saddles.size(), [&](std::size_t s) {
-    ends.offset[field.order()[saddles[s].rank]] -= 2 * saddles[s].multiplicity + 2;
+    ends.offset[field.order()[saddles[s].rank]] -= saddles[s].changes();
   });
   return ends;
 }

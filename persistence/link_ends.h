@@ -23,6 +23,8 @@ struct LinkEnds {
 struct Saddle {
   Index rank;
   Index multiplicity;
+  /// In its link: its runs of lower elements, one more than its multiplicity, begin and end with one.
+  Index changes() const { return 2 * (multiplicity + 1); }
 };
 
 /// For the saddles of the field; O(n), parallel. Where there are many of them it is another pass over the

@@ -1,11 +1,10 @@
 #include "morsel/persistence/pairing.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+#include <span>
 
 #include "morsel/core/parallel/parallel.h"
-#include "morsel/core/parallel/radix_sort.h"
+#include "morsel/persistence/elder_rule.h"
 #include "morsel/persistence/sweep.h"
 
 namespace morsel::persistence {
@@ -86,21 +85,9 @@ Diagram unsorted_diagram(const core::ScalarField& field, const Sweeps& sweeps) {
   return diagram;
 }
 
-// Among equals the order stays as it is.
 void sort_pairs(Diagram& diagram) {
-  struct Key {
-    std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
-    Index position;
-  };
-  core::FlatArray<Key> keys(diagram.finite_count);
-  core::parallel_for_each(keys.size(), [&](std::size_t i) {
-    const double persistence = diagram.pairs[i].persistence() + 0.0;  // no −0
-    keys[i] = {std::bit_cast<std::uint64_t>(persistence), static_cast<Index>(i)};
-  });
-  core::radix_sort(keys, 64, [](const Key& key) { return key.persistence; });
-  std::vector<PersistencePair> sorted = diagram.pairs;
-  core::parallel_for_each(keys.size(), [&](std::size_t i) { sorted[i] = diagram.pairs[keys[i].position]; });
-  diagram.pairs = std::move(sorted);
+  sort_by_persistence(std::span(diagram.pairs).first(diagram.finite_count),
+                      [](const PersistencePair& pair) { return pair.persistence(); });
 }
 
 }  // namespace detail

@@ -55,14 +55,8 @@ class PlateauOrder {
   /// Whether v becomes what it should if its level keeps f's order. (Survivors always do.)
   bool is_fine(Index v) const {
     if (roles_[v] != Role::regular) return true;
-    bool lower = false;
-    bool higher = mesh_.is_boundary_vertex(v);
-    core::for_each_neighbor(mesh_, v, [&](Index u) {
-      const bool below = is_level(u) ? f_.is_lower(u, v) : place_[u] < level_.first;
-      lower |= below;
-      higher |= !below;
-    });
-    return lower && higher;
+    const auto is_below = [&](Index u) { return is_level(u) ? f_.is_lower(u, v) : place_[u] < level_.first; };
+    return !core::vertex_kind(mesh_, v, is_below).is_extremum();
   }
 
   /// Collects the plateau of `seed`, vertices with a role left out, and appends its vertices in order.

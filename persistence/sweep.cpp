@@ -1,12 +1,12 @@
 #include "morsel/persistence/sweep.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <utility>
 
-#include "morsel/core/field/link.h"
+#include "morsel/core/field/classification.h"
 #include "morsel/core/parallel/parallel.h"
-#include "morsel/core/parallel/union_find.h"
 
 namespace morsel::persistence::detail {
 namespace {
@@ -22,13 +22,6 @@ struct Critical {
   std::vector<Saddle> saddles;
 };
 
-Index saddle_multiplicity(const core::ScalarField& field, core::LinkChanges type, Index v) {
-  if (type.changes() < core::LinkChanges::kMostChanges) return type.changes() / 2 - 1;
-  const auto lower = core::link_part(
-      field.mesh(), v, /*cap_inside=*/false, [&](Index u) { return field.is_lower(u, v); }, [](Index) {});
-  return lower.runs - 1;
-}
-
 Critical critical_vertices(const core::ScalarField& field, std::span<const core::LinkChanges> types) {
   const auto order = field.order();
   return core::parallel_reduce(
@@ -37,12 +30,12 @@ Critical critical_vertices(const core::ScalarField& field, std::span<const core:
         Critical part;
         for (auto r = static_cast<Index>(begin); r < end; ++r) {
           const Index v = order[r];
-          const core::LinkChanges type = types[v];
-          if (type.is_regular()) continue;
-          if (type.is_saddle())
-            part.saddles.push_back({r, saddle_multiplicity(field, type, v)});
+          if (types[v].is_regular()) continue;
+          const core::VertexKind kind = core::vertex_kind(field, v, types[v]);
+          if (kind.type == core::CriticalType::saddle)
+            part.saddles.push_back({r, kind.multiplicity});
           else
-            (type.is_minimum() ? part.minima : part.maxima).push_back(v);
+            (kind.type == core::CriticalType::minimum ? part.minima : part.maxima).push_back(v);
         }
         return part;
       },
@@ -71,12 +64,12 @@ std::vector<Merge> collect_merges(const core::ScalarField& field, std::span<cons
       0, saddles.size(), core::kGrain, std::vector<Merge>{},
       [&](std::size_t begin, std::size_t end) {
         std::vector<Merge> part;
-        for (const auto& [rank, multiplicity] : saddles.subspan(begin, end - begin)) {
-          const auto meeting = basins.subspan(offset[field.order()[rank]], 2 * multiplicity + 2);
+        for (const Saddle& saddle : saddles.subspan(begin, end - begin)) {
+          const auto meeting = basins.subspan(offset[field.order()[saddle.rank]], saddle.changes());
           const Index first = meeting.front();
           Index previous = first;
           for (const Index basin : meeting) {
-            if (basin != first && basin != previous) part.push_back({rank, first, basin});
+            if (basin != first && basin != previous) part.push_back({saddle.rank, first, basin});
             previous = basin;
           }
         }
@@ -88,24 +81,8 @@ std::vector<Merge> collect_merges(const core::ScalarField& field, std::span<cons
       });
 }
 
-/// The elder rule: keeps the merges that join components and notes which basin each of them ends.
 void unite(Sweep& sweep) {
-  core::UnionFind components(sweep.basin_count());  // roots are the eldest
-  std::size_t kept = 0;
-  std::vector<Death>& deaths = sweep.deaths;
-  for (const Merge& merge : sweep.merges) {
-    const Index a = components.find(merge.a);
-    const Index b = components.find(merge.b);
-    if (a == b) continue;
-    components.unite(a, b);
-    sweep.merges[kept++] = {merge.saddle, a, b};
-    deaths.push_back({std::max(a, b), merge.saddle});
-    for (std::size_t i = deaths.size() - 1;
-         i > 0 && deaths[i - 1].saddle == merge.saddle && deaths[i - 1].basin < deaths[i].basin; --i)
-      std::swap(deaths[i - 1], deaths[i]);
-  }
-  sweep.merges.resize(kept);
-  sweep.merges.shrink_to_fit();
+  sweep.deaths = apply_elder_rule(sweep.basin_count(), sweep.merges, std::equal_to<>());
 }
 
 }  // namespace
@@ -122,8 +99,7 @@ Sweeps sweep(const core::ScalarField& field, const core::Progress& progress) {
   result.up.vertex_count = n;
   result.down.vertex_count = n;
   result.up.extremum = std::move(critical.minima);
-  for (Index loop = mesh.boundary_loop_count(); loop-- > 0;) result.down.extremum.push_back(n + loop);
-  result.down.extremum.insert(result.down.extremum.end(), critical.maxima.rbegin(), critical.maxima.rend());
+  result.down.extremum = tops_by_age(critical.maxima, n, mesh.boundary_loop_count());
   result.up.paths = std::make_unique<Paths>(mesh, field.ranks(), Direction::up, result.up.extremum);
   result.down.paths = std::make_unique<Paths>(mesh, field.ranks(), Direction::down, result.down.extremum);
 

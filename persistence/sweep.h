@@ -8,31 +8,18 @@
 #include "morsel/core/field/scalar_field.h"
 #include "morsel/core/parallel/progress.h"
 #include "morsel/persistence/diagram.h"
+#include "morsel/persistence/elder_rule.h"
 #include "morsel/persistence/link_ends.h"
 #include "morsel/persistence/paths.h"
 
 namespace morsel::persistence::detail {
 
-/// Two basins that meet at a saddle, if nothing joined them before.
-struct Merge {
-  Index saddle;  ///< its rank
-  Index a;
-  Index b;
-};
-
-/// A basin that ends at a saddle, where its component meets an elder one.
-struct Death {
-  Index basin;
-  Index saddle;  ///< its rank
-};
-
-/// One of the two. Basins are numbered from the eldest: minima by ascending rank, or caps from the last loop
-/// to the first and then maxima by descending rank.
+/// One of the two. Basins are numbered from the eldest; the saddles of merges and deaths are their ranks.
 struct Sweep {
   Index vertex_count = 0;
   std::vector<Index> extremum;  ///< per basin: a vertex, or vertex_count + loop for a cap
-  std::vector<Merge> merges;    ///< in the order of the sweep; only those that join components
-  std::vector<Death> deaths;    ///< in the order of the sweep, at one saddle the youngest first
+  std::vector<Merge> merges;    ///< as apply_elder_rule() leaves them
+  std::vector<Death> deaths;
   std::unique_ptr<Paths> paths;
 
   Index basin_count() const { return static_cast<Index>(extremum.size()); }

@@ -1,12 +1,26 @@
 #pragma once
 /// The link of a vertex on the capped surface, walked once: what classification and sweeps are made of.
 
+#include <type_traits>
+
+#include "morsel/core/field/vertex_kind.h"
 #include "morsel/core/mesh/mesh.h"
 
 namespace morsel::core {
 
+namespace detail {
+template <class Visit>
+decltype(auto) visit_neighbor(Visit& visit, Index u, [[maybe_unused]] Index halfedge) {
+  if constexpr (std::is_invocable_v<Visit&, Index, Index>)
+    return visit(u, halfedge);
+  else
+    return visit(u);
+}
+}  // namespace detail
+
 /// Calls visit(u) once for each neighbour u of v, counter-clockwise: a full turn, or from one boundary
-/// neighbour to the other. O(degree).
+/// neighbour to the other. Or visit(u, h) with the half-edge from v to u; kNone for the last neighbour at a
+/// boundary, to which none leads. O(degree).
 template <class Visit>
 void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
   const Triangle* const triangles = mesh.triangles().data();
@@ -18,11 +32,11 @@ void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
     const Index t = h / 3;
     const Index i = h - 3 * t;
     const Index previous = i == 0 ? 2 : i - 1;
-    visit(triangles[t][3 - i - previous]);
+    detail::visit_neighbor(visit, triangles[t][3 - i - previous], h);
     apex = triangles[t][previous];
     h = twins[3 * t + previous];
   } while (h != start && h != kNone);
-  if (h == kNone) visit(apex);
+  if (h == kNone) detail::visit_neighbor(visit, apex, kNone);
 }
 
 /// The part of a link that satisfies a predicate: its lower part, say.
@@ -30,11 +44,14 @@ struct LinkPart {
   Index runs = 0;     ///< maximal runs around the vertex; 0 if the part is empty or the whole link
   bool empty = true;  ///< no element of the link is in the part
   bool whole = true;  ///< every element is
+
+  /// What the vertex is whose link's lower part this is.
+  VertexKind kind() const { return kind_of_link(runs, whole); }
 };
 
 /// Walks the link of v on the capped surface, a cycle: its neighbours, and at a boundary the loop's cap,
-/// which is in the part if `cap_inside`. Calls inside(u) once for each neighbour u, and on_run(u) for one
-/// element of each run (u = kNone: the cap). O(degree).
+/// which is in the part if `cap_inside`. Calls inside(u), or inside(u, h) as above, once for each neighbour
+/// u, and on_run(u) for one element of each run (u = kNone: the cap). O(degree).
 template <class Inside, class OnRun>
 LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& inside, OnRun&& on_run) {
   LinkPart part;
@@ -53,8 +70,8 @@ LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& 
     on_run(u);
   };
   if (boundary) note(cap_inside);
-  for_each_neighbor(mesh, v, [&](Index u) {
-    const bool is_inside = inside(u);
+  for_each_neighbor(mesh, v, [&](Index u, Index halfedge) {
+    const bool is_inside = detail::visit_neighbor(inside, u, halfedge);
     if (!started) {
       started = true;
       first = u;
@@ -66,6 +83,13 @@ LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& 
   });
   if (first_inside && !previous) enter(first);
   return part;
+}
+
+/// What v is if is_lower(u), or is_lower(u, h) as in for_each_neighbor(), which is asked once for each
+/// neighbour in turn, tells which of them are lower. O(degree).
+template <class IsLower>
+VertexKind vertex_kind(const TriangleMesh& mesh, Index v, const IsLower& is_lower) {
+  return link_part(mesh, v, /*cap_inside=*/false, is_lower, [](Index) {}).kind();
 }
 
 }  // namespace morsel::core

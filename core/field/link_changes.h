@@ -1,5 +1,5 @@
 #pragma once
-/// Which vertices are critical, by passes over the triangles as they lie in memory.
+/// How often links change between lower and higher, by passes over the triangles as they lie in memory.
 
 #include <algorithm>
 #include <array>
@@ -7,24 +7,34 @@
 #include <span>
 #include <vector>
 
+#include "morsel/core/field/vertex_kind.h"
 #include "morsel/core/mesh/mesh.h"
 
 namespace morsel::core {
 
-/// What a vertex is to a field. A change is a pair of neighbouring elements in its link on the capped surface
-/// of which one is lower and the other higher than the vertex: a triangle (or a boundary edge with its cap)
-/// is one for the middle of its three corners, so changes are counted without walking a link (Banchoff,
-/// "Critical points and curvature for embedded polyhedral surfaces", 1970). A saddle of multiplicity m has 2
-/// m + 2.
+/// The changes in a vertex's link. A change is a pair of neighbouring elements in its link on the capped
+/// surface of which one is lower and the other higher than the vertex: a triangle (or a boundary edge with
+/// its cap) is one for the middle of its three corners, so changes are counted without walking a link
+/// (Banchoff, "Critical points and curvature for embedded polyhedral surfaces", 1970). Each run begins and
+/// ends with one.
 class LinkChanges {
  public:
-  bool is_minimum() const { return bits_ == 0; }
-  bool is_maximum() const { return bits_ == 1; }
-  bool is_regular() const { return bits_ >> 1 == 2; }
-  bool is_saddle() const { return bits_ >> 1 > 2; }
+  constexpr LinkChanges() = default;
+  static constexpr LinkChanges from_bits(std::uint8_t bits) {
+    LinkChanges result;
+    result.bits_ = bits;
+    return result;
+  }
+
   /// Up to kMostChanges.
-  Index changes() const { return bits_ >> 1; }
+  constexpr Index changes() const { return bits_ >> 1; }
   static constexpr Index kMostChanges = 127;  ///< or more
+  constexpr bool is_cut_off() const { return changes() == kMostChanges; }
+
+  /// What the vertex is; where changes are cut off, a saddle of at least the multiplicity that it says.
+  constexpr VertexKind kind() const { return kind_of_link(runs(), (bits_ & 1) != 0); }
+  constexpr bool is_regular() const { return is_regular_link(runs()); }
+  constexpr bool is_saddle() const { return is_saddle_link(runs()); }
 
   void add_change() { bits_ = static_cast<std::uint8_t>(bits_ + (bits_ < 2 * kMostChanges ? 2 : 0)); }
   void set_above() { bits_ |= 1; }  ///< it is the highest corner of a triangle
@@ -35,9 +45,11 @@ class LinkChanges {
 
   /// Twice the changes, and 1 if the vertex is the highest corner of a triangle: below 2 · kMostChanges, all
   /// that is known.
-  std::uint8_t bits() const { return bits_; }
+  constexpr std::uint8_t bits() const { return bits_; }
 
  private:
+  constexpr Index runs() const { return changes() / 2; }
+
   std::uint8_t bits_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/field/vertex_order.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::core {
 namespace {
@@ -35,7 +36,7 @@ void check_values(const TriangleMesh& mesh, const std::vector<double>& values) {
       });
   if (bad.count > 0)
     throw BadInput("the field has " + std::to_string(bad.count) + " non-finite value" +
-                   (bad.count == 1 ? "" : "s") + ", the first (" + std::to_string(values[bad.first]) +
+                   (bad.count == 1 ? "" : "s") + ", the first (" + shortest(values[bad.first]) +
                    ") at vertex " + std::to_string(bad.first));
 }
 

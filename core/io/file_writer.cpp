@@ -5,9 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <locale>
 #include <stdexcept>
 #include <streambuf>
@@ -19,6 +17,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/io/made_folders.h"
 #include "morsel/core/io/temporary_file.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::core {
 namespace {
@@ -161,17 +160,9 @@ void FileWriter::write_bytes(const void* data, std::size_t size) {
   output_->append(static_cast<const char*>(data), size);
 }
 
-void FileWriter::write_number(double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  output_->append(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
+void FileWriter::write_number(double value) { write(NumberText(value).view()); }
 
-void FileWriter::write_number(std::uint64_t value) {
-  std::array<char, 24> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  output_->append(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
+void FileWriter::write_number(std::uint64_t value) { write(NumberText(value).view()); }
 
 std::ostream& FileWriter::stream() { return output_->stream; }
 

@@ -1,7 +1,6 @@
 #include "morsel/core/text/parameters.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -33,12 +32,6 @@ bool parse_whole(std::string_view text, Number& value) {
 }
 
 }  // namespace
-
-std::string shortest(double value) {
-  std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
 
 std::string to_string(const Length& length) {
   const char* unit = length.unit == LengthUnit::epsilon ? "eps"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "morsel/core/mesh/length.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/specification.h"
 
 namespace morsel::core {
@@ -89,8 +90,5 @@ std::int64_t parse_integer(std::string_view text, std::string_view what);
 
 /// "0.25" (unit of the mesh), "8eps" or "3edges" (or "3edge").
 Length parse_length(std::string_view text, std::string_view what);
-
-/// The shortest text that reads back as the same double.
-std::string shortest(double value);
 
 }  // namespace morsel::core

@@ -12,7 +12,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
-#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/morse/operators/connected_ball.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/unit_size.h"

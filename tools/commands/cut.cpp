@@ -1,6 +1,5 @@
 // morsel cut: opens a surface into discs.
 
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -28,12 +27,6 @@ struct Options {
   std::string graph;
 };
 
-std::string length_text(double length) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", length);
-  return text;
-}
-
 /// A row a component, or all in one where there are many.
 std::string table(const CutOutcome& outcome) {
   constexpr std::size_t kMostRows = 20;
@@ -51,13 +44,13 @@ std::string table(const CutOutcome& outcome) {
     all.copies += part.copies;
     if (outcome.components.size() <= kMostRows)
       rows.push_back({std::to_string(c), grouped(part.vertices), grouped(part.genus), grouped(part.loops),
-                      grouped(part.paths), length_text(part.length_found), length_text(part.length),
+                      grouped(part.paths), core::to_digits(part.length_found), core::to_digits(part.length),
                       grouped(part.copies)});
   }
   if (outcome.components.size() > 1)
     rows.push_back({"all " + grouped(outcome.components.size()), grouped(all.vertices), grouped(all.genus),
-                    grouped(all.loops), grouped(all.paths), length_text(all.length_found),
-                    length_text(all.length), grouped(all.copies)});
+                    grouped(all.loops), grouped(all.paths), core::to_digits(all.length_found),
+                    core::to_digits(all.length), grouped(all.copies)});
   return text_table(rows);
 }
 

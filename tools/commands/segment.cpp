@@ -1,7 +1,5 @@
 // morsel segment: the segments of one field.
 
-#include <array>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -40,22 +38,15 @@ SegmentRequest segment_request(const Options& options) {
   return request;
 }
 
-/// As many digits as a person wants to read.
-std::string rounded(double value) {
-  std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
-  return buffer.data();
-}
-
 std::string described(const MadeSegments& made) {
   const MadeSegments::Areas areas = made.areas();
   std::string text = "segments: " + grouped(made.segments.count());
   if (made.cancelled_pairs > 0)
     text += " of " + grouped(made.unmerged) + " (" + grouped(made.cancelled_pairs) +
             (made.cancelled_pairs == 1 ? " pair" : " pairs") + " cancelled, of persistence up to " +
-            rounded(made.largest_persistence) + ")";
-  return text + "; area smallest " + rounded(areas.smallest) + ", median " + rounded(areas.median) +
-         ", largest " + rounded(areas.largest);
+            core::to_digits(made.largest_persistence) + ")";
+  return text + "; area smallest " + core::to_digits(areas.smallest) + ", median " +
+         core::to_digits(areas.median) + ", largest " + core::to_digits(areas.largest);
 }
 
 int segment(const Options& options, const CommonOptions& common, Console& console) {

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::tools {
 namespace {

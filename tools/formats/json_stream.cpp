@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/parallel/stop.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::tools {
 namespace {
@@ -28,10 +28,7 @@ struct CellWriter {
   std::string& text;
 
   void operator()(std::nullptr_t) const { text += "null"; }
-  void operator()(std::uint64_t value) const {
-    std::array<char, 20> digits;
-    text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-  }
+  void operator()(std::uint64_t value) const { text.append(core::NumberText(value).view()); }
   void operator()(double value) const {
     if (!std::isfinite(value)) return (*this)(nullptr);
     std::array<char, 64> digits;  // the library's own digits, so that rows and members look alike

@@ -1,18 +1,10 @@
 #include "morsel/tools/formats/text_table.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdio>
 
 #include "morsel/core/text/printable.h"
 
 namespace morsel::tools {
-
-std::string formatted(double value, const char* format) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 std::size_t display_width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(

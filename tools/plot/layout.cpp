@@ -6,6 +6,7 @@
 #include <set>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/tools/plot/ranges.h"
 
 namespace morsel::tools::plot {
@@ -307,8 +308,7 @@ class Layouter {
     std::vector<std::string> notes = plot_.notes;
     if (thinned_ > 0) {
       const auto tenths = static_cast<int>(std::ceil(coarsest_ * 10 - 1e-9));
-      notes.push_back("Of " + grouped_digits(std::to_string(thinned_)) + " crowded marks " +
-                      grouped_digits(std::to_string(left_of_thinned_)) +
+      notes.push_back("Of " + core::grouped(thinned_) + " crowded marks " + core::grouped(left_of_thinned_) +
                       " are drawn: one in each square of " + std::to_string(tenths / 10) + "." +
                       std::to_string(tenths % 10) + " points.");
     }

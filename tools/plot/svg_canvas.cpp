@@ -1,11 +1,10 @@
 #include "morsel/tools/plot/svg_canvas.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "morsel/core/text/numbers.h"
 #include "morsel/tools/formats/markup.h"
 
 namespace morsel::tools::plot {
@@ -13,10 +12,7 @@ namespace {
 
 /// With two decimals at most.
 std::string number(double value) {
-  std::array<char, 64> buffer;
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, 2).ptr;
-  std::string text(buffer.data(), end);
+  std::string text = core::to_decimals(value, 2);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
   return text == "-0" ? "0" : text;

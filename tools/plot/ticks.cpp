@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "morsel/core/text/numbers.h"
+
 namespace morsel::tools::plot {
 namespace {
 
@@ -38,7 +40,7 @@ std::string decimal(std::int64_t number, int exponent) {
     fraction = "." + digits.substr(digits.size() - decimals);
     digits.resize(digits.size() - decimals);
   }
-  return (number < 0 ? kMinus : "") + grouped_digits(digits) + fraction;
+  return (number < 0 ? kMinus : "") + core::grouped_digits(digits) + fraction;
 }
 
 /// The step between marks, multiple · 10^exponent.
@@ -206,15 +208,6 @@ std::string power_of_ten(int exponent) {
                                      "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
   std::string text = exponent < 0 ? "10\u207b" : "10";
   for (const char digit : std::to_string(std::abs(exponent))) text += kRaised[digit - '0'];
-  return text;
-}
-
-std::string grouped_digits(const std::string& digits) {
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
   return text;
 }
 

@@ -50,7 +50,4 @@ Ticks make_ticks(Interval shown, const Axis& axis, int count);
 /// 10⁻³ for −3.
 std::string power_of_ten(int exponent);
 
-/// 1234567 → "1,234,567".
-std::string grouped_digits(const std::string& digits);
-
 }  // namespace morsel::tools::plot

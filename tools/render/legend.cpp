@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
+
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::tools::render {
 namespace {
@@ -60,16 +61,11 @@ std::vector<double> ticks(double low, double high) {
 }
 
 std::string tick_text(double value, double step) {
-  char text[40];
   const double largest = std::max(std::abs(value), step);
   if (value == 0) return "0";
-  if (largest >= 1e6 || largest < 1e-4) {
-    std::snprintf(text, sizeof text, "%.3g", value);
-  } else {
-    const int digits = step > 0 ? std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))) : 3;
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-  }
-  std::string result = text;
+  const int decimals = step > 0 ? std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))) : 3;
+  std::string result =
+      largest >= 1e6 || largest < 1e-4 ? core::to_digits(value, 3) : core::to_decimals(value, decimals);
   for (std::size_t at = 0; (at = result.find('-', at)) != std::string::npos;) result.replace(at, 1, "\u2212");
   return result;
 }

@@ -1,13 +1,13 @@
 #include "morsel/tools/report/comparison_table.h"
 
-#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools {
 std::string field_line(const FieldOutcome& outcome) {
-  return outcome.name + ": " + formatted(outcome.field.min(), "%.6g") + " to " +
-         formatted(outcome.field.max(), "%.6g") + " on " + grouped(outcome.field.mesh().vertex_count()) +
+  return outcome.name + ": " + core::to_digits(outcome.field.min()) + " to " +
+         core::to_digits(outcome.field.max()) + " on " + grouped(outcome.field.mesh().vertex_count()) +
          " vertices";
 }
 
@@ -29,7 +29,7 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
        grouped(m.diagram.count_above(0.01 * outcome.field.extent()) + m.diagram.cap_pairs().size()),
        grouped(m.complex.arc_count()), grouped(m.segmentation.morse_smale.count),
        grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
-       formatted(seconds, "%.2f")});
+       core::to_decimals(seconds, 2)});
   if (outcome.target && !outcome.target->note.empty())
     notes_ += core::printable(outcome.specification + ": " + outcome.target->note) + "\n";
 }

@@ -12,11 +12,11 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string rounded(const Estimate& estimate, double unit = 1) {
-  return estimate.count == 0 ? "" : formatted(estimate.mean / unit, "%.3f");
+  return estimate.count == 0 ? "" : core::to_decimals(estimate.mean / unit, 3);
 }
 
 std::string width(const Estimate& estimate) {
-  return estimate.half_width ? formatted(*estimate.half_width, "%.3f") : "";
+  return estimate.half_width ? core::to_decimals(*estimate.half_width, 3) : "";
 }
 
 class Tables {
@@ -28,8 +28,8 @@ class Tables {
     for (const FieldOutcome& field : result_.fields) text += field_line(field) + "\n";
     text += std::to_string(plan_.trials) + (plan_.trials == 1 ? " trial" : " trials") + ", seed " +
             std::to_string(plan_.seed) + "; " + (plan_.points == PointChoice::all ? "points" : "extrema") +
-            " matched within " + formatted(result_.radius, "%.6g") + "; mean edge length " +
-            formatted(result_.mean_edge_length, "%.6g") + ", the unit of noise and drift\n";
+            " matched within " + core::to_digits(result_.radius) + "; mean edge length " +
+            core::to_digits(result_.mean_edge_length) + ", the unit of noise and drift\n";
     for (const std::optional<std::size_t>& target : plan_.targets)
       text += (target ? "\nTarget " + std::to_string(*target) : "\nEach method's own count") + "\n" +
               text_table(clean_rows(target)) + "\n" + text_table(perturbed_rows(target));
@@ -50,8 +50,8 @@ class Tables {
       if (outcome.target != target) continue;
       rows.push_back({name(outcome), grouped(outcome.points.minima), grouped(outcome.points.saddles),
                       grouped(outcome.points.maxima), grouped(outcome.points.total()),
-                      grouped(outcome.with_reference.found), formatted(outcome.agreement(), "%.3f"),
-                      formatted(outcome.chance, "%.3f")});
+                      grouped(outcome.with_reference.found), core::to_decimals(outcome.agreement(), 3),
+                      core::to_decimals(outcome.chance, 3)});
     }
     return rows;
   }
@@ -65,7 +65,7 @@ class Tables {
         const PerturbationOutcome& perturbed = outcome.perturbations[p];
         const Estimate f = perturbed.f_score();
         rows.push_back({to_string(perturbed.perturbation), name(outcome),
-                        formatted(perturbed.found().mean, "%.1f"), rounded(f), width(f),
+                        core::to_decimals(perturbed.found().mean, 1), rounded(f), width(f),
                         rounded(perturbed.recall()), rounded(perturbed.precision()),
                         rounded(perturbed.drift(), result_.mean_edge_length), rounded(perturbed.chance())});
       }

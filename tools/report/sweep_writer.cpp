@@ -129,8 +129,8 @@ std::string sweep_table(const SweepReport& report) {
     cells.push_back(grouped(row.persistence.pairs));
     cells.push_back(grouped(row.persistence.above[1]));
     const std::optional<double>& largest = row.persistence.largest;
-    cells.push_back(largest ? formatted(*largest, "%.6g") : "");
-    cells.push_back(formatted(row.seconds.sum(), "%.2f"));
+    cells.push_back(largest ? core::to_digits(*largest) : "");
+    cells.push_back(core::to_decimals(row.seconds.sum(), 2));
   }
   return text_table(rows);
 }

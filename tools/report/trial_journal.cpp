@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/types.h"
 
 namespace morsel::tools {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "morsel/core/text/parameters.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools::reproduce {

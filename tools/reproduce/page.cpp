@@ -1,7 +1,6 @@
 #include "morsel/tools/reproduce/page.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <vector>
 
 #include "morsel/tools/formats/base64.h"
@@ -23,13 +22,7 @@ std::string breakable(std::string_view keys) {
 }
 
 std::string seconds_text(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text,
-                seconds < 0.0995  ? "%.3f s"
-                : seconds < 0.995 ? "%.2f s"
-                                  : "%.1f s",
-                seconds);
-  return text;
+  return core::to_decimals(seconds, seconds < 0.0995 ? 3 : seconds < 0.995 ? 2 : 1) + " s";
 }
 
 std::vector<std::string> lines_of(const std::string& text) {

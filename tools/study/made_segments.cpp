@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/text/grouped.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::tools {
 

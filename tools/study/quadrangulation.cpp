@@ -1,10 +1,9 @@
 #include "morsel/tools/study/quadrangulation.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/text/grouped.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/tools/study/comparison.h"
 
@@ -27,12 +26,6 @@ Simplified simplify(const core::ScalarField& field, const QuadPlan& plan, const 
 
 std::string plural(std::size_t count, const char* one, const char* many) {
   return core::grouped(count) + " " + (count == 1 ? one : many);
-}
-
-std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
 }
 
 }  // namespace
@@ -105,15 +98,18 @@ std::string described(const Quadrangulation& result, double diagonal) {
   for (std::size_t k = 0; k < q.valence.size(); ++k)
     if (q.valence[k] > 0) text += " " + std::to_string(k) + ": " + core::grouped(q.valence[k]) + ",";
   text.pop_back();
-  text += "\nangles: off 90° by " + number(q.angle_mean, 1) + "° in the mean, " + number(q.angle_max, 1) +
-          "° at most; scaled Jacobian " + number(q.scaled_jacobian_mean, 3) + " in the mean, " +
-          number(q.scaled_jacobian_min, 3) + " at least; " + plural(q.concave, "quad", "quads") +
+  text += "\nangles: off 90° by " + core::to_decimals(q.angle_mean, 1) + "° in the mean, " +
+          core::to_decimals(q.angle_max, 1) + "° at most; scaled Jacobian " +
+          core::to_decimals(q.scaled_jacobian_mean, 3) + " in the mean, " +
+          core::to_decimals(q.scaled_jacobian_min, 3) + " at least; " + plural(q.concave, "quad", "quads") +
           " not convex";
-  text += "\nareas: standard deviation " + number(100 * q.area_deviation, 0) + " % of the mean, from " +
-          number(q.area_min, 3) + " to " + number(q.area_max, 2) + " times it";
+  text += "\nareas: standard deviation " + core::to_decimals(100 * q.area_deviation, 0) +
+          " % of the mean, from " + core::to_decimals(q.area_min, 3) + " to " +
+          core::to_decimals(q.area_max, 2) + " times it";
   const double percent = diagonal > 0 ? 100 / diagonal : 0;
-  text += "\ndistance: " + number(percent * q.distance_max, 2) + " % of the diagonal at most to the input, " +
-          number(percent * q.distance_from_input, 2) + " % from it\n";
+  text += "\ndistance: " + core::to_decimals(percent * q.distance_max, 2) +
+          " % of the diagonal at most to the input, " +
+          core::to_decimals(percent * q.distance_from_input, 2) + " % from it\n";
   return text;
 }
 

@@ -2,11 +2,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <unordered_set>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/specification.h"
 
 namespace morsel::tools {
@@ -32,9 +32,7 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
 }
 
 std::string written(double number, const std::string& unit) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.12g", number);  // hides that 0.1 + 0.2 is not 0.3
-  return text + unit;
+  return core::to_digits(number, 12) + unit;  // hides that 0.1 + 0.2 is not 0.3
 }
 
 /// Where each ".." is.

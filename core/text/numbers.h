@@ -1,0 +1,47 @@
+#pragma once
+/// Numbers as text: how they are written to files, for people and back and forth.
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace morsel::core {
+
+/// The shortest text that reads back as the same number, without an allocation: for files of many.
+class NumberText {
+ public:
+  explicit NumberText(double value) : NumberText(value, 0) {}
+  explicit NumberText(std::uint64_t value) : NumberText(value, 0) {}
+  std::string_view view() const { return {text_.data(), size_}; }
+
+ private:
+  template <class Number>
+  NumberText(Number value, int)
+      : size_(static_cast<std::size_t>(std::to_chars(text_.data(), text_.data() + text_.size(), value).ptr -
+                                       text_.data())) {}
+
+  std::array<char, 32> text_;
+  std::size_t size_;
+};
+
+/// The same as a string.
+inline std::string shortest(double value) { return std::string(NumberText(value).view()); }
+
+/// As many significant digits as a person wants to read.
+inline constexpr int kReadableDigits = 6;
+
+/// Rounded to that many significant digits, as printf's %g: 1234567 → "1.23457e+06", 0.5 → "0.5".
+std::string to_digits(double value, int digits = kReadableDigits);
+
+/// With that many decimals, as printf's %f: 0.5 → "0.50".
+std::string to_decimals(double value, int decimals);
+
+/// 1234567 → "1,234,567".
+std::string grouped(std::uint64_t number);
+/// The same for digits of any number.
+std::string grouped_digits(std::string_view digits);
+
+}  // namespace morsel::core
