@@ -54,15 +54,15 @@ Json to_json(const std::vector<core::IterationRecord>& iterations) {
 
 Json tool_section() { return {{"name", "morsel"}, {"version", kVersion}}; }
 
-Json field_parameters(const FieldOutcome& outcome) {
-  Json parameters = to_json(outcome.parameters);
-  for (const FieldFile& file : outcome.files) parameters[file.key + "_sha256"] = sha256_of_file(file.path);
-  return parameters;
+Json field_parameters(const core::Parameters& parameters, const std::vector<FieldFile>& files) {
+  Json section = to_json(parameters);
+  for (const FieldFile& file : files) section[file.key + "_sha256"] = sha256_of_file(file.path);
+  return section;
 }
 
 Json field_section(const FieldOutcome& outcome) {
   return {{"name", outcome.name},
-          {"parameters", field_parameters(outcome)},
+          {"parameters", field_parameters(outcome.parameters, outcome.files)},
           {"min", outcome.field.min()},
           {"max", outcome.field.max()}};
 }

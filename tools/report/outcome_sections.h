@@ -21,7 +21,7 @@ Json to_json(const std::vector<core::IterationRecord>& iterations);
 Json tool_section();
 /// A field's parameters as they were resolved, and KEY_sha256 for a KEY that names a file, which is read
 /// here. Throws BadInput if it cannot be.
-Json field_parameters(const FieldOutcome& outcome);
+Json field_parameters(const core::Parameters& parameters, const std::vector<FieldFile>& files);
 /// {"name", "parameters", "min", "max"}
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}

@@ -117,7 +117,8 @@ Provenance::Provenance(std::string_view command, Json request, const FieldSource
 }
 
 void Provenance::set_field(const FieldOutcome& field) {
-  document_["field"] = {{"name", field.name}, {"parameters", field_parameters(field)}};
+  document_["field"] = {{"name", field.name},
+                        {"parameters", field_parameters(field.parameters, field.files)}};
   for (Json& file : files_section(hashed_files(field))) document_["inputs"].push_back(std::move(file));
 }
 

@@ -173,7 +173,8 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
   const StabilityResult& result = report.result;
   std::vector<Json> parameters;
   parameters.reserve(result.fields.size());
-  for (const FieldOutcome& field : result.fields) parameters.push_back(field_parameters(field));
+  for (const FieldOutcome& field : result.fields)
+    parameters.push_back(field_parameters(field.parameters, field.files));
   for (const StabilityOutcome& outcome : result.outcomes)
     for (const PerturbationOutcome& perturbed : outcome.perturbations) {
       const Perturbation& perturbation = perturbed.perturbation;
