@@ -1,5 +1,6 @@
-# complete.zsh FOLDER LINE: what zsh offers at the end of a command line, a word a line, with the completions that
-# are in the folder. An interactive zsh, on a terminal of its own, has a compadd that prints what it is given.
+# complete.zsh FOLDER LINE: what zsh offers at the end of a command line, a word a line, with the completions
+# that are in the folder. An interactive zsh, on a terminal of its own, has a compadd that prints what it is
+# given.
 zmodload zsh/zpty
 
 init=$(mktemp)

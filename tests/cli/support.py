@@ -44,8 +44,8 @@ DAMAGED = """OFF
 3 0 3 3
 """
 
-# The commands on a mesh that must be whole: words that are quick, {} being the mesh, and each option that names
-# a file to write, with the ending of the file.
+# The commands on a mesh that must be whole: words that are quick, {} being the mesh, and each option that
+# names a file to write, with the ending of the file.
 ON_MESH = {
     "compare": (("compare", "{}", "--method", "conventional"), {"-o": ".json", "--html": ".html"}),
     "field": (("field", "{}"), {"-o": ".txt"}),

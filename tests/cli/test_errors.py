@@ -20,7 +20,8 @@ class RefusedMesh(ProgramTest):
         damaged = self.file("damaged.off", DAMAGED)
         for command, (words, options) in ON_MESH.items():
             with self.subTest(command=command):
-                outputs = (word for option, ending in options.items() for word in (option, f"out{option}{ending}"))
+                outputs = (word for option, ending in options.items()
+                           for word in (option, f"out{option}{ending}"))
                 result = self.morsel(*(word.format(damaged) for word in words), *outputs, code=3)
                 self.assertIn("damaged.off", result.stderr)
                 self.assertIn("--repair", result.stderr)
@@ -147,7 +148,8 @@ class Usage(ProgramTest):
             text = self.morsel(command, "--help").stdout
             self.assertEqual(self.morsel("help", command).stdout, text)
             self.assertTrue(text.startswith(f"Usage: morsel {command} "), text)
-            self.assertGreaterEqual(len(re.findall(rf"\n  morsel {command}\b", text.split("Examples:")[1])), 2)
+            examples = text.split("Examples:")[1]
+            self.assertGreaterEqual(len(re.findall(rf"\n  morsel {command}\b", examples)), 2)
             for internal in ("->", "POSITIVE", "INT in", "{false}", "OR {"):
                 self.assertNotIn(internal, text)
             self.assertLessEqual(len(text.splitlines()), 48, command)

@@ -86,7 +86,8 @@ class ManualTest(ProgramTest):
                             ("morsel compare scan.off --method tp", {"tps"}),
                             ("morsel scan.off --method tp", {"tps"}),
                             ("morsel compare scan.off --up ", {"x", "y", "z"}),
-                            ("morsel compare sc", {"scan.off"}), ("morsel field scan.off -o sc", {"scan.off"}),
+                            ("morsel compare sc", {"scan.off"}),
+                            ("morsel field scan.off -o sc", {"scan.off"}),
                             ("morsel methods sali", {"salient", "saliency"}),
                             ("morsel cut compare --no-s", {"--no-shorten"}),
                             ("morsel render scan.off --ar", {"--arcs"})):

@@ -573,7 +573,8 @@ class Outputs(OwnershipTest):
         self.morsel("compare", "m.off", *QUICK, "-o", "/dev/null", "--html", "/dev/null")
         self.morsel("cut", "m.off", "-o", "c.off", "--json", "/dev/null", "--graph", "g.vtp")
         self.morsel("compare", "m.off", *QUICK, "-o", "/dev/stdout", "--html", "/dev/stdout")
-        result = subprocess.run(f"'{PROGRAM}' compare m.off {' '.join(QUICK)} -o /dev/stdout --html /dev/stdout > both",
+        result = subprocess.run(f"'{PROGRAM}' compare m.off {' '.join(QUICK)} -o /dev/stdout "
+                                "--html /dev/stdout > both",
                                 shell=True, cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         result = subprocess.run(f"'{PROGRAM}' compare m.off -o /dev/stdout >> m.off", shell=True,

@@ -221,8 +221,8 @@ class Provenance(ProgramTest):
         self.check(files, "render", [self.mesh], ["salient"])
         document = of_png(files["p.png"])
         self.assertEqual(document["command"],
-                         "morsel render 'a mesh--1.off' --method salient --size 160x120 --samples 1 --inset 7 "
-                                              "--view=-20/10 --caption 'über <&> --'")
+                         "morsel render 'a mesh--1.off' --method salient --size 160x120 --samples 1 "
+                         "--inset 7 --view=-20/10 --caption 'über <&> --'")
         self.assertEqual(document["picture"]["inset"], {"vertex": 7, "radius": "15eps"})
         self.assertEqual((document["picture"]["view"], document["picture"]["caption"]),
                          ("-20/10", "über <&> --"))

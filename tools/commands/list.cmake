@@ -1,5 +1,5 @@
-# From the names in ${commands}: ${command_sources}, their files and one that is made here, in which add_commands()
-# (commands/commands.h) calls add_NAME() of each.
+# From the names in ${commands}: ${command_sources}, their files and one that is made here, in which
+# add_commands() (commands/commands.h) calls add_NAME() of each.
 set(command_sources ${PROJECT_BINARY_DIR}/generated/add_commands.cpp)
 set(declarations "")
 set(calls "")
