@@ -1,5 +1,5 @@
-# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs BUILD and uses
-# what was installed.
+# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs
+# BUILD and uses what was installed.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)

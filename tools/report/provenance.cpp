@@ -1,12 +1,10 @@
 #include "morsel/tools/report/provenance.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_bytes.h"
-#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -168,27 +166,6 @@ std::string Provenance::html_comment() const {
   std::string text = json();
   replace_all(text, "--", "-\\u002d");  // which would end it
   return "<!-- " + text + " -->\n";
-}
-
-std::string shaping_command(const std::vector<std::string>& words) {
-  constexpr std::array<std::string_view, 11> kWithValue = {
-      "-o",     "--output",     "--json", "--graph",   "--export",    "--figures",
-      "--html", "--thumbnails", "--out",  "--threads", "--html-place"};
-  std::vector<std::string> kept;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (word == "--") {
-      kept.insert(kept.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
-      break;
-    }
-    const std::string name = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    if (word == "--quiet") continue;
-    if (std::ranges::find(kWithValue, name) == kWithValue.end())
-      kept.push_back(word);
-    else if (word == name)
-      ++i;
-  }
-  return command_line(kept);
 }
 
 Json find_provenance(std::string_view bytes) {

@@ -52,9 +52,6 @@ class Provenance {
   Json document_;
 };
 
-/// The command's words, the program's name first, as `command` of a Provenance has them.
-std::string shaping_command(const std::vector<std::string>& words);
-
 /// The provenance that the bytes of a file hold, in whatever format; null if there is none. It is untrusted:
 /// throws BadInput if it is cut off, longer than 1 MiB, nested deeper than any that the program writes, or
 /// has not the members above.
