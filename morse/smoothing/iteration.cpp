@@ -44,7 +44,7 @@ void check(const StopCriteria& criteria) {
                           core::shortest(*criteria.until_change));
 }
 
-/// "none", or what `parse` makes of the text.
+/// Empty for "none", else the text as read by `parse`.
 template <class Parse>
 auto optional_value(core::ParameterReader& reader, const char* key, const char* description,
                     const Parse& parse) -> std::optional<decltype(parse(std::string(), std::string()))> {

@@ -172,7 +172,7 @@ TEST_CASE("every method that tells its results tells, bit by bit, what fewer ite
       return tools::Registry::standard().make_method(text + "iterations=" + std::to_string(iterations));
     };
     const tools::MethodChain longest = method(4);
-    REQUIRE(longest.steps[0].method->traits().tells_results);
+    REQUIRE(longest.steps[0].method->traits().iterates_are_results);
     core::MethodContext context = tools::method_context(mesh, function);
     context.on_iteration = [&](int i, const core::ScalarField& f) {
       told[i] = keep(f);
@@ -195,12 +195,12 @@ TEST_CASE("every method that tells its results tells, bit by bit, what fewer ite
                   .make_method("salient:classify=saliency")
                   .steps[0]
                   .method->traits()
-                  .tells_results);
+                  .iterates_are_results);
   CHECK_FALSE(tools::Registry::standard()
                   .make_method("salient:accuracy=1e-4")
                   .steps[0]
                   .method->traits()
-                  .tells_results);
+                  .iterates_are_results);
 }
 
 TEST_CASE("rows are what each combination gives by itself") {

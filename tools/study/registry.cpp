@@ -165,7 +165,7 @@ MethodChain Registry::make_method(std::string_view specification) const {
     const MethodEntry& entry = find_entry(methods_, link.name, "method");
     const std::string text = core::to_string(link);
     MethodStep step{entry.name, make_entry(entry, std::move(link))};
-    if (step.method->traits().retakes_field && !chain.steps.empty())
+    if (step.method->traits().reevaluates_function && !chain.steps.empty())
       throw core::InvalidArgument(text + " takes the Morse function again and does not use the field of " +
                                   chain.name + ", so it can only be the first step of a chain");
     chain.name += (chain.name.empty() ? "" : "+") + step.name;

@@ -118,7 +118,7 @@ class SweepRun {
     };
     const auto readable = [&](std::size_t i) {
       return iterations_of(specification(i)) &&
-             make_step(specification(i)).steps.front().method->traits().tells_results;
+             make_step(specification(i)).steps.front().method->traits().iterates_are_results;
     };
     const auto text = [&](std::size_t i) {
       return to_string(readable(i) ? without_iterations(specification(i)) : specification(i));
