@@ -14,7 +14,7 @@ bool is_same(const core::ScalarField& a, const core::ScalarField& b) {
   return std::ranges::equal(a.values(), b.values()) && std::ranges::equal(a.ranks(), b.ranks());
 }
 
-/// Watches one step: shows its fields to the tracker and to the search for the wanted number.
+/// Observes one step: passes its fields to the tracker and to the search for the wanted number.
 class StepWatcher {
  public:
   /// Either may be null.
@@ -29,7 +29,7 @@ class StepWatcher {
     return pass(field);
   }
 
-  /// The step's result, unless its last iteration made it.
+  /// The step's result, unless it is the field of its last iteration.
   void finish(const core::ScalarField& field) {
     if (!wanted() || ended_) return;
     const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->reached();
@@ -61,8 +61,8 @@ class StepWatcher {
   morse::CriticalPointTracker* tracker_;
   TargetSearch* search_;
   std::optional<morse::CriticalPointTracker> at_start_;  // once the first iteration is seen
-  int last_ = std::numeric_limits<int>::max();           // the number told; a first one begins
-  bool passed_ = false;                                  // a field that counts
+  int last_ = std::numeric_limits<int>::max();  // the last reported number; a smaller one is a new start
+  bool passed_ = false;                         // a field that counts
   bool ended_ = false;
 };
 
