@@ -125,7 +125,7 @@ void RowFinder::begin(std::size_t depth, bool is_array) {
   levels_[depth].is_array = is_array;
   levels_[depth].size = 0;
   if (PackedRows* rows = is_array ? found(depth) : nullptr) {
-    rows->clear();  // JSON lets a key be there twice; the last counts
+    rows->clear();  // JSON allows a key twice; the last one counts
     row_depth_ = depth + 1;
     rows_ = rows;
   }

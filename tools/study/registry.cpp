@@ -58,7 +58,7 @@ std::vector<MethodEntry> standard_methods() {
       MethodEntry{"denoise",
                   "smoothing of the surface before the function is evaluated again (Fleishman et al. 2003)",
                   morse::make_denoise},
-      MethodEntry{"fair", "harmonic except for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
+      MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
       MethodEntry{"gaussian", "Gaussian averages, the paper's equation (1)", morse::make_gaussian},
       MethodEntry{"laplacian",
                   "Laplacian smoothing of the field (Ni, Garland, Hart 2004), explicit or implicit",
