@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "mscomplex": {"core", "persistence", "mscomplex"},
     "tools": {*LIBRARY, "tools"},
 }
-# The rooms of tools, from the ground up.
+# The rooms of tools, from the lowest floor up.
 FLOORS = (
     ("study", "formats", "results", "drawing"),
     ("molecule",),
@@ -35,11 +35,11 @@ FLOORS = (
 )
 FLOOR_OF = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 MAY_PRINT = ("commands", "manual", "main.cpp", "batch")  # batch: its children between fork and exec
-# What a study does without, so that Python and a browser can be built on it.
+# What study must not include, so that Python bindings and a browser version can be built on it.
 NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build", "embree3/", "openvdb/", "CLI/")
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
 NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
-                  "ft2build")  # what only sources include, a user of the installed library need not have
+                  "ft2build")  # included by sources only: users of the installed library do not need these
 NOT_IN_TOOLS = ("catch2/", "phat/", "vtk")
 PRINTS_OR_EXITS = re.compile(
     r"(?<![\w.])(?:cout|cerr|clog|stdout|stderr|STDOUT_FILENO|STDERR_FILENO)\b"
