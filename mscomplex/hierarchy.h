@@ -85,7 +85,7 @@ class PersistenceHierarchy {
 
   /// The discrete gradient with the V-paths between cancelled cells reversed (Forman 1998), whose critical
   /// cells are those alive. So MorseSmaleComplex(field, gradient(level)) is the complex of that
-  /// level with the geometry of its arcs (its nodes and arcs are numbered anew, in the same order), and
+  /// level with the geometry of its arcs (its nodes and arcs are renumbered, in the same order), and
   /// segment(field, gradient(level)) its segmentation. O(n) and the lengths of the V-paths.
   DiscreteGradient gradient(core::Index level) const;
 

@@ -36,7 +36,7 @@ RepairedComplex repair_dangling(const core::ScalarField& field, MorseSmaleComple
 struct LayoutOptions {
   /// How often all nodes are moved to the middle of the patches around them, and their arcs drawn again. 0
   /// leaves minima and maxima at their critical vertices, and saddles at the midpoints of their critical
-  /// edges. Each time edges are split where arcs come to run: time and triangles grow by a third or so.
+  /// edges. Each time edges are split along the new arcs: time and triangles grow by a third or so.
   int relaxation = 2;
 };
 

@@ -74,14 +74,14 @@ class IterationCallback {
   /// No callback is set: no iteration is wanted.
   IterationCallback() = default;
   /// Without `wants` all iterations are wanted.
-  template <class Told>
-  requires(!std::same_as<Told, IterationCallback> && std::convertible_to<Told, Call>)
-      IterationCallback(Told call, Choice wants = {})
+  template <class Callable>
+  requires(!std::same_as<Callable, IterationCallback> && std::convertible_to<Callable, Call>)
+      IterationCallback(Callable call, Choice wants = {})
       : call_(std::move(call)), wants_(std::move(wants)) {}
 
   /// Whether this iteration is to be reported; if not, the method need not make its field.
   bool wants(int iteration) const { return call_ && (!wants_ || wants_(iteration)); }
-  /// Reports the iteration if it is wanted; returns whether the method is to go on.
+  /// Reports the iteration if it is wanted; returns whether the method is to continue.
   bool operator()(int iteration, const ScalarField& field) const {
     return !wants(iteration) || call_(iteration, field);
   }

@@ -34,7 +34,8 @@ class RimWalk {
     while (!walls.is_wall(TriangleMesh::previous(inside))) inside = mesh.twin(TriangleMesh::previous(inside));
     start_ = here_ = TriangleMesh::previous(inside);
   }
-  /// Calls visit(h) for each half-edge that leaves the corner here inwards and goes on along the rim.
+  /// Calls visit(h) for each half-edge that leaves the corner here inwards, and takes the next step along the
+  /// rim.
   template <class Visit>
   void step(const Visit& visit) {
     Index h = TriangleMesh::next(here_);

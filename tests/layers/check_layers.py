@@ -142,7 +142,7 @@ def public_headers(text):
 
 
 def check_public_headers(root):
-    """Yields the complaints about the lists of public headers: each header exists, stands there once, and
+    """Yields the complaints about the lists of public headers: each header exists, is listed once, and
     includes public headers only."""
     public, texts = set(), {}
     for listing in sorted(root.rglob("CMakeLists.txt")):

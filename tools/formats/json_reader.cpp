@@ -134,7 +134,7 @@ class Builder {
     if (bytes_.is_at_end())
       bytes_.refuse("it is cut off, or wrong at its end, after " + std::to_string(bytes_.position()) +
                     " bytes");
-    bytes_.refuse(at + " cannot stand there");
+    bytes_.refuse(at + " is unexpected");
   }
 
  private:

@@ -65,9 +65,9 @@ class ReportFollower : public JsonFollower {
 
  private:
   void check_schema(const Json& value) const {
-    const std::string told = value.is_string() ? value.get<std::string>() : "none";
-    if (!schema_.empty() && told != schema_)
-      throw OtherDocument(name_ + " is not a comparison report: its schema is \"" + told + "\", not \"" +
+    const std::string actual = value.is_string() ? value.get<std::string>() : "none";
+    if (!schema_.empty() && actual != schema_)
+      throw OtherDocument(name_ + " is not a comparison report: its schema is \"" + actual + "\", not \"" +
                           std::string(schema_) + "\"");
   }
 

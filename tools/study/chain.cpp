@@ -86,18 +86,18 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
   ChainOutcome outcome{field, {}, {}};
   for (const MethodStep& step : chain.steps) {
     const bool is_last = &step == &chain.steps.back();
-    const core::IterationCallback told = is_last ? options.on_iteration : core::IterationCallback();
+    const core::IterationCallback callback = is_last ? options.on_iteration : core::IterationCallback();
     std::optional<TargetSearch> search;
     if (options.target && is_last)
       search.emplace(outcome.field, *options.target, !step.method->traits().cancels_pairs, progress);
     StepWatcher watcher(options.tracker, search ? &*search : nullptr);
-    context.on_iteration = told;
+    context.on_iteration = callback;
     if (watcher.wanted())
       context.on_iteration = [&](int number, const core::ScalarField& passed) {
         const bool go_on = watcher.iteration(number, passed);
-        return told(number, passed) && go_on;
+        return callback(number, passed) && go_on;
       };
-    told(0, outcome.field);
+    callback(0, outcome.field);
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
     outcome.steps.push_back(

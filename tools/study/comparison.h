@@ -91,7 +91,7 @@ class ComparisonSink {
   virtual void method(const MethodOutcome& outcome) = 0;
 };
 
-/// A comparison whose names have been looked up.
+/// A checked request: its names have been looked up.
 struct ComparisonPlan {
   NamedFunction function;
   std::vector<MethodChain> chains;

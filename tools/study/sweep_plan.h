@@ -36,7 +36,7 @@ struct SweepPlan {
 /// The most combinations of one sweep.
 inline constexpr std::size_t kMostCombinations = 1'000'000;
 
-/// A key is looked for in the field and in all steps of the method; where several have it, it is written
+/// A key is looked for in the field and in all steps of the method; if several have it, it is written
 /// "field.KEY", "NAME.KEY" or, with the number of the step from 1 on, "2.KEY".
 ///
 /// Throws InvalidArgument if nothing varies, on keys that neither the field nor a step has or that are

@@ -9,9 +9,8 @@
 namespace morsel::tools {
 
 struct Variation {
-  std::string key;  ///< as given: "sigma", "salient.sigma", "2.sigma", "field.scale"
-  std::vector<std::string>
-      values;  ///< one or more, all different, as they would stand in --field or --method
+  std::string key;                  ///< as given: "sigma", "salient.sigma", "2.sigma", "field.scale"
+  std::vector<std::string> values;  ///< one or more, all different, in the syntax of --field or --method
 };
 
 /// The most values of one variation.
