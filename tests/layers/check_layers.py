@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "mscomplex": {"core", "persistence", "mscomplex"},
     "tools": {*LIBRARY, "tools"},
 }
-# The rooms of tools, from the ground up.
+# The rooms of tools, from the lowest floor up.
 FLOORS = (
     ("study", "formats", "results", "drawing"),
     ("molecule",),
@@ -40,7 +40,7 @@ NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build",
                 "openvdb/", "CLI/")
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
 NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
-                  "ft2build")  # what only sources include, a user of the installed library need not have
+                  "ft2build")  # included by sources only: users of the installed library do not need these
 NOT_IN_TOOLS = ("catch2/", "phat/", "vtk")
 PRINTS_OR_EXITS = re.compile(
     r"(?<![\w.])(?:cout|cerr|clog|stdout|stderr|STDOUT_FILENO|STDERR_FILENO)\b"
@@ -143,7 +143,7 @@ def public_headers(text):
 
 
 def check_public_headers(root):
-    """Yields the complaints about the lists of public headers: each header exists, stands there once, and
+    """Yields the complaints about the lists of public headers: each header exists, is listed once, and
     includes public headers only."""
     public, texts = set(), {}
     for listing in sorted(root.rglob("CMakeLists.txt")):

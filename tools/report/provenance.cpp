@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kBegin = R"({"schema":"morsel.provenance/1")";
 constexpr std::string_view kBeginInTable = R"({""schema"":""morsel.provenance/1"")";
 constexpr std::size_t kLine = 150;
-constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; what follows in a file may be large
+constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; the rest of the file may be large
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
   std::string replaced;
@@ -52,7 +52,7 @@ std::string_view first_object(std::string_view text) {
   return text.substr(0, size);
 }
 
-/// The lines from `at` on without the mark that they all begin with, put together.
+/// The lines from `at` on without the mark that they all begin with, joined.
 std::string marked_lines(std::string_view text, std::size_t at) {
   const std::size_t before = text.substr(0, at).find_last_of("\r\n");
   const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
@@ -80,7 +80,7 @@ std::string table_field(std::string_view text) {
   return field;
 }
 
-/// Whether it is what provenance.schema.json describes.
+/// Checks it against provenance.schema.json.
 void check(const JsonView& provenance) {
   const auto check_made = [](const JsonView& made) {
     static_cast<void>(made["name"].text());
