@@ -22,9 +22,9 @@ Pair make_pair(Index minimum, Index top) { return Pair{minimum} << 32 | top; }
 Index minimum_of(Pair pair) { return static_cast<Index>(pair >> 32); }
 Index top_of(Pair pair) { return static_cast<Index>(pair); }
 
-class Segmenter {
+class SegmentLabeling {
  public:
-  Segmenter(const core::ScalarField& field, const DiscreteGradient& gradient)
+  SegmentLabeling(const core::ScalarField& field, const DiscreteGradient& gradient)
       : mesh_(gradient.mesh()), rank_(field.ranks()), gradient_(gradient) {}
 
   void follow_vertices() {
@@ -206,16 +206,16 @@ Segmentation segment(const core::ScalarField& field, const DiscreteGradient& gra
   if (!gradient.mesh().is_same(field.mesh()))
     throw core::InvalidArgument("the gradient is on another mesh than the field: compute it from this field");
   progress.update("segmentation", 0);
-  Segmenter segmenter(field, gradient);
-  segmenter.follow_vertices();
+  SegmentLabeling labeling(field, gradient);
+  labeling.follow_vertices();
   progress.update("segmentation", 0.2);
-  segmenter.follow_triangles();
+  labeling.follow_triangles();
   progress.update("segmentation", 0.4);
-  segmenter.carry_over();
+  labeling.carry_over();
   progress.update("segmentation", 0.7);
-  segmenter.pair_up();
+  labeling.pair_up();
   progress.update("segmentation", 1);
-  return segmenter.take();
+  return labeling.take();
 }
 
 }  // namespace morsel::mscomplex

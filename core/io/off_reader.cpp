@@ -11,7 +11,7 @@ namespace morsel::core {
 namespace {
 
 /// The header's contents.
-struct Header {
+struct OffHeader {
   bool texture = false;
   bool color = false;
   bool normal = false;
@@ -29,7 +29,7 @@ class Reader {
         progress_(progress) {}
 
   /// Of a piece of a file whose header was read.
-  Reader(std::string_view lines, char terminator, const Header& header, const std::string& file,
+  Reader(std::string_view lines, char terminator, const OffHeader& header, const std::string& file,
          const Progress& progress)
       : file_(file),
         scanner_(lines, file, {.comment = '#', .continuation = false, .terminator = terminator}, progress),
@@ -188,7 +188,7 @@ class Reader {
   const std::string& file_;
   TextScanner scanner_;
   const Progress& progress_;
-  Header header_;
+  OffHeader header_;
   LoadedSoup result_;
 };
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <utility>
 
+#include "morsel/core/mesh/edge_sides.h"
 #include "morsel/core/parallel/interruptible.h"
 #include "morsel/core/parallel/union_find.h"
 #include "morsel/core/text/listed.h"
@@ -65,15 +65,6 @@ class Tally {
   Defect defect_;
 };
 
-struct HalfEdge {
-  Index smaller;
-  Index larger;
-  Index halfedge;
-  bool operator<(const HalfEdge& o) const {
-    return std::tie(smaller, larger, halfedge) < std::tie(o.smaller, o.larger, o.halfedge);
-  }
-};
-
 /// Collects faces, of which several triangles may be parts; triangles come in ascending order.
 class FaceTally {
  public:
@@ -131,12 +122,10 @@ std::vector<bool> sound_faces(std::size_t vertices, std::span<const Triangle> tr
 void check_edges(std::span<const Triangle> triangles, std::span<const Index> faces,
                  const std::vector<bool>& sound, std::vector<std::pair<Index, Index>>& joins,
                  std::vector<Defect>& defects) {
-  std::vector<HalfEdge> halfedges;
+  std::vector<EdgeSide> halfedges;
   for (Index t = 0; t < triangles.size(); ++t)
-    for (Index i = 0; sound[t] && i < 3; ++i) {
-      const auto [smaller, larger] = std::minmax(triangles[t][i], triangles[t][(i + 1) % 3]);
-      halfedges.push_back({smaller, larger, 3 * t + i});
-    }
+    for (Index i = 0; sound[t] && i < 3; ++i)
+      halfedges.push_back(edge_side(triangles[t][i], triangles[t][(i + 1) % 3], 3 * t + i));
   std::sort(halfedges.begin(), halfedges.end(), interruptible());
   Tally non_manifold(DefectKind::non_manifold_edge);
   Tally inconsistent(DefectKind::inconsistent_orientation);
@@ -145,24 +134,18 @@ void check_edges(std::span<const Triangle> triangles, std::span<const Index> fac
   UnionFind components(static_cast<Index>(triangles.size()));
   ParityUnionFind orientation(static_cast<Index>(triangles.size()));
   std::vector<Index> contradictions;
-  for (std::size_t i = 0; i < halfedges.size();) {
-    throw_if_stopped_at_times();
-    std::size_t end = i + 1;
-    while (end < halfedges.size() && halfedges[end].smaller == halfedges[i].smaller &&
-           halfedges[end].larger == halfedges[i].larger)
-      ++end;
-    if (end - i > 2) non_manifold.add(halfedges[i].smaller, halfedges[i].larger);
-    if (end - i == 2) {
-      const Index a = halfedges[i].halfedge;
-      const Index b = halfedges[i + 1].halfedge;
-      joins.emplace_back(a, b);
-      const bool same_way = origin(a) == origin(b);
-      if (same_way) inconsistent.add(halfedges[i].smaller, halfedges[i].larger);
-      components.unite(a / 3, b / 3);
-      if (!orientation.unite(a / 3, b / 3, same_way)) contradictions.push_back(a / 3);
-    }
-    i = end;
-  }
+  for_each_edge(halfedges, [&](std::size_t first, std::size_t last) {
+    const EdgeSide& side = halfedges[first];
+    if (last - first > 2) non_manifold.add(side.smaller, side.larger);
+    if (last - first != 2) return;
+    const Index a = side.halfedge;
+    const Index b = halfedges[first + 1].halfedge;
+    joins.emplace_back(a, b);
+    const bool same_way = origin(a) == origin(b);
+    if (same_way) inconsistent.add(side.smaller, side.larger);
+    components.unite(a / 3, b / 3);
+    if (!orientation.unite(a / 3, b / 3, same_way)) contradictions.push_back(a / 3);
+  });
   std::vector<bool> bad(triangles.size(), false);
   for (const Index t : contradictions) bad[components.find(t)] = true;
   FaceTally non_orientable(DefectKind::non_orientable, faces);

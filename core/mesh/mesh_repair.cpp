@@ -4,20 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <utility>
 
+#include "morsel/core/mesh/edge_sides.h"
 #include "morsel/core/parallel/interruptible.h"
 #include "morsel/core/parallel/union_find.h"
 
 namespace morsel::core {
 namespace {
-
-struct HalfEdge {
-  Index smaller;
-  Index larger;
-  Index halfedge;
-};
 
 Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
@@ -105,28 +99,9 @@ class Repairer {
   void sort_halfedges() {
     halfedges_.clear();
     halfedges_.reserve(3 * soup_.triangles.size());
-    for (Index h = 0; h < 3 * soup_.triangles.size(); ++h) {
-      const auto [smaller, larger] = std::minmax({origin(h), origin(next(h))});
-      halfedges_.push_back({smaller, larger, h});
-    }
-    const auto less = [](const HalfEdge& a, const HalfEdge& b) {
-      return std::tie(a.smaller, a.larger, a.halfedge) < std::tie(b.smaller, b.larger, b.halfedge);
-    };
-    std::sort(halfedges_.begin(), halfedges_.end(), interruptible(less));
-  }
-
-  /// Calls visit(first, last) with the range in halfedges_ of each edge.
-  template <class Visit>
-  void for_each_edge(Visit&& visit) const {
-    for (std::size_t i = 0; i < halfedges_.size();) {
-      throw_if_stopped_at_times();
-      std::size_t end = i + 1;
-      while (end < halfedges_.size() && halfedges_[end].smaller == halfedges_[i].smaller &&
-             halfedges_[end].larger == halfedges_[i].larger)
-        ++end;
-      visit(i, end);
-      i = end;
-    }
+    for (Index h = 0; h < 3 * soup_.triangles.size(); ++h)
+      halfedges_.push_back(edge_side(origin(h), origin(next(h)), h));
+    std::sort(halfedges_.begin(), halfedges_.end(), interruptible());
   }
 
   /// Gives each fan of faces around a vertex a vertex of its own, where fans are joined across edges of two
@@ -134,7 +109,7 @@ class Repairer {
   /// at any vertex. Returns whether anything was split.
   bool split() {
     UnionFind fans(static_cast<Index>(3 * soup_.triangles.size()));
-    for_each_edge([&](std::size_t first, std::size_t last) {
+    for_each_edge(halfedges_, [&](std::size_t first, std::size_t last) {
       if (last - first > 2) ++counts_.split_non_manifold_edges;
       if (last - first != 2) return;
       const Index a = halfedges_[first].halfedge;
@@ -171,7 +146,7 @@ class Repairer {
     ParityUnionFind parity(count);
     std::vector<Index> contradictions;
     std::vector<Index> open;  // faces with a boundary edge
-    for_each_edge([&](std::size_t first, std::size_t last) {
+    for_each_edge(halfedges_, [&](std::size_t first, std::size_t last) {
       const Index a = halfedges_[first].halfedge;
       if (last - first == 1) open.push_back(a / 3);
       if (last - first != 2) return;
@@ -240,7 +215,7 @@ class Repairer {
 
   TriangleSoup& soup_;
   RepairCounts& counts_;
-  std::vector<HalfEdge> halfedges_;
+  std::vector<EdgeSide> halfedges_;
   std::vector<Index> split_from_;  // per vertex that splitting added: the one it was split from
 };
 
