@@ -1,12 +1,13 @@
-# Installation, in two components, and the CMake package: find_package(morsel) gives morsel::core, morsel::morse, …
+# Installation, in two components, and the CMake package: find_package(morsel) gives morsel::core,
+# morsel::morse, …
 #   runtime      the program, its man pages, completions and schemas
 #   development  libraries, headers, CMake package, pkg-config files
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/morsel)
 get_property(modules GLOBAL PROPERTY MORSEL_MODULES)
 
-# What find_package(morsel) must find first, module by module: the packages of all that consumers are linked with. The
-# targets are named PACKAGE::TARGET, or morsel::MODULE.
+# What find_package(morsel) must find first, module by module: the packages of all that consumers are linked
+# with. The targets are named PACKAGE::TARGET, or morsel::MODULE.
 set(needs "")
 foreach(module IN LISTS modules)
   install(TARGETS morsel_${module} EXPORT morselTargets
@@ -18,19 +19,22 @@ foreach(module IN LISTS modules)
   list(REMOVE_DUPLICATES packages)
   list(FILTER linked INCLUDE REGEX "^morsel::")
   list(TRANSFORM linked REPLACE "^morsel::" "")
-  string(APPEND needs "set(_morsel_${module}_packages ${packages})\nset(_morsel_${module}_modules ${linked})\n")
+  string(APPEND needs
+    "set(_morsel_${module}_packages ${packages})\nset(_morsel_${module}_modules ${linked})\n")
 endforeach()
 
 install(EXPORT morselTargets NAMESPACE morsel:: DESTINATION ${package_folder} COMPONENT development)
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/morselConfig.cmake.in ${PROJECT_BINARY_DIR}/morselConfig.cmake
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/morselConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/morselConfig.cmake
                               INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake COMPATIBILITY
+  SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/morselConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindCairo.cmake ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
         DESTINATION ${package_folder} COMPONENT development)
 
-# pkg-config, of what find_package(morsel) finds by default: morsel-core, morsel-morse, … The files may be moved with what
-# they name.
+# pkg-config, of what find_package(morsel) finds by default: morsel-core, morsel-morse, … The files may be
+# moved with what they name.
 file(RELATIVE_PATH prefix_from_here /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_here "${prefix_from_here}")
 foreach(module core persistence morse mscomplex study)
@@ -47,11 +51,15 @@ foreach(module core persistence morse mscomplex study)
   endforeach()
   list(JOIN requires ", " requires)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/module.pc.in ${PROJECT_BINARY_DIR}/morsel-${module}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/morsel-${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+  install(FILES ${PROJECT_BINARY_DIR}/morsel-${module}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    COMPONENT development)
 endforeach()
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT runtime)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT
+  runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+  ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
               ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT runtime)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmorsel-dev COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmorsel-dev COMPONENT
+  development)

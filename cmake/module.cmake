@@ -5,16 +5,19 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND MORSEL_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
 endif()
 
-# morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS … SOURCES … DEPENDS … PRIVATE_DEPENDS … PRECOMPILED …):
-# the library target morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as
-# "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and after installation alike.
+# morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS … SOURCES … DEPENDS …
+#                   PRIVATE_DEPENDS … PRECOMPILED …): the library target morsel_NAME, alias morsel::NAME, whose headers are included as
+# "morsel/NAME/….h", or as "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and
+# after installation alike.
 #   PROGRAM          it serves the program alone and is not installed
 #   PUBLIC_HEADERS   what users of the installed library may include. They include public headers only, which
 #                    tests/layers checks; all other headers are private: they are not installed
-#   DEPENDS          what its headers include or what it is linked with: consumers of the installed package get these too
+#   DEPENDS          what its headers include or what it is linked with: consumers of the installed
+#                    package get these too
 #   PRIVATE_DEPENDS  what only its sources include; of these, consumers need those that are more than headers
-#   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it shares. Sources
-#                    include what they use all the same: tools/lint compiles them without precompiled headers.
+#   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it
+#                    shares. Sources include what they use all the same: tools/lint compiles them without
+#                    precompiled headers and one by one.
 function(morsel_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "PROGRAM" "WITHIN"
                         "PUBLIC_HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
@@ -35,7 +38,8 @@ function(morsel_add_module name)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  # The same expression gives the same bits with every compiler and processor: no fused multiply-adds of its choosing.
+  # The same expression gives the same bits with every compiler and processor: no fused multiply-adds of its
+  # choosing.
   target_compile_options(${target} PRIVATE ${MORSEL_WARNINGS} -ffp-contract=off)
   target_link_libraries(${target} PUBLIC ${arg_DEPENDS})
   set(linked ${arg_DEPENDS})
@@ -59,12 +63,14 @@ function(morsel_add_module name)
   endif()
   foreach(header IN LISTS arg_PUBLIC_HEADERS)
     cmake_path(GET header PARENT_PATH room)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel/${folder}/${room} COMPONENT development)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/morsel/${folder}/${room}
+            COMPONENT development)
   endforeach()
   morsel_export(${name} ${linked})
 endfunction()
 
-# morsel_export(NAME LINKED…): the target morsel_NAME is installed, and part of the package, with what it is linked with.
+# morsel_export(NAME LINKED…): the target morsel_NAME is installed, and part of the package, with what it is
+# linked with.
 function(morsel_export name)
   set_property(GLOBAL APPEND PROPERTY MORSEL_MODULES ${name})
   set_property(GLOBAL PROPERTY MORSEL_LINKED_${name} ${ARGN})

@@ -14,8 +14,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME morsel)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
     "critical points of scalar fields on triangle meshes
-The program morsel extracts critical points by several methods compared with each other, and builds persistence diagrams,
-Morse-Smale complexes, hierarchies, segments, cuts and quads on them.")
+The program morsel extracts critical points by several methods compared with each other, and builds
+persistence diagrams, Morse-Smale complexes, hierarchies, segments, cuts and quads on them.")
 
 # What its headers and libraries are used with.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmorsel-dev)
@@ -25,6 +25,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "nlohmann-json3-dev, libssl-dev, libopenvdb-dev, libembree-dev, libpng-dev, libcairo2-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "critical points of scalar fields on triangle meshes (development)
-The C++20 library of the program morsel: static libraries, headers, the CMake package and pkg-config files. The components
-of documents, pictures and molecules need the suggested packages, what find_package(morsel) finds by default does not.")
+The C++20 library of the program morsel: static libraries, headers, the CMake package and pkg-config files.
+The components of documents, pictures and molecules need the suggested packages, what find_package(morsel)
+finds by default does not.")
 include(CPack)

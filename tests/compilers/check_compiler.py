@@ -13,6 +13,7 @@ import argparse
 import collections
 import json
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -49,13 +50,21 @@ def options_of(command):
     return options
 
 
+def sources_of(file):
+    """The sources that a file compiled by the build stands for: itself, or those that a unity build joins."""
+    if file.parent.name != "Unity":
+        return [file]
+    included = re.findall(r'^#include "(.*)"$', file.read_text(), re.MULTILINE)
+    return [pathlib.Path(path).resolve() for path in included]
+
+
 def checks(commands, root, folders):
     """Yields (source, directory, options) for each source of the build in one of the folders of `root`."""
     for entry in commands:
-        source = pathlib.Path(entry["directory"], entry["file"]).resolve()
-        if source.is_relative_to(root) and source.relative_to(root).parts[0] in folders:
-            words = entry.get("arguments") or shlex.split(entry["command"])
-            yield source, entry["directory"], tuple(o for o in options_of(words) if o != entry["file"])
+        for source in sources_of(pathlib.Path(entry["directory"], entry["file"]).resolve()):
+            if source.is_relative_to(root) and source.relative_to(root).parts[0] in folders:
+                words = entry.get("arguments") or shlex.split(entry["command"])
+                yield source, entry["directory"], tuple(o for o in options_of(words) if o != entry["file"])
 
 
 def escaped(text):

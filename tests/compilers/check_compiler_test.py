@@ -54,6 +54,16 @@ class CheckCompiler(unittest.TestCase):
         self.assertIn("unused variable", text)
         self.assertIn("undeclared identifier", text)
 
+    def test_sources_that_a_unity_build_joins_are_read_one_by_one(self):
+        wrong = self.root / "core/wrong.cpp"
+        wrong.write_text("int g() { return twice(1); }\n", encoding="utf-8")  # declared by the one before
+        self.source("build/Unity/unity_0.cpp",
+                    f'#include "{self.root / "core/clean.cpp"}"\n\n#include "{wrong}"\n')
+        del self.entries[0]
+        code, text = self.check()
+        self.assertNotEqual(code, 0)
+        self.assertIn("undeclared identifier 'twice'", text)
+
     def test_other_folders_are_ignored(self):
         self.source("other/wrong.cpp", "int g() { return h(); }\n")
         self.assertEqual(self.check()[0], 0)
