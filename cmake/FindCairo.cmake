@@ -12,8 +12,8 @@ if(Cairo_INCLUDE_DIR)
   list(JOIN Cairo_VERSION "." Cairo_VERSION)
 endif()
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(Cairo REQUIRED_VARS Cairo_LIBRARY Cairo_INCLUDE_DIR VERSION_VAR
-  Cairo_VERSION)
+find_package_handle_standard_args(Cairo REQUIRED_VARS Cairo_LIBRARY Cairo_INCLUDE_DIR
+  VERSION_VAR Cairo_VERSION)
 if(Cairo_FOUND AND NOT TARGET Cairo::Cairo)
   add_library(Cairo::Cairo UNKNOWN IMPORTED GLOBAL)
   set_target_properties(Cairo::Cairo PROPERTIES IMPORTED_LOCATION ${Cairo_LIBRARY}

@@ -8,8 +8,8 @@ if(Gemmi_INCLUDE_DIR)
   string(REGEX REPLACE ".*\"([0-9.]+).*" "\\1" Gemmi_VERSION "${lines}")
 endif()
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(Gemmi REQUIRED_VARS Gemmi_INCLUDE_DIR Gemmi_PEGTL_INCLUDE_DIR VERSION_VAR
-  Gemmi_VERSION)
+find_package_handle_standard_args(Gemmi REQUIRED_VARS Gemmi_INCLUDE_DIR Gemmi_PEGTL_INCLUDE_DIR
+  VERSION_VAR Gemmi_VERSION)
 if(Gemmi_FOUND AND NOT TARGET Gemmi::headers)
   add_library(Gemmi::headers INTERFACE IMPORTED GLOBAL)
   target_include_directories(Gemmi::headers INTERFACE ${Gemmi_INCLUDE_DIR} ${Gemmi_PEGTL_INCLUDE_DIR})

@@ -15,9 +15,9 @@ if(OpenVDB_INCLUDE_DIR)
     "${lines}")
 endif()
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(OpenVDB REQUIRED_VARS OpenVDB_LIBRARY OpenVDB_INCLUDE_DIR
-  OpenVDB_IMATH_LIBRARY
-                                  VERSION_VAR OpenVDB_VERSION)
+find_package_handle_standard_args(OpenVDB
+  REQUIRED_VARS OpenVDB_LIBRARY OpenVDB_INCLUDE_DIR OpenVDB_IMATH_LIBRARY
+  VERSION_VAR OpenVDB_VERSION)
 if(OpenVDB_FOUND AND NOT TARGET OpenVDB::openvdb)
   find_dependency(TBB)
   find_dependency(Boost)

@@ -27,8 +27,8 @@ install(EXPORT morselTargets NAMESPACE morsel:: DESTINATION ${package_folder} CO
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/morselConfig.cmake.in
   ${PROJECT_BINARY_DIR}/morselConfig.cmake
                               INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake COMPATIBILITY
-  SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/morselConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/morselConfig.cmake ${PROJECT_BINARY_DIR}/morselConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/FindCairo.cmake ${CMAKE_CURRENT_LIST_DIR}/FindOpenVDB.cmake
         DESTINATION ${package_folder} COMPONENT development)
@@ -55,11 +55,11 @@ foreach(module core persistence morse mscomplex study)
     COMPONENT development)
 endforeach()
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT
-  runtime)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel
+  COMPONENT runtime)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
   ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
               ${PROJECT_SOURCE_DIR}/LICENSE
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT runtime)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmorsel-dev COMPONENT
-  development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmorsel-dev
+  COMPONENT development)

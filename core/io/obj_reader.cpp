@@ -21,15 +21,15 @@ bool is_skipped(std::string_view keyword) {
   return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
 }
 
-class Reader {
+class ObjReader {
  public:
-  Reader(std::string_view bytes, const std::string& file, const Progress& progress)
+  ObjReader(std::string_view bytes, const std::string& file, const Progress& progress)
       : file_(file),
         scanner_(bytes, file, {.comment = '#', .continuation = true, .terminator = 0}, progress) {}
 
   /// Of a piece of a file with `vertices_before` vertices before it and without continued lines.
-  Reader(std::string_view lines, char terminator, std::size_t vertices_before, const std::string& file,
-         const Progress& progress)
+  ObjReader(std::string_view lines, char terminator, std::size_t vertices_before, const std::string& file,
+            const Progress& progress)
       : file_(file),
         scanner_(lines, file, {.comment = '#', .continuation = false, .terminator = terminator}, progress),
         vertices_before_(vertices_before) {}
@@ -138,13 +138,13 @@ std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::str
   const std::vector<std::string_view> chunks = line_chunks(bytes, terminator, chunk);
   const std::vector<std::size_t> vertices_before = items_before(
       chunks,
-      [&](std::string_view lines) { return Reader(lines, terminator, 0, file, silent).count_vertices(); },
+      [&](std::string_view lines) { return ObjReader(lines, terminator, 0, file, silent).count_vertices(); },
       progress);
   if (chunks.empty() || vertices_before.back() >= kNone) return std::nullopt;
   return read_chunks(
       chunks.size(),
       [&](std::size_t k) {
-        return Reader(chunks[k], terminator, vertices_before[k], file, silent)
+        return ObjReader(chunks[k], terminator, vertices_before[k], file, silent)
             .read_piece(vertices_before.back());
       },
       progress);
@@ -156,7 +156,7 @@ LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progr
                     std::size_t chunk) {
   if (bytes.empty()) fail_reading(file, "it is empty");
   if (auto soup = read_in_chunks(bytes, file, progress, chunk)) return {std::move(*soup), {}};
-  return Reader(bytes, file, progress).read();
+  return ObjReader(bytes, file, progress).read();
 }
 
 }  // namespace morsel::core

@@ -21,16 +21,16 @@ struct OffHeader {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-class Reader {
+class OffReader {
  public:
-  Reader(std::string_view bytes, const std::string& file, const Progress& progress)
+  OffReader(std::string_view bytes, const std::string& file, const Progress& progress)
       : file_(file),
         scanner_(bytes, file, {.comment = '#', .continuation = false, .terminator = 0}, progress),
         progress_(progress) {}
 
   /// Of a piece of a file whose header was read.
-  Reader(std::string_view lines, char terminator, const OffHeader& header, const std::string& file,
-         const Progress& progress)
+  OffReader(std::string_view lines, char terminator, const OffHeader& header, const std::string& file,
+            const Progress& progress)
       : file_(file),
         scanner_(lines, file, {.comment = '#', .continuation = false, .terminator = terminator}, progress),
         progress_(progress),
@@ -57,7 +57,7 @@ class Reader {
     const std::vector<std::size_t> lines_before = items_before(
         chunks,
         [&](std::string_view lines) {
-          Reader reader(lines, terminator, header_, file_, silent);
+          OffReader reader(lines, terminator, header_, file_, silent);
           std::size_t count = 0;
           while (reader.scanner_.next_line()) ++count;
           return count;
@@ -68,7 +68,7 @@ class Reader {
     auto soup = read_chunks(
         chunks.size(),
         [&](std::size_t k) {
-          Reader reader(chunks[k], terminator, header_, file_, silent);
+          OffReader reader(chunks[k], terminator, header_, file_, silent);
           const std::size_t first = lines_before[k];
           const std::size_t last = lines_before[k + 1];
           reader.read_vertices(std::min(first, vertices), std::min(last, vertices));
@@ -196,7 +196,7 @@ class Reader {
 
 LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
                     std::size_t chunk) {
-  return Reader(bytes, file, progress).read(chunk);
+  return OffReader(bytes, file, progress).read(chunk);
 }
 
 }  // namespace morsel::core
