@@ -19,12 +19,13 @@ class NumberText {
 
  private:
   template <class Number>
-  NumberText(Number value, int)
-      : size_(static_cast<std::size_t>(std::to_chars(text_.data(), text_.data() + text_.size(), value).ptr -
-                                       text_.data())) {}
+  NumberText(Number value, int) {
+    size_ = static_cast<std::size_t>(std::to_chars(text_.data(), text_.data() + text_.size(), value).ptr -
+                                     text_.data());
+  }
 
   std::array<char, 32> text_;
-  std::size_t size_;
+  std::size_t size_ = 0;
 };
 
 /// The same as a string.
