@@ -9,10 +9,8 @@
 
 namespace morsel::morse {
 
-namespace {
-
 /// Eigen's factorisation with checks for a stop in its long loop: the same operations in the same order.
-class Ldlt : public Eigen::SimplicialLDLT<SparseMatrix> {
+class InterruptibleLdlt : public Eigen::SimplicialLDLT<SparseMatrix> {
  public:
   void factorize(const SparseMatrix& matrix, const char* what, const core::Progress& progress) {
     progress.update(what, 0);
@@ -84,10 +82,8 @@ class Ldlt : public Eigen::SimplicialLDLT<SparseMatrix> {
   }
 };
 
-}  // namespace
-
 struct Cholesky::Factor {
-  Ldlt solver;
+  InterruptibleLdlt solver;
 };
 
 Cholesky::Cholesky(const SparseMatrix& matrix, const char* what, const core::Progress& progress) {

@@ -16,6 +16,14 @@
 #include "morsel/morse/operators/intrinsic_triangles.h"
 
 namespace morsel::morse {
+
+/// Each triangle's part of the Laplacian: ½ cot of the angles facing its sides, and its area.
+struct HeatElement {
+  core::Triangle corner;
+  std::array<double, 3> weight;
+  double area;
+};
+
 namespace {
 
 using core::Index;
@@ -24,15 +32,8 @@ using core::TriangleMesh;
 /// exp(−500) and the products it is in are far from the end of double precision, 1e-308.
 constexpr double kMostDecay = 500;
 
-/// Each triangle's part of the Laplacian: ½ cot of the angles facing its sides, and its area.
-struct Element {
-  core::Triangle corner;
-  std::array<double, 3> weight;
-  double area;
-};
-
-std::vector<Element> elements_of(const IntrinsicTriangles& triangles) {
-  std::vector<Element> elements(triangles.corners.size());
+std::vector<HeatElement> elements_of(const IntrinsicTriangles& triangles) {
+  std::vector<HeatElement> elements(triangles.corners.size());
   core::parallel_for_each(elements.size(), [&](std::size_t t) {
     elements[t] = {triangles.corners[t], half_cotangents(triangles.sides[t]),
                    triangle_area(triangles.sides[t])};
@@ -97,7 +98,7 @@ struct HeatDistance::Operators {
   HeatBoundary boundary;
   double unit;
   double time;  // in the mesh's unit
-  std::vector<Element> elements;
+  std::vector<HeatElement> elements;
   std::optional<Cholesky> free, cold;  // heat with Neumann and with Dirichlet conditions
   std::optional<Cholesky> poisson;
 

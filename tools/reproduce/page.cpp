@@ -103,7 +103,7 @@ std::string panel_markup(const PanelOutcome& panel, std::size_t number) {
          markup_text(command_line(panel.command())) + "</pre></details></figure>\n";
 }
 
-std::string figure_section(const FigureOutcome& figure) {
+std::string figure_of_page(const FigureOutcome& figure) {
   const std::string id = "figure" + std::to_string(figure.recipe->number);
   std::string text = "<section aria-labelledby=\"" + id + "\"><h2 id=\"" + id + "\">Figure " +
                      std::to_string(figure.recipe->number) + ". " + markup_text(figure.recipe->title) +
@@ -136,7 +136,7 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       "<p class=\"said\">The paper's models are not public. Other meshes stand in for them, so that numbers "
       "agree in trend, not in size.</p>\n" +
       models_table(reproduction) + "</section>\n" + table_section(reproduction);
-  for (const FigureOutcome& figure : reproduction.figures) text += figure_section(figure);
+  for (const FigureOutcome& figure : reproduction.figures) text += figure_of_page(figure);
   std::vector<std::string> command = command_words(prepared.request);
   command.insert(command.begin() + 2, prepared.request.folder.string());
   return text + "</main>\n<footer><p>The command:</p><pre class=\"copy\">" +
