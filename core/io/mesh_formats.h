@@ -16,19 +16,21 @@
 
 namespace morsel::core {
 
-/// Bytes of each piece of a text that is read in parallel: longer texts are cut. A parameter for the sake of
-/// tests.
+/// Bytes of each piece of a text that is read in parallel: longer texts are cut. The readers that do so take
+/// it as a parameter for the sake of tests.
 inline constexpr std::size_t kTextChunk = std::size_t{1} << 16;
 
 /// OFF and its variants COFF, NOFF, STOFF and their combinations, comments, polygons; header word missing or
 /// joined to the counts. A vertex or face a line. Colours, normals and texture coordinates are skipped.
 /// Binary OFF and 4OFF, nOFF (other dimensions than three) are refused.
+LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress);
 LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
-                    std::size_t chunk = kTextChunk);
+                    std::size_t chunk);
 
 /// Wavefront OBJ: v and f with absolute or relative indices; other statements of the format are skipped.
+LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress);
 LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress,
-                    std::size_t chunk = kTextChunk);
+                    std::size_t chunk);
 
 /// PLY, ASCII and binary of both byte orders. An ASCII value has the precision of its declared type, so that
 /// the ASCII and the binary form of a file give the same mesh. Elements other than vertex and face are

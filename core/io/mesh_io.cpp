@@ -17,11 +17,12 @@ namespace {
 struct Format {
   std::string_view extension;
   MeshFormat format;
+  LoadedSoup (*read)(std::string_view bytes, const std::string& file, const Progress& progress);
 };
-constexpr std::array<Format, 4> kFormats = {{{".off", MeshFormat::off},
-                                             {".obj", MeshFormat::obj},
-                                             {".ply", MeshFormat::ply},
-                                             {".stl", MeshFormat::stl}}};
+constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, read_off},
+                                                 {".obj", MeshFormat::obj, read_obj},
+                                                 {".ply", MeshFormat::ply, read_ply},
+                                                 {".stl", MeshFormat::stl, read_stl}});
 
 const Format* find_format(const std::filesystem::path& path) {
   const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);
@@ -48,18 +49,11 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
                               const Progress& progress) {
+  const auto* found = std::ranges::find(kFormats, format, &Format::format);
+  if (found == kFormats.end())
+    throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
   progress.update("reading the mesh", 0);
-  switch (format) {
-    case MeshFormat::off:
-      return read_off(bytes, name, progress);
-    case MeshFormat::obj:
-      return read_obj(bytes, name, progress);
-    case MeshFormat::ply:
-      return read_ply(bytes, name, progress);
-    case MeshFormat::stl:
-      return read_stl(bytes, name, progress);
-  }
-  throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
+  return found->read(bytes, name, progress);
 }
 
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress) {

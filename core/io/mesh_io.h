@@ -1,5 +1,5 @@
 #pragma once
-/// Reading meshes from files: OFF, OBJ, PLY and STL.
+/// Reading meshes from files, in the formats that MeshFormat lists.
 
 #include <filesystem>
 #include <string>
@@ -43,10 +43,10 @@ enum class MeshFormat { off, obj, ply, stl };
 MeshFormat mesh_format(const std::filesystem::path& path);
 /// Whether the extension is that of a known format.
 bool has_mesh_extension(const std::filesystem::path& path);
-/// The extensions as a sentence lists them: ".off, .obj, .ply or .stl".
+/// The extensions as a sentence lists them: ".off, .obj or .ply".
 std::string mesh_extensions(std::string_view last = " or ");
 
-/// Reads the polygons of an .off, .obj, .ply or .stl file (by extension, any case) in double precision.
+/// Reads the polygons of a file, whose format is that of its extension, in double precision.
 /// Corners are checked to name vertices that exist; coordinates may be non-finite. Throws BadInput, naming
 /// the file and where possible the line, if it is missing, unreadable, damaged or of another kind. Memory:
 /// the file's size and twice the soup's; wrong counts in a header do not increase it. Independent of locales;

@@ -152,6 +152,10 @@ std::optional<PolygonSoup> read_in_chunks(std::string_view bytes, const std::str
 
 }  // namespace
 
+LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress) {
+  return read_obj(bytes, file, progress, kTextChunk);
+}
+
 LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progress& progress,
                     std::size_t chunk) {
   if (bytes.empty()) fail_reading(file, "it is empty");

@@ -194,6 +194,10 @@ class OffReader {
 
 }  // namespace
 
+LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress) {
+  return read_off(bytes, file, progress, kTextChunk);
+}
+
 LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progress& progress,
                     std::size_t chunk) {
   return OffReader(bytes, file, progress).read(chunk);

@@ -494,7 +494,7 @@ class Outputs(OwnershipTest):
         for command, (words, options) in ON_MESH.items():
             words = [word.format(self.mesh.name) for word in words]
             required = ()
-            if command in ("segment", "cut", "quads"):
+            if " -o " in self.usage(command):
                 required = ("-o", f"free{options['-o']}")
             for option, ending in options.items():
                 for inputs, more in ((self.mesh, ()), (self.values,

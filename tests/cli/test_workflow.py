@@ -180,8 +180,7 @@ class WrongInput(WorkflowTest):
     def test_what_cannot_begin_is_refused_in_one_sentence(self):
         (self.folder / "empty").mkdir()
         for wrong, said in (("collection=absent", "absent"),
-                            ("collection=empty",
-                             "there is no mesh (.off, .obj, .ply, .stl) in the folder empty"),
+                            ("collection=empty", "in the folder empty"),
                             ("morsel=/bin/false", "/bin/false ended with 1"),
                             ("morsel=absent", 'there is no program "absent"'),
                             ("options=--method nonsense", "nonsense"),

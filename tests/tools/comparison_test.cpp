@@ -1,5 +1,6 @@
 #include "morsel/tools/study/comparison.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -84,6 +85,10 @@ TEST_CASE("invariants hold for every field that a method returns") {
                            "salient:iterations=1,sigma=0.6+tps:threshold=5%",
                            "tps:threshold=20%+salient:iterations=1,sigma=0.5"})
     chains.push_back(tools::Registry::standard().make_method(text));
+  for (const tools::MethodEntry& entry : tools::Registry::standard().methods()) {
+    INFO(entry.name << " belongs into the list above");
+    CHECK(std::ranges::count(chains, entry.name, &tools::MethodChain::name) > 0);
+  }
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& f : field_zoo(entry.mesh, 23))
       for (const tools::MethodChain& chain : chains) {

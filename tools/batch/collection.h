@@ -14,8 +14,8 @@ struct CollectionMesh {
   friend bool operator==(const CollectionMesh&, const CollectionMesh&) = default;
 };
 
-/// Of a folder: all .off, .obj, .ply and .stl files in it and the folders in it, by name. Of any other file:
-/// a mesh on each line, in the order of the lines; relative paths begin at the list's folder; empty lines and
+/// Of a folder: all files with a mesh's extension in it and the folders in it, by name. Of any other file: a
+/// mesh on each line, in the order of the lines; relative paths begin at the list's folder; empty lines and
 /// those that begin with # are skipped.
 ///
 /// The name of what a list has outside its folder is its path without a leading "/" and without "..". Throws

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/drawing/pictures.h"
@@ -38,8 +39,9 @@ void add_reproduce(Program& program) {
   command.path("--data", request->data, "Meshes of the paper's models: lion, squirrel and protein")
       .value("DIR")
       .in_detail(
-          ".off, .obj, .ply or .stl, of these names or with one of these words (of the protein also 1bp2 or "
-          "2bp2) in them; sample meshes stand in for those that are not there");
+          core::mesh_extensions() +
+          ", of these names or with one of these words (of the protein also 1bp2 or 2bp2) in them; sample "
+          "meshes stand in for those that are not there");
   Option& samples =
       command.path("--meshes", request->samples, "The sample meshes, of CGAL's example data")
           .value("DIR")

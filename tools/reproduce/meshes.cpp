@@ -53,7 +53,8 @@ std::optional<fs::path> find_model(const ModelRecipe& model, const std::vector<f
   for (const fs::path& mesh : found) names.push_back(mesh.filename().string());
   throw core::BadInput(std::to_string(found.size()) + " meshes in " + found.front().parent_path().string() +
                        " could be the " + std::string(model.name) + ": " + core::listed(names, " and ") +
-                       "; name the right one " + std::string(model.name) + ".off (or .obj, .ply, .stl)");
+                       "; name the right one " + std::string(model.name) + " (" + core::mesh_extensions() +
+                       ")");
 }
 
 /// What find_model() looks for.
