@@ -40,7 +40,8 @@ METHODS = {
     "tps-count": "tps:count=100",
 }
 FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature", "curvedness",
-          "shape-index", "eigenfunction",
+          "shape-index", "eigenfunction", "gaussian-curvature:estimator=diffused",
+          "heat-kernel-signature", "wave-kernel-signature:modes=40",
           "geodesic:source=max-z")
 
 
