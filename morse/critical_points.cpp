@@ -24,7 +24,7 @@ namespace {
 /// LinkChanges::bits() from which on a vertex is a saddle whose link must be walked.
 constexpr std::uint8_t kMany = 2 * core::LinkChanges::kMostChanges;
 
-/// What bits below kMany say about their vertex: looked up since computing it would branch.
+/// The kind of a vertex by its bits, below kMany: looked up since computing it would branch.
 struct Verdict {
   CriticalType type = CriticalType::regular;
   bool is_critical = false;

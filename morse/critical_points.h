@@ -34,7 +34,8 @@ struct CriticalPoints {
   std::size_t total() const { return minima + saddles + maxima; }
 };
 
-/// What a vertex is by its lower part of its link; is_lower(u) tells it of each neighbour u. O(degree).
+/// The kind of a vertex from the lower part of its link; is_lower(u) says whether neighbour u is lower.
+/// O(degree).
 template <class IsLower>
 CriticalPoint classify_link(const core::TriangleMesh& mesh, core::Index v, const IsLower& is_lower) {
   const core::VertexKind kind = core::vertex_kind(mesh, v, is_lower);
@@ -46,8 +47,8 @@ CriticalPoint classify_link(const core::TriangleMesh& mesh, core::Index v, const
 CriticalPoint classify_vertex(const core::ScalarField& field, core::Index v);
 
 /// All critical points. minima − saddle_multiplicity + maxima = χ(mesh), component by component. O(n),
-/// parallel, the same result for every number of threads. Reads each triangle once, in the order of memory;
-/// besides the result it takes a byte for each vertex and thread (eight at most).
+/// parallel, the same result for every number of threads. Reads each triangle once, in memory order; besides
+/// the result it takes a byte for each vertex and thread (eight at most).
 CriticalPoints classify(const core::ScalarField& field, const core::Progress& progress = {});
 
 }  // namespace morsel::morse

@@ -14,7 +14,7 @@ namespace {
 using core::Index;
 using core::kNone;
 
-/// Along highest (rising) or lowest neighbours to where none is higher (lower).
+/// Follows highest (rising) or lowest neighbours to a vertex without a higher (lower) one.
 Index climb(const core::ScalarField& field, Index v, bool rising) {
   for (;;) {
     Index best = v;

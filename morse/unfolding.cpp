@@ -15,7 +15,7 @@ using core::Index;
 using core::kNone;
 using core::ScalarField;
 
-/// What classification makes of some vertices, as far as unfolding minds.
+/// Counts of the critical vertices among some vertices, as far as unfolding needs them.
 struct Tally {
   long extrema = 0;
   long saddles = 0;
@@ -42,7 +42,7 @@ Index find_move(const ScalarField& field, Index v, bool up) {
   before.add(classify_vertex(field, v), 1);
   Tally others;  // how the neighbours' tally changed so far
   for (const Index u : passed) {
-    // Where v stands now: just past u.
+    // The position of v now: just past u.
     const auto v_is_lower_than = [&](Index w) { return up ? field.is_lower(u, w) : !field.is_lower(w, u); };
     others.add(classify_vertex(field, u), -1);
     others.add(classify_link(field.mesh(), u, [&](Index w) { return w == v ? !up : field.is_lower(w, u); }),

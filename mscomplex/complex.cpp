@@ -48,7 +48,7 @@ class SaddleOfEdge {
 }  // namespace
 
 /// Finds the ends of arcs, then their order: the V-paths that end in one extremum form a tree, embedded in
-/// the surface; a walk round it meets the arcs that enter it in their cyclic order, though many share the
+/// the surface; a walk around it meets the arcs that enter it in their cyclic order, though many share the
 /// last edge.
 class MorseSmaleComplex::Builder {
  public:
@@ -90,7 +90,7 @@ class MorseSmaleComplex::Builder {
     for (Index i = 0; i < extrema; ++i) offset[i + 1] += offset[i];
     complex_.around_.resize(complex_.arc_count());
     complex_.slot_.resize(complex_.arc_count());
-    constexpr std::size_t kTrees = 64;  // a walk round one may be long
+    constexpr std::size_t kTrees = 64;  // a walk around one may be long
     core::parallel_for(0, extrema, kTrees, [&](std::size_t first, std::size_t last) {
       for (auto i = static_cast<Index>(first); i < last; ++i) {
         if (offset[i] == offset[i + 1]) continue;
@@ -138,8 +138,8 @@ class MorseSmaleComplex::Builder {
     }
   }
 
-  /// The edges around v counter-clockwise, as half-edges that leave v, but for the last at a boundary, which
-  /// only has one that arrives.
+  /// The edges around v counter-clockwise, as half-edges that leave v, except the last one at a boundary,
+  /// which only has one that enters v.
   Index next_edge(Index v, Index x) const {
     if (mesh_.origin(x) != v) return mesh_.vertex_halfedge(v);
     const Index arriving = TriangleMesh::previous(x);
@@ -158,7 +158,7 @@ class MorseSmaleComplex::Builder {
       const Index u = origin == v ? mesh_.target(x) : origin;
       const bool is_way_down = gradient_.descend(v) == u;
       if (is_way_down || gradient_.descend(u) == v) {
-        if (is_way_down || vertex_end_[u] != kNone) {  // only where arcs come from
+        if (is_way_down || vertex_end_[u] != kNone) {  // only where arcs arrive from
           v = u;
           x = other_side(x);
         }
@@ -170,7 +170,8 @@ class MorseSmaleComplex::Builder {
     } while (v != minimum || x != start);
   }
 
-  /// Round the tree of triangles from side x of one to side `stop`, which is not looked at if it is not x.
+  /// Walks around the tree of triangles from side x of one to side `stop`, which is not visited itself unless
+  /// it is x.
   template <class Found>
   void walk_around_triangles(Index x, Index stop, const Found& found) const {
     do {
@@ -255,8 +256,8 @@ Index MorseSmaleComplex::previous_around_end(Index arc) const {
   return around_[(slot == around_offset_[i] ? around_offset_[i + 1] : slot) - 1];
 }
 
-/// Keeping the quad on the left: down arc 2q, on along the arc before it around the minimum, up along the one
-/// before that around its saddle, and back from the top.
+/// With the quad on the left: down arc 2q, up the arc before it around the minimum, then along the arc before
+/// that one around its saddle, and back from the top.
 Quad MorseSmaleComplex::quad(Index q) const {
   const Index down = 2 * q;
   const Index up = down + 1;

@@ -25,7 +25,7 @@ struct Node {
   double value = 0;  ///< the field at `vertex`; +∞ for a cap
 };
 
-/// Where an arc goes. Every arc starts at a saddle.
+/// The two ends of an arc. Every arc starts at a saddle.
 struct Arc {
   core::Index saddle = core::kNone;  ///< node
   core::Index end = core::kNone;     ///< node: a minimum if descending, else a maximum or cap
@@ -53,8 +53,8 @@ struct Quad {
 /// Index counts all of them: saddles never outnumber half the triangles.
 ///
 /// Immutable; safe to read from any number of threads. Memory: 48 bytes a saddle and 12 a node besides the
-/// gradient. Arcs that merge share their further way, and the sum of their lengths may be quadratic, so
-/// geometry is traced on demand.
+/// gradient. Arcs that merge share the rest of their V-paths, and the sum of their lengths may be quadratic,
+/// so geometry is traced on demand.
 class MorseSmaleComplex {
  public:
   /// The complex of `gradient`, which must be on the field's mesh (throws InvalidArgument otherwise). O(n),
@@ -86,9 +86,9 @@ class MorseSmaleComplex {
   core::Index arc_end(core::Index arc) const { return arc_end_[arc]; }
   Arc arc(core::Index arc) const { return {arc_saddle(arc), arc_end(arc), arc_kind(arc)}; }
 
-  // The cyclic order, counter-clockwise, seen from outside: that of a walk round the tree of merged V-paths,
-  // and against its half-edges round a loop.
-  /// The arcs that end in a node that is not a saddle, from an arbitrary one on; an arc is never here twice.
+  // The cyclic order, counter-clockwise, seen from outside: that of a walk around the tree of merged
+  // V-paths, and around a loop against its half-edges.
+  /// The arcs that end in a node that is not a saddle, from an arbitrary one on; no arc is listed twice.
   /// Empty for a saddle.
   std::span<const core::Index> arcs_ending_at(core::Index node) const;
   core::Index next_around_saddle(core::Index arc) const { return arc % 4 == 3 ? arc - 3 : arc + 1; }
@@ -110,7 +110,7 @@ class MorseSmaleComplex {
   core::Index quad_left_of(core::Index arc) const;   ///< of `arc` as it leaves its saddle
   core::Index quad_right_of(core::Index arc) const;  ///< of `arc` as it leaves its saddle
 
-  // Geometry; each call is linear in the arc's length and replaces what the vector holds.
+  // Geometry; each call is linear in the arc's length and replaces the contents of the vector.
   /// Descending: the vertices from the saddle's vertex to the minimum, neighbours each. Ascending: the
   /// triangles from the one beside the saddle's edge to the maximum's, or to the last before the cap (none
   /// where the saddle's edge is on the boundary), neighbours each.
@@ -122,7 +122,7 @@ class MorseSmaleComplex {
   void trace(core::Index arc, std::vector<core::Point>& points) const;
 
   /// Checks ends against plain tracing, cyclic orders, quads and Euler's identity component by component, for
-  /// tests. Throws std::logic_error naming the first contradiction. Takes the sum of the arcs' lengths.
+  /// tests. Throws std::logic_error naming the first contradiction. Time: the sum of the arcs' lengths.
   void validate() const;
 
  private:
@@ -134,7 +134,7 @@ class MorseSmaleComplex {
   DiscreteGradient gradient_;
   std::vector<double> node_value_;
   std::vector<core::Index> arc_end_;        // per arc: node
-  std::vector<core::Index> around_offset_;  // per node that is no saddle, and one
+  std::vector<core::Index> around_offset_;  // per node that is no saddle, and the end
   std::vector<core::Index> around_;         // arcs in cyclic order
   std::vector<core::Index> slot_;           // per arc: its place in around_
 };

@@ -67,8 +67,8 @@ void MorseSmaleComplex::validate() const {
     const auto arcs = arcs_ending_at(node);
     for (std::size_t i = 0; i < arcs.size(); ++i) {
       const Index next = arcs[(i + 1) % arcs.size()];
-      require(arc_end_[arcs[i]] == node, "order round a node has a stranger, arc", arcs[i]);
-      require(slot_[arcs[i]] == listed++, "order round a node, arc", arcs[i]);
+      require(arc_end_[arcs[i]] == node, "order around a node has an arc of another node, arc", arcs[i]);
+      require(slot_[arcs[i]] == listed++, "order around a node, arc", arcs[i]);
       require(next_around_end(arcs[i]) == next && previous_around_end(next) == arcs[i],
               "next or previous of arc", arcs[i]);
     }
@@ -93,8 +93,8 @@ void MorseSmaleComplex::validate() const {
          {std::array{arcs[0], nodes[1], nodes[0]}, std::array{arcs[1], nodes[1], nodes[2]},
           std::array{arcs[2], nodes[3], nodes[2]}, std::array{arcs[3], nodes[3], nodes[0]}})
       require(arc_saddle(a) == saddle && arc_end(a) == end, "arcs and nodes of quad", q);
-    require(arcs[3] == 2 * q && previous_around_end(arcs[1]) == arcs[2], "the walk does not close round quad",
-            q);
+    require(arcs[3] == 2 * q && previous_around_end(arcs[1]) == arcs[2],
+            "the walk does not close around quad", q);
     // Seen from their saddles, arcs 1 and 3 have the quad on their left, arcs 0 and 2 on their right.
     require(quad_left_of(arcs[1]) == q && quad_left_of(arcs[3]) == q && quad_right_of(arcs[0]) == q &&
                 quad_right_of(arcs[2]) == q,

@@ -18,14 +18,14 @@ struct CutPath {
 
 /// Inner edges of a mesh along which each of its components opens into one disc.
 ///
-/// Inner vertices on one edge of the cut alone occur only as the two ends of the path that opens a closed
+/// Inner vertices on a single edge of the cut occur only as the two ends of the path that opens a closed
 /// surface of genus 0. A component that is a disc needs no cut.
 struct CutGraph {
   std::vector<core::Index> edges;  ///< mesh edges, ascending
   std::vector<CutPath> paths;      ///< all edges, each in one path; ordered by a path's first vertex
   double length = 0;               ///< of all paths, in the mesh's unit
 
-  /// Checks, for tests, that the paths are made of the edges as told above and that cutting along them
+  /// Checks, for tests, that the paths are made of the edges as described above and that cutting along them
   /// makes a disc of each component; throws std::logic_error naming the first contradiction. O(n).
   void validate(const core::TriangleMesh& mesh) const;
 };
@@ -36,9 +36,9 @@ struct CutGraph {
 ///
 /// A tree and its complement (Eppstein 2003): saddles join the tops, by their ascending arcs, to a graph;
 /// those of its spanning tree with the longest descending arcs are crossed, the descending arcs of the
-/// others, without the dangling ends, are the cut. A boundary loop is a hole and all of it a way to leave
-/// the surface: each boundary edge at which ascending arcs end is a top of its own, descending arcs end
-/// where they meet the boundary, and the way down from a boundary vertex is a saddle's. A closed
+/// others, without the dangling ends, are the cut. The surface can be left anywhere along a boundary
+/// loop: each boundary edge at which ascending arcs end is a top of its own, descending arcs end
+/// where they meet the boundary, and the path down from a boundary vertex counts as a saddle's. A closed
 /// component of genus 0 is cut along a shortest path, of two edges or more, from its lowest to its
 /// highest vertex.
 ///
@@ -48,7 +48,7 @@ CutGraph find_cut(const MorseSmaleComplex& complex, const core::ScalarField& fie
                   const core::Progress& progress = {});
 
 struct ShortenOptions {
-  /// At most so many attempts per path on average; 1 or more. The result is a cut at any time.
+  /// At most so many attempts per path on average; 1 or more. The result is a valid cut whenever it stops.
   int rounds = 16;
 };
 
@@ -60,8 +60,8 @@ struct ShortenedCut {
 };
 
 /// A shorter cut: replaces path after path by the shortest one that opens the surface as well. Glued
-/// along one path the disc is an annulus; any way along mesh edges through its inside that joins its two
-/// boundaries can take the path's place, so that its ends slide along the rest of the cut and along
+/// along one path the disc is an annulus; any path along mesh edges through its inside that joins its two
+/// boundaries can replace that path, so that its ends slide along the rest of the cut and along
 /// boundary loops. Goes on until no path gets shorter or `rounds` are over. A path that opens a closed
 /// component of genus 0 stays.
 ///
@@ -85,10 +85,10 @@ struct CutMesh {
   }
 };
 
-/// Cuts along any set of edges: a vertex becomes as many as its triangles are parts when those on the two
-/// sides of a cut or boundary edge do not hold together. Throws InvalidArgument if an edge does not
-/// exist, is on the boundary, or meets neither another edge of the cut nor the boundary (cutting it would
-/// make two edges with the same ends). Any other set gives a mesh that keeps all rules. O(n).
+/// Cuts along any set of edges: a vertex becomes as many vertices as there are parts into which cut and
+/// boundary edges divide its triangles. Throws InvalidArgument if an edge does not exist, is on the boundary,
+/// or meets neither another edge of the cut nor the boundary (cutting it would make two edges with the same
+/// ends). Any other set gives a mesh that keeps all rules. O(n).
 CutMesh cut_open(const core::TriangleMesh& mesh, const std::vector<core::Index>& edges);
 
 /// The mesh before it was cut: the same positions and triangles in the same order. O(n).

@@ -16,11 +16,11 @@ using core::TriangleMesh;
 /// The link of one vertex, counter-clockwise, and its runs of lower neighbours.
 struct DiscreteGradient::Scratch {
   struct Neighbor {
-    Index halfedge;  // leaving the vertex; kNone for the last neighbour at a boundary, reached by none
+    Index halfedge;  // leaving the vertex; kNone for the last neighbour at a boundary, which none leads to
     Index rank;
   };
   std::vector<Neighbor> ring;
-  std::vector<std::pair<Index, Index>> other_runs;  // rank of the lowest neighbour, its place in the ring
+  std::vector<std::pair<Index, Index>> other_runs;  // rank of the lowest neighbour, its position in the ring
 };
 
 /// Triangle i of the star lies between neighbours i and i + 1, so neighbour i's edge is side `halfedge` of

@@ -1,5 +1,5 @@
 #pragma once
-/// The discrete gradient of a scalar field: which cell of the surface flows into which.
+/// The discrete gradient of a scalar field: which cell of the surface is paired with which.
 
 #include <cstdint>
 #include <span>
@@ -25,13 +25,13 @@ struct CriticalCell {
 /// the vertices (Banchoff 1970): one critical vertex a minimum, `multiplicity` critical edges a saddle, one
 /// critical triangle a maximum.
 ///
-/// On a surface the paper's queues come down to a rule: a vertex is paired with the edge to its lowest lower
+/// On a surface the paper's queues reduce to a rule: a vertex is paired with the edge to its lowest lower
 /// neighbour; the lower link falls into runs of consecutive neighbours, and the lowest of every other run
 /// gives a critical edge; the remaining edges are paired with the triangles beside them, away from their
 /// run's lowest; and where the whole link is lower, the highest triangle (by sorted ranks) stays critical.
 ///
 /// Immutable; copies are deep. Memory: 4 bytes a vertex and 1 a triangle, and the critical cells.
-/// with_reversed() makes a simpler one of it, whose critical cells are some of the field's.
+/// with_reversed() makes a simpler gradient, whose critical cells are some of the field's.
 class DiscreteGradient {
  public:
   /// O(n + Σ runs log runs), whatever the degrees; parallel over vertices, the same bits for every number of
@@ -58,8 +58,8 @@ class DiscreteGradient {
   }
   /// Whether half-edge h is the one that its triangle is paired with.
   bool is_paired(core::Index h) const { return side_[h / 3] == h % 3; }
-  /// The triangle across the edge that t is paired with: the next one on the way up. kNone at a critical
-  /// triangle and where the way up leaves the surface, into the cap of the boundary loop at
+  /// The triangle across the edge that t is paired with: the next one on the V-path up. kNone at a critical
+  /// triangle and where that path leaves the surface, into the cap of the boundary loop at
   /// paired_halfedge(t).
   core::Index ascend(core::Index t) const {
     if (side_[t] == kCritical) return core::kNone;
@@ -84,13 +84,13 @@ class DiscreteGradient {
     return paired_vertex(e) == core::kNone && paired_triangle(e) == core::kNone;
   }
 
-  /// The gradient with the V-paths of these arcs turned round one after the other, so that the saddle and the
+  /// The gradient with the V-paths of these arcs reversed one after the other, so that the saddle and the
   /// extremum at each arc's ends are critical no longer (Forman 1998, "Morse theory for cell complexes").
   /// Arcs are numbered as the Morse-Smale complex of this gradient has them: 4i + k for side k of
-  /// saddles()[i]; where an arc ends is changed by those before it. Throws InvalidArgument for a saddle that
-  /// is not there (any more), an arc that ends in a cap, and one whose saddle reaches the same extremum on
+  /// saddles()[i]; earlier reversals change where an arc ends. Throws InvalidArgument for a saddle that
+  /// does not exist (any more), an arc that ends in a cap, and one whose saddle reaches the same extremum on
   /// both sides, which would close a V-path. The result's pairs no longer share their highest vertices. O(n)
-  /// and the lengths of both ways from each saddle.
+  /// and the lengths of both V-paths from each saddle.
   DiscreteGradient with_reversed(std::span<const core::Index> arcs) const;
 
   /// Checks what every discrete gradient must be, for tests: each cell in at most one pair, no closed V-path,

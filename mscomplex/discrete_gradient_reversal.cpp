@@ -63,7 +63,7 @@ void DiscreteGradient::reverse_ascent(Index edge, Index arc) {
   const Index left = mesh_.edge_halfedge(edge);
   const Index entry = arc % 4 == 3 ? left : mesh_.twin(left);
   const Index other = arc % 4 == 3 ? mesh_.twin(left) : left;
-  // Where a way up ends: at a triangle, or at the boundary half-edge by which it leaves the surface.
+  // Where a V-path up ends: at a triangle, or at the boundary half-edge by which it leaves the surface.
   const auto top_half_edge = [&](Index h) {
     for (;;) {
       if (h == kNone) return kNone;

@@ -1,6 +1,6 @@
 #pragma once
-/// The complex as a Boost.Graph graph. The one header that needs Boost: who includes it finds that package,
-/// too.
+/// The complex as a Boost.Graph graph. The one header that needs Boost: a project that includes it must also
+/// find that package.
 
 #include <boost/graph/adjacency_list.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace morsel::mscomplex {
 
-/// What an edge of the graph says about its arc.
+/// The properties of an edge of the graph.
 struct GraphArc {
   core::Index arc = core::kNone;
   ArcKind kind = ArcKind::descending;

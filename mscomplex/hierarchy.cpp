@@ -26,7 +26,7 @@ std::vector<Index> by_rank(Index first, Index count, const RankOf& rank_of) {
   return order;
 }
 
-/// The inverse of a permutation of consecutive nodes from `first` on, by their distance from it.
+/// The inverse of a permutation of consecutive nodes, numbered from `first`, by offset from it.
 std::vector<Index> places(std::span<const Index> nodes, Index first) {
   std::vector<Index> place(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i] - first] = static_cast<Index>(i);
@@ -47,8 +47,8 @@ PersistenceHierarchy::PersistenceHierarchy(const core::ScalarField& field, Morse
   progress.update("hierarchy", 1);
 }
 
-/// The elder rule on the complex alone, not the pairs of persistence::pair_extrema(), since these do not tell
-/// which of the saddles at one vertex is meant: minima and descending arcs are as connected below any saddle
+/// The elder rule on the complex alone, not the pairs of persistence::pair_extrema(), since these do not
+/// distinguish the saddles at one vertex: minima and descending arcs are as connected below any saddle
 /// as the sublevel set is, and so are tops and ascending arcs from above.
 void PersistenceHierarchy::pair_up(const core::ScalarField& field) {
   const auto saddles = complex_.gradient().saddles();
@@ -85,7 +85,8 @@ void PersistenceHierarchy::pair_up(const core::ScalarField& field) {
                                    [](const Cancellation& c) { return c.persistence; });
 }
 
-/// Finds at which side of its saddle each extremum is when its turn comes, and who is at the other one.
+/// Finds at which side of its saddle each extremum is when it is cancelled, and which one is at the other
+/// side.
 void PersistenceHierarchy::cancel_all() {
   gone_.assign(complex_.node_count(), kNone);
   cancelled_minima_.assign(1, 0);
@@ -93,12 +94,12 @@ void PersistenceHierarchy::cancel_all() {
   Index level = 0;
   for (Cancellation& c : cancellations_) {
     const auto end = [&](Index arc) {
-      return node_of(history_.speaker_now(extremum_of(complex_.arc_end(arc))));
+      return node_of(history_.current_representative(extremum_of(complex_.arc_end(arc))));
     };
     Index other = c.arc + 2;
     if (end(c.arc) != c.extremum) std::swap(c.arc, other);
     c.survivor = end(other);
-    history_.take_over(extremum_of(c.extremum), extremum_of(c.survivor));
+    history_.unite(extremum_of(c.extremum), extremum_of(c.survivor));
     ++level;
     gone_[c.extremum] = level;
     gone_[saddle_of(c)] = level;
@@ -120,7 +121,7 @@ Index PersistenceHierarchy::level_with(std::size_t count) const {
   return static_cast<Index>(std::min<std::size_t>((all - count + 1) / 2, levels()));
 }
 
-/// By bisection: holds(level) must not cease to hold further on. The last level if it holds nowhere.
+/// By bisection: holds(level) must be monotonic: once true it stays true. The last level if it never holds.
 template <class Holds>
 Index PersistenceHierarchy::first_level_where(const Holds& holds) const {
   Index low = 0;

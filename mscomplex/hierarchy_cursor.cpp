@@ -56,8 +56,8 @@ void HierarchyCursor::put_back(Index arc) {
   previous_[next_[arc]] = arc;
 }
 
-/// The two arcs contract to one point: whoever turns round the survivor and comes to the arc that leads to
-/// the saddle meets the arcs around the extremum instead, from behind its arc to before it.
+/// The two arcs contract to one point: in the order around the survivor, the arc that leads to the saddle is
+/// replaced by the arcs around the extremum, from the one after its own arc to the one before it.
 void HierarchyCursor::cancel(const Cancellation& c) {
   const Index in = opposite(c.arc);  // at the survivor
   take_out(crossing(c.arc));
@@ -94,7 +94,7 @@ void HierarchyCursor::restore(const Cancellation& c) {
   put_back(crossing(c.arc));
 }
 
-/// As MorseSmaleComplex::quad() walks.
+/// By the same walk as MorseSmaleComplex::quad().
 Quad HierarchyCursor::quad_left_of(Index descending_arc) const {
   const Index down = descending_arc;
   const Index up = down + 1;
@@ -115,7 +115,7 @@ void HierarchyCursor::validate() const {
     ++euler[component(node)];
     if (all.kind(node) == NodeKind::saddle) continue;
     for_each_arc_around(node, [&](Index arc) {
-      require(is_arc_alive(arc) && arc_end(arc) == node, "a stranger around a node, arc", arc);
+      require(is_arc_alive(arc) && arc_end(arc) == node, "an arc of another node around a node, arc", arc);
       require(around[arc] == kNone, "met twice, arc", arc);
       require(previous_[next_[arc]] == arc && next_[previous_[arc]] == arc, "next or previous of arc", arc);
       around[arc] = node;
@@ -130,7 +130,7 @@ void HierarchyCursor::validate() const {
     const Quad quad = quad_left_of(arc);
     require(quad.nodes[0] == arc_end(quad.arcs[0]) && quad.nodes[2] == arc_end(quad.arcs[1]) &&
                 previous_around_end(quad.arcs[1]) == quad.arcs[2],
-            "the walk does not close round the quad left of arc", arc);
+            "the walk does not close around the quad left of arc", arc);
     for (const Index side : quad.arcs) ++sides[side];
     ++euler[component(quad.nodes[0])];
   }

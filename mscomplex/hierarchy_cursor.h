@@ -1,5 +1,5 @@
 #pragma once
-/// Walking a hierarchy of complexes up and down.
+/// A cursor on a hierarchy of complexes, for moving up and down its levels.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace morsel::mscomplex {
 
-/// The combinatorial complex of one level: arcs, their cyclic order around each node, quads; kept up to date
-/// while it goes from level to level. Each cancellation that is done or undone costs O(log s); nothing else
-/// is touched. Nodes and arcs keep the numbers that they have in the hierarchy's complex. What is asked of a
-/// node or arc must be alive at the level.
+/// The combinatorial complex of one level: arcs, their cyclic order around each node, cells (Quad); kept
+/// up to date while it moves from level to level. Each cancellation that is done or undone costs O(log s);
+/// nothing else is touched. Nodes and arcs keep the numbers that they have in the hierarchy's complex.
+/// Queries must be for nodes and arcs that are alive at the level.
 ///
 /// A value type; copies are independent. Refers to the hierarchy, which must outlive it. Memory: 12 bytes an
 /// arc.
@@ -50,7 +50,7 @@ class HierarchyCursor {
     } while (arc != first);
   }
 
-  /// The quad on the left of a descending arc, seen from its saddle.
+  /// The cell on the left of a descending arc, seen from its saddle.
   Quad quad_left_of(core::Index descending_arc) const;
 
   /// Checks the orders against each other and the complex's Euler identity component by component, for tests.

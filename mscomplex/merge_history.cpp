@@ -19,7 +19,7 @@ Index MergeHistory::root(Index element, Index level) const {
   return element;
 }
 
-void MergeHistory::take_over(Index gone, Index survivor) {
+void MergeHistory::unite(Index gone, Index survivor) {
   Index below = root(gone, levels_);
   Index above = root(survivor, levels_);
   if (size_[below] > size_[above]) std::swap(below, above);
@@ -42,12 +42,12 @@ void MergeHistory::finish() {
   size_ = {};
 }
 
-Index MergeHistory::speaker(Index element, Index level) const {
+Index MergeHistory::representative(Index element, Index level) const {
   const Index r = root(element, level);
   const auto begin = changes_.begin() + first_[r];
   const auto end = changes_.begin() + first_[r + 1];
   const auto later = std::partition_point(begin, end, [&](const Change& c) { return c.level < level; });
-  return later == begin ? r : std::prev(later)->speaker;
+  return later == begin ? r : std::prev(later)->representative;
 }
 
 }  // namespace morsel::mscomplex

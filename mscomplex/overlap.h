@@ -19,7 +19,7 @@ struct Overlap {
 /// The segments of the other segmentation that each segment shares triangles with: a sparse matrix, row by
 /// row.
 struct OverlapTable {
-  std::vector<std::size_t> offset;  ///< per segment, and one
+  std::vector<std::size_t> offset;  ///< per segment, and the end
   std::vector<Overlap> entries;     ///< by segment, then by ascending segment of the other
 
   core::Index segment_count() const { return static_cast<core::Index>(offset.size() - 1); }
@@ -39,13 +39,13 @@ std::vector<double> segment_areas(std::span<const core::Index> labels, core::Ind
 /// The overlaps of the segments that `labels` names with those that `others` names; both have a label a
 /// triangle, below `count` and `other_count`, and `areas` the triangles' areas. Throws InvalidArgument on
 /// other sizes and labels. Areas are summed in the order of the triangles, so that a segment that lies in one
-/// other as a whole shares its segment_areas() to the bit. O(n log(count · other_count)) by radix sorting;
+/// other as a whole shares exactly its segment_areas(). O(n log(count · other_count)) by radix sorting;
 /// parallel, the same bits for every number of threads. Memory: 32 bytes a triangle while it runs.
 OverlapTable overlaps(std::span<const core::Index> labels, core::Index count,
                       std::span<const core::Index> others, core::Index other_count,
                       std::span<const double> areas);
 
-/// The same table seen from the other segmentation, which has `other_count` segments: the overlaps of its
+/// The transposed table, of the other segmentation, which has `other_count` segments: the overlaps of its
 /// segments with these. O(entries + other_count).
 OverlapTable transposed(const OverlapTable& table, core::Index other_count);
 

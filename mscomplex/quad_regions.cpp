@@ -89,7 +89,7 @@ std::vector<Index> quad_of_triangles(const core::ScalarField& field, const Morse
     for (std::size_t i = first; i < last; ++i) {
       const Index left = mesh.edge_halfedge(saddles[i].cell);
       const Index right = mesh.twin(left);
-      const auto q = static_cast<Index>(2 * i);  // on the left of the arc down from the half-edge's origin
+      const auto q = static_cast<Index>(2 * i);  // left of the descending arc from the half-edge's origin
       walk.from_triangle(left, q + 1);
       if (right != kNone)
         walk.from_triangle(right, q);

@@ -11,8 +11,8 @@
 
 namespace morsel::mscomplex {
 
-/// A cancellation that was needed before a layout could be had: an extremum with a single arc, and the saddle
-/// at the arc's start. Both sides of that arc are in one quad of the complex, which would be folded about it.
+/// A cancellation that a layout requires: an extremum with a single arc, and the saddle
+/// at the arc's start. Both sides of that arc are in one quad of the complex, which would be folded along it.
 struct DanglingRepair {
   NodeKind kind = NodeKind::minimum;  ///< minimum or maximum
   core::Index vertex = core::kNone;   ///< of the extremum
@@ -26,17 +26,17 @@ struct RepairedComplex {
   std::vector<DanglingRepair> repairs;  ///< in their order
 };
 
-/// Cancels each extremum that has a single arc with the saddle there, by turning the V-path between them
-/// round (Forman 1998), the ones of least persistence first, until none is left: cancelling one may leave
-/// another with one arc. Throws BadInput if no saddle is left in some component, for then there is no layout:
-/// it takes a field with more critical points. O(n) a round.
+/// Cancels each extremum that has a single arc with the saddle there, by reversing the V-path between them
+/// (Forman 1998), the ones of least persistence first, until none is left: cancelling one may leave another
+/// with one arc. Throws BadInput if no saddle is left in some component: a layout then needs a field with
+/// more critical points. O(n) a round.
 RepairedComplex repair_dangling(const core::ScalarField& field, MorseSmaleComplex complex,
                                 const core::Progress& progress = {});
 
 struct LayoutOptions {
-  /// How often all nodes are moved to the middle of the patches around them, and their arcs drawn anew. 0
+  /// How often all nodes are moved to the middle of the patches around them, and their arcs drawn again. 0
   /// leaves minima and maxima at their critical vertices, and saddles at the midpoints of their critical
-  /// edges. Each time edges are split where arcs come to run: time and triangles grow by a third or so.
+  /// edges. Each time edges are split along the new arcs: time and triangles grow by a third or so.
   int relaxation = 2;
 };
 
@@ -46,8 +46,7 @@ struct LayoutOptions {
 struct QuadLayout {
   core::TriangleMesh input;  ///< that of the complex
   /// The input with edges split where arcs cross them, and each boundary loop closed by a fan of triangles,
-  /// its cap. At boundaries it is not quite in place: vertices are moved inwards a little to make room for a
-  /// collar.
+  /// its cap. At boundaries vertices are moved inwards a little to make room for a collar.
   core::TriangleMesh surface;
   /// Per node of the complex: vertex of `surface`. Caps, the last nodes, are in the middles of their fans.
   std::vector<core::Index> node_vertex;
@@ -55,7 +54,8 @@ struct QuadLayout {
   std::vector<std::vector<core::Index>> arcs;
   std::vector<Quad> patches;                   ///< the complex's quads
   std::vector<core::Index> patch_of_triangle;  ///< per triangle of `surface`; kNone in fans
-  /// Arcs drawn through the fewest triangles, their straight lines being too fine for double precision.
+  /// Arcs drawn through the fewest triangles, where triangles are too small for a straight line in double
+  /// precision.
   core::Index missed = 0;
 
   core::Index cap_count() const { return input.boundary_loop_count(); }
@@ -70,13 +70,13 @@ struct QuadLayout {
 /// Embeds the complex as a layout (after Dong, Bremer, Garland, Pascucci, Hart 2006, "Spectral surface
 /// quadrangulation").
 ///
-/// Arcs of the discrete complex merge, so they cannot border patches as they are. Here each is drawn anew as
-/// a curve of its own: the region of each maximum, cut along the V-paths that border it, is a disc; laid out
+/// Arcs of the discrete complex merge, so they cannot border patches as they are. Here each is drawn as a
+/// curve of its own: the region of each maximum, cut along the V-paths that border it, is a disc; laid out
 /// in the plane within a circle (Floater 2003, mean-value weights), its ascending arcs are straight rays from
-/// the saddles on the circle to the maximum. The region of each minimum between these arcs is a disc too, and
-/// so come the descending arcs. Saddles are put at the midpoints of their critical edges; so those of a
-/// multiple saddle are apart. Then each relaxation moves every node, and draws its arcs anew, in the disc of
-/// the patches around it.
+/// the saddles on the circle to the maximum. The region of each minimum between these arcs is a disc too, in
+/// which the descending arcs are drawn likewise. Saddles are put at the midpoints of their critical edges, so
+/// that those of a multiple saddle are separate. Then each relaxation moves every node, and draws its arcs
+/// again, in the disc of the patches around it.
 ///
 /// Boundary loops are nodes above all others, their caps; the arcs to them, and the patches there, end at the
 /// loop. No arc of a minimum or maximum may dangle (repair_dangling()) and no
@@ -94,7 +94,7 @@ struct QuadMesh {
 };
 
 /// Parametrises each patch over the unit square, its sides by arc length and its inside with mean-value
-/// coordinates (Floater 2003), evened out to less stretch (Yoshizawa, Belyaev, Seidel 2004), and samples it
+/// coordinates (Floater 2003), iterated for less stretch (Yoshizawa, Belyaev, Seidel 2004), and samples it
 /// on a grid of resolution × resolution quads. A patch with a side on a boundary loop goes over a regular
 /// pentagon, which is cut into five at its middle. Samples on arcs and nodes are shared by the patches there,
 /// so that the mesh is as watertight as the surface.
@@ -106,18 +106,18 @@ struct QuadMesh {
 /// precision. Parallel, the same bits for every number of threads.
 QuadMesh sample(const QuadLayout& layout, core::Index resolution, const core::Progress& progress = {});
 
-/// How well the quads of one patch are shaped.
+/// The shapes of the quads of one patch.
 struct PatchQuality {
-  double area = 0;        ///< of its quads together
+  double area = 0;        ///< of all its quads
   double angle_mean = 0;  ///< of |angle − 90°|
   double scaled_jacobian_min = 0;
 };
 
-/// How good a quad mesh is. Angles in degrees, lengths in the mesh's unit.
+/// Quality measures of a quad mesh. Angles in degrees, lengths in the mesh's unit.
 ///
-/// A quad is seen along the normal of its two diagonals: its area is half the length of their cross product,
-/// an angle of more than 180° is one that points inwards there, and its scaled Jacobian is the least sine of
-/// its four angles: 1 for a rectangle, negative if an angle points inwards.
+/// A quad is measured along the normal of its two diagonals: its area is half the length of their cross
+/// product, an angle of more than 180° is one that points inwards there, and its scaled Jacobian is the least
+/// sine of its four angles: 1 for a rectangle, negative if an angle points inwards.
 struct QuadQuality {
   std::vector<std::size_t> valence;  ///< number of vertices with so many edges
   std::size_t extraordinary = 0;     ///< vertices of a valence other than 4, 3 on the boundary
@@ -142,7 +142,7 @@ struct QuadQuality {
 QuadQuality measure(const QuadMesh& quads, const core::TriangleMesh& input,
                     const core::Progress& progress = {});
 
-/// Checks that it is a manifold with consistently oriented quads, of that Euler characteristic and with so
+/// Checks that it is a manifold with consistently oriented quads, of this Euler characteristic and with so
 /// many boundary loops (none: watertight); throws std::logic_error otherwise. O(n log n).
 void validate(const QuadMesh& quads, long euler_characteristic, core::Index boundary_loops = 0);
 

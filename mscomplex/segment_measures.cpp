@@ -113,7 +113,7 @@ void add_neighbours(const TriangleMesh& mesh, Segments& result) {
 }  // namespace
 
 void measure_segments(const TriangleMesh& mesh, Segments& result) {
-  // Sums over triangles run in their order, for the same bits whatever the number of threads: one thread
+  // Sums over triangles run in their order, for the same bits at any number of threads: one thread
   // each.
   const std::array<std::function<void()>, 2> sums = {[&] { add_triangles(mesh, result); },
                                                      [&] { add_vertices_and_mesh_boundary(mesh, result); }};

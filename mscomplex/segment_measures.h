@@ -6,8 +6,8 @@
 
 namespace morsel::mscomplex {
 
-/// Fills in, from the labels of triangles and vertices, what `result` says of sizes, lengths and neighbours;
-/// its segments must be there. O(n) but for sorting each segment's border, parallel, the same bits for every
+/// Computes the sizes, lengths and neighbours in `result` from the labels of triangles and vertices; its
+/// segments must be set. O(n) except for sorting each segment's border, parallel, the same bits for every
 /// number of threads.
 void measure_segments(const core::TriangleMesh& mesh, Segments& result);
 

@@ -32,7 +32,7 @@ class Segmenter {
     const auto descents = gradient_.descents();
     label.assign(descents.begin(), descents.end());
     const auto minima = gradient_.minima();
-    for (std::size_t i = 0; i < minima.size(); ++i) label[minima[i]] = static_cast<Index>(i) | kWayEnd;
+    for (std::size_t i = 0; i < minima.size(); ++i) label[minima[i]] = static_cast<Index>(i) | kPathEnd;
     follow_all(label);
     result_.ascending.count = static_cast<Index>(minima.size());
   }
@@ -43,13 +43,13 @@ class Segmenter {
     core::parallel_for_each(label.size(),
                             [&](std::size_t t) { label[t] = gradient_.ascend(static_cast<Index>(t)); });
     const auto maxima = gradient_.maxima();
-    for (std::size_t i = 0; i < maxima.size(); ++i) label[maxima[i].cell] = static_cast<Index>(i) | kWayEnd;
+    for (std::size_t i = 0; i < maxima.size(); ++i) label[maxima[i].cell] = static_cast<Index>(i) | kPathEnd;
     result_.descending.count = static_cast<Index>(maxima.size());
     for (Index k = 0; k < mesh_.boundary_loop_count(); ++k) {
       bool empty = true;
       for (const Index h : mesh_.boundary_loop(k))
         if (gradient_.is_paired(h)) {
-          label[TriangleMesh::triangle_of(h)] = (static_cast<Index>(maxima.size()) + k) | kWayEnd;
+          label[TriangleMesh::triangle_of(h)] = (static_cast<Index>(maxima.size()) + k) | kPathEnd;
           empty = false;
         }
       if (!empty) ++result_.descending.count;
@@ -57,7 +57,7 @@ class Segmenter {
     follow_all(label);
   }
 
-  /// Labels of vertices for triangles and the other way round.
+  /// Labels of triangles from those of vertices, and vice versa.
   void carry_over() {
     auto& of_triangle = result_.ascending.triangle;
     of_triangle.resize(mesh_.triangle_count());
@@ -82,7 +82,7 @@ class Segmenter {
   Segmentation take() { return std::move(result_); }
 
  private:
-  /// All triangles of a star share the vertex, so their other two decide.
+  /// All triangles of a star share the vertex, so their other two corners decide.
   Index highest_triangle(Index v) const {
     const Index start = mesh_.vertex_halfedge(v);
     Index best = start;
@@ -118,7 +118,7 @@ class Segmenter {
     return pairs;
   }
 
-  /// Fills tops_ with the distinct maxima that go with each minimum, ascending, from first_[minimum] on.
+  /// Fills tops_ with the distinct maxima paired with each minimum, ascending, from first_[minimum] on.
   void collect_triangle_pairs() {
     constexpr std::size_t kChunk = 16384;
     const std::vector<Pair> pairs = core::parallel_reduce(
@@ -194,7 +194,7 @@ class Segmenter {
   const TriangleMesh& mesh_;
   std::span<const Index> rank_;
   const DiscreteGradient& gradient_;
-  std::vector<Index> first_;  // per minimum, and one
+  std::vector<Index> first_;  // per minimum, and the end
   std::vector<Index> tops_;
   Segmentation result_;
 };

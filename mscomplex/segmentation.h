@@ -1,6 +1,6 @@
 #pragma once
-/// The segments that a field cuts its surface into: by the minimum that is reached downhill, by the maximum
-/// that is reached uphill, and by both.
+/// The segmentations of a surface by a field: by the minimum reached downhill, by the maximum reached uphill,
+/// and by both.
 
 #include <array>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace morsel::mscomplex {
 
-/// A label for each vertex and triangle; none is ever missing.
+/// A label for each vertex and each triangle.
 struct SegmentLabels {
   std::vector<core::Index> vertex;
   std::vector<core::Index> triangle;
@@ -42,8 +42,8 @@ struct Segmentation {
 };
 
 /// The segmentation by `gradient`, which must be `field`'s (throws InvalidArgument if it is on another mesh).
-/// O(n) but for sorting the maxima around each minimum; parallel, the same bits for every number of threads.
-/// Memory: 36 bytes a vertex, and 8 a Morse-Smale segment.
+/// O(n) except for sorting the maxima around each minimum; parallel, the same bits for every number of
+/// threads. Memory: 36 bytes a vertex, and 8 a Morse-Smale segment.
 Segmentation segment(const core::ScalarField& field, const DiscreteGradient& gradient,
                      const core::Progress& progress = {});
 

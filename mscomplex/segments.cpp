@@ -50,13 +50,13 @@ void Segmenter::label_by_quads(const core::ScalarField& field, const Segmentatio
     ends_[q] = {quad.nodes[0], quad.nodes[2]};
   });
   for (Index t = 0; t < mesh.triangle_count(); ++t) {
-    if (label_[t] != kNone) continue;  // all that have none of one component have the same ends
+    if (label_[t] != kNone) continue;  // all unlabelled ones of a component have the same ends
     label_[t] = quads + mesh.component_of_vertex(mesh.triangle(t)[0]);
     ends_[label_[t]] = {base.ascending.triangle[t], complex.maximum_node(base.descending.triangle[t])};
   }
 }
 
-/// A triangle whose own minimum and top are those of the vertex, as far as the kind asks for them.
+/// A triangle whose own minimum and top are those of the vertex, as far as they matter for the kind.
 void Segmenter::choose_triangles(const Segmentation& base) {
   const TriangleMesh& mesh = hierarchy_.complex().mesh();
   vertex_triangle_.resize(mesh.vertex_count());
@@ -77,12 +77,12 @@ void Segmenter::choose_triangles(const Segmentation& base) {
   });
 }
 
-/// What is one segment at a level. A class is named after one of its labels.
+/// The classes of labels that are one segment at a level. A class is named after one of its labels.
 struct Segmenter::Merged {
   std::vector<Index> class_of;       // per label
-  std::vector<std::uint8_t> is_cap;  // per label: whether it has become a cap's; empty where there are none
-  std::vector<Index> first;          // per class: its smallest triangle, or kNone; but for those of caps
-  std::optional<core::ConcurrentUnionFind> pieces;  // of triangles: joins those of caps, if there are any
+  std::vector<std::uint8_t> is_cap;  // per label: whether it belongs to a cap now; empty where there are none
+  std::vector<Index> first;          // per class: its smallest triangle, or kNone; except those of caps
+  std::optional<core::ConcurrentUnionFind> pieces;  // of the triangles of caps, if there are any
 
   bool is_in_pieces(Index class_label) const { return !is_cap.empty() && is_cap[class_label] != 0; }
 };
@@ -240,7 +240,7 @@ Segments Segmenter::segments(Index level, const core::Progress& progress) const 
 
 void Segmenter::number(Merged& merged, Segments& result) const {
   struct Found {
-    Index minimum, top, first, name;  // kNone is the greatest, and a kind has it for all or for none
+    Index minimum, top, first, name;  // kNone is the greatest; all segments of a kind have it, or none
     auto key() const { return std::tuple(minimum, top, first); }
   };
   std::vector<Found> found;
@@ -286,7 +286,7 @@ void Segmenter::number(Merged& merged, Segments& result) const {
                           [&](std::size_t v) { result.vertex[v] = result.triangle[vertex_triangle_[v]]; });
 }
 
-/// The labels at level 0 of what the arcs of a saddle lead to, or of the quads around it.
+/// The labels at level 0 of the extrema at the ends of a saddle's arcs, or of the quads around it.
 std::array<Index, 4> Segmenter::labels_around(Index saddle) const {
   const MorseSmaleComplex& complex = hierarchy_.complex();
   const Index down = 4 * saddle;

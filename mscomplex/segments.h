@@ -1,5 +1,5 @@
 #pragma once
-/// Connected segments at any level of the hierarchy, and what each of them is like.
+/// Connected segments at any level of the hierarchy, and their properties.
 
 #include <array>
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace morsel::mscomplex {
 
-/// What a segment belongs to.
+/// What the segments are the regions of.
 enum class SegmentKind : std::uint8_t {
-  descending,  ///< a maximum, or the cap of a boundary loop: all from which the way up leads there
-  ascending,   ///< a minimum: all from which the way down leads there
+  descending,  ///< a maximum, or the cap of a boundary loop: all from which the V-path up leads there
+  ascending,   ///< a minimum: all from which the V-path down leads there
   morse_smale  ///< a quad of the complex: a minimum and a maximum or cap
 };
 
@@ -39,8 +39,8 @@ struct SegmentNeighbour {
   double length = 0;  ///< the same bits seen from either side
 };
 
-/// A partition of the triangles into connected segments, numbered by minimum, then top (each as the node's
-/// number has it), then smallest triangle. A vertex has the segment of one of the triangles beside it.
+/// A partition of the triangles into connected segments, numbered by minimum, then top (by the nodes'
+/// numbers), then smallest triangle. A vertex has the segment of one of the triangles beside it.
 struct Segments {
   SegmentKind kind = SegmentKind::descending;
   core::Index level = 0;  ///< of the hierarchy
@@ -60,19 +60,19 @@ struct Segments {
     return std::span(saddle).subspan(saddle_offset[s], saddle_offset[s + 1] - saddle_offset[s]);
   }
 
-  std::vector<core::Index> neighbour_offset;  ///< per segment, and one
+  std::vector<core::Index> neighbour_offset;  ///< per segment, and the end
   std::vector<SegmentNeighbour> neighbour;
-  std::vector<core::Index> saddle_offset;  ///< per segment, and one
+  std::vector<core::Index> saddle_offset;  ///< per segment, and the end
   std::vector<core::Index> saddle;
 };
 
 /// Cuts a surface into segments (Natarajan, Wang, Bremer, Pascucci, Hamann 2006, "Segmenting molecular
-/// surfaces"), small ones merged by persistence: where a minimum or maximum is cancelled, its segment goes to
-/// the extremum that takes over its arcs.
+/// surfaces"), small ones merged by persistence: where a minimum or maximum is cancelled, its segment joins
+/// that of the extremum that takes over its arcs.
 ///
 /// A triangle flows to a maximum or cap and a vertex to a minimum, as segmentation.h says; a triangle has the
-/// minimum of its lowest vertex. Merged labels are those of the extrema that survive. What every kind is
-/// and how it is connected:
+/// minimum of its lowest vertex. Merged labels are those of the extrema that survive. The kinds and
+/// how they are connected:
 ///
 /// | kind | one segment for each | connected |
 /// | --- | --- | --- |
@@ -81,9 +81,9 @@ struct Segments {
 /// | morse_smale | quad alive that has a triangle, and piece of one at a cap | closed triangles |
 ///
 /// "Closed triangles" are those that share an edge or a vertex: ascending regions are made of vertices, and
-/// where one is a single vertex wide its triangles may touch in that vertex only. A region of a cap is all
-/// that flows out of the surface through one boundary loop; often it falls into pieces, of which each is a
-/// segment. Of minimum and top together several quads may have both; each is a segment of its own
+/// where one is a single vertex wide its triangles may touch in that vertex only. The region of a cap is all
+/// from which V-paths leave the surface through one boundary loop; often it has several pieces, each of which
+/// is a segment. Several quads may have the same minimum and top; each is a segment of its own
 /// (quad_regions.h), and cancelling a minimum joins the quads on both sides of its saddle's ascending arcs,
 /// cancelling a maximum those of the descending ones. A component without saddles is one segment.
 ///
@@ -95,22 +95,22 @@ struct Segments {
 /// merging.
 class Segmenter {
  public:
-  /// `hierarchy` must be the field's own (throws InvalidArgument if it is on another mesh); it is referred
-  /// to. O(n), parallel.
+  /// Refers to `hierarchy`, which must be the field's own (throws InvalidArgument if it is on another mesh).
+  /// O(n), parallel.
   Segmenter(const core::ScalarField& field, const PersistenceHierarchy& hierarchy, SegmentKind kind,
             const core::Progress& progress = {});
 
   const PersistenceHierarchy& hierarchy() const { return hierarchy_; }
   SegmentKind kind() const { return kind_; }
 
-  /// The number of segments at a level; it never grows with it. O(1) if ascending, or if descending on a
-  /// closed mesh; otherwise O(n), parallel.
+  /// The number of segments at a level; it never increases with the level. O(1) if ascending, or if
+  /// descending on a closed mesh; otherwise O(n), parallel.
   core::Index count(core::Index level) const;
-  /// The first level with at most `wanted` segments, or the last one if there are never so few. O(log s)
+  /// The first level with at most `wanted` segments, or the last one if no level has so few. O(log s)
   /// counts, or less.
   core::Index level_with(core::Index wanted) const;
-  /// The segments at a level. O(n) but for sorting each segment's border, parallel; the same bits for every
-  /// number of threads. Throws InvalidArgument if there is no such level.
+  /// The segments at a level. O(n) except for sorting each segment's border, parallel; the same bits for
+  /// every number of threads. Throws InvalidArgument if there is no such level.
   Segments segments(core::Index level, const core::Progress& progress = {}) const;
 
  private:
@@ -131,7 +131,7 @@ class Segmenter {
   const PersistenceHierarchy& hierarchy_;
   SegmentKind kind_;
   std::vector<core::Index> label_;                // per triangle, at level 0
-  core::FlatArray<core::Index> vertex_triangle_;  // per vertex: whose segment it has
+  core::FlatArray<core::Index> vertex_triangle_;  // per vertex: the triangle whose segment it has
   std::vector<std::array<core::Index, 2>> ends_;  // per label: minimum and top, nodes at level 0
   std::vector<core::Index> first_;                // per label: its smallest triangle, or kNone
 };

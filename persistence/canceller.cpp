@@ -28,7 +28,7 @@ ScalarField Canceller::run(std::span<const PersistencePair> staying) const {
   return {f_.mesh(), std::move(values), std::move(rank)};
 }
 
-/// What stays, chosen once, from f.
+/// The extrema that stay, chosen once, from f.
 std::vector<Role> Canceller::survivors(std::span<const PersistencePair> staying) const {
   std::vector<Role> roles(f_.mesh().vertex_count(), Role::regular);
   for (const EssentialExtrema& extrema : diagram_.essential_extrema) {

@@ -12,14 +12,14 @@
 
 namespace morsel::persistence::detail {
 
-/// Keeps what all cancellations of one field share. Refers to field and progress, which must outlive it.
+/// The data that all cancellations of one field share. Refers to field and progress, which must outlive it.
 class Canceller {
  public:
-  /// Sweeps and pairs; O(n) and O(s log s).
+  /// Computes the sweeps and the pairs; O(n) and O(s log s).
   Canceller(const core::ScalarField& f, const core::Progress& progress);
 
   const core::ScalarField& field() const { return f_; }
-  /// Of the field, with unsorted pairs.
+  /// The diagram of the field, with unsorted pairs.
   const Diagram& diagram() const { return diagram_; }
 
   /// The field without the finite pairs that do not stay; f itself if all do. O(n) and O(s log s).

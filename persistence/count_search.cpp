@@ -10,7 +10,7 @@ namespace morsel::persistence::detail {
 namespace {
 
 /// Critical points after cancelling 0, 1, … pairs if every saddle stayed where it is: it counts as long as a
-/// pair or an essential class is left of its multiplicity. Exact for 0.
+/// pair or an essential class is left of its multiplicity. Exact for 0 pairs.
 std::vector<long> estimates(const Diagram& diagram, Index vertex_count) {
   std::vector<bool> seen(vertex_count, false);
   long total = 0;
@@ -54,12 +54,12 @@ CountSearch::CountSearch(const Canceller& canceller, std::size_t wanted, const c
     tell();
     k = nearest_estimate(measure(k) - estimate_[k]);
   }
-  // Then outwards from there, as long as the correction that would be needed is like those seen.
+  // Then search outwards from there, as long as the correction needed is within those observed.
   const std::size_t center = best_;
   for (std::size_t step = 1; !is_done(); ++step) {
     bool promising = false;
     for (const std::size_t k : {center - step, center + step}) {
-      if (k >= estimate_.size()) continue;  // also what wrapped below 0
+      if (k >= estimate_.size()) continue;  // also where it wrapped below 0
       const long needed = wanted_ - estimate_[k];
       const long slack = 2 + largest_off_ - smallest_off_;
       if (needed < smallest_off_ - slack || needed > largest_off_ + slack) continue;
@@ -86,7 +86,7 @@ std::string CountSearch::note() const {
   return text;
 }
 
-/// The smallest number of pairs whose estimate, corrected by `off`, is not above what is wanted.
+/// The smallest number of pairs whose estimate, corrected by `off`, is not above the wanted number.
 std::size_t CountSearch::nearest_estimate(long off) const {
   const auto first_not_above = std::partition_point(estimate_.begin(), estimate_.end(),
                                                     [&](long estimate) { return estimate + off > wanted_; });

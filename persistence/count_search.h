@@ -14,16 +14,16 @@
 
 namespace morsel::persistence::detail {
 
-/// Each pair takes an extremum and one of a saddle's multiplicity away; whether a saddle vertex goes with it
-/// depends on where the multiple saddles of the cancelled field come to lie, which is seen only by
-/// cancelling. So an estimate leads to the neighbourhood, and numbers of pairs around are tried there.
+/// Each pair removes an extremum and one of a saddle's multiplicity; whether a saddle vertex disappears with
+/// it depends on where the multiple saddles of the cancelled field are, which is known only after cancelling.
+/// So the search starts from an estimate and tries numbers of pairs around it.
 class CountSearch {
  public:
-  /// `wanted` critical points. Runs the search: 2²² / n tries, but at least 12, of O(n) each.
+  /// `wanted`: the number of critical points. Runs the search: 2²² / n tries, but at least 12, of O(n) each.
   CountSearch(const Canceller& canceller, std::size_t wanted, const core::Progress& progress);
 
-  /// The pairs whose cancelling leaves the most critical points that are not above what was wanted, or
-  /// else the fewest above; of several numbers with one result the smallest that was tried.
+  /// The pairs whose cancelling leaves the most critical points that are not above the wanted number,
+  /// or else the fewest above; of several numbers with one result the smallest that was tried.
   std::span<const PersistencePair> cancelled() const { return diagram_.finite_pairs().first(best_); }
   std::size_t reached() const { return static_cast<std::size_t>(totals_.at(best_)); }
   const core::ScalarField& field() const { return *field_; }
@@ -42,8 +42,8 @@ class CountSearch {
   Diagram diagram_;  // with sorted pairs
   long wanted_;
   std::vector<long> estimate_;          // per number of cancelled pairs, strictly falling
-  std::map<std::size_t, long> totals_;  // what was measured
-  long smallest_off_ = 0;               // of measured less estimated totals
+  std::map<std::size_t, long> totals_;  // counted, per number of cancelled pairs
+  long smallest_off_ = 0;               // of counted minus estimated totals
   long largest_off_ = 0;
   std::size_t best_ = 0;
   std::optional<core::ScalarField> field_;  // of best_

@@ -14,7 +14,7 @@ namespace morsel::persistence {
 
 using core::Index;
 
-/// What a saddle was paired with.
+/// What a saddle is paired with.
 enum class PairKind : std::uint8_t {
   minimum_saddle,  ///< a minimum whose component meets an older one at the saddle
   saddle_maximum,  ///< the same, seen from above
@@ -54,8 +54,8 @@ struct EssentialSaddle {
 /// saddles (with their counts) = saddle multiplicity, and the essential saddles number 2 × genus.
 struct Diagram {
   /// By ascending persistence: first the finite pairs, then those of caps. Among equals minimum_saddle comes
-  /// before saddle_maximum, then what its sweep (from below, from above) meets first, then, at one saddle,
-  /// the younger extremum. Cancellation takes pairs in this order.
+  /// before saddle_maximum, then the saddle that its union-find sweep (from below, from above) meets first,
+  /// then, at one saddle, the younger extremum. Cancellation takes pairs in this order.
   std::vector<PersistencePair> pairs;
   std::size_t finite_count = 0;
   std::vector<EssentialExtrema> essential_extrema;  ///< per component of the mesh
@@ -77,7 +77,7 @@ struct Diagram {
 inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Persistence of every critical vertex: an extremum's is that of its pair, a multiple saddle's the largest
-/// of its pairs, kInfinite for what is essential or paired with a cap; 0 at regular vertices. O(n).
+/// of its pairs, kInfinite if it is essential or paired with a cap; 0 at regular vertices. O(n).
 std::vector<double> vertex_persistence(const Diagram& diagram, Index vertex_count);
 
 /// The extrema by falling persistence: first the essential ones, by component, its minimum before its

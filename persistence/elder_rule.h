@@ -1,7 +1,7 @@
 #pragma once
-/// The elder rule (Edelsbrunner, Letscher, Zomorodian 2002): where two components of a sweep meet, the one
-/// whose extremum is the younger ends. With it the order in which cancellation takes the pairs that come
-/// about.
+/// The elder rule (Edelsbrunner, Letscher, Zomorodian 2002): where two components of a union-find sweep
+/// meet, the one with the younger extremum ends. Also the order in which cancellation takes the resulting
+/// pairs.
 
 #include <algorithm>
 #include <bit>
@@ -22,7 +22,7 @@ namespace morsel::persistence {
 using core::Index;
 
 /// Two basins that meet at a saddle, if nothing joined them before. Basins are numbered by the age of their
-/// extrema, from the eldest: minima by ascending rank, maxima and caps as tops_by_age() has them.
+/// extrema, from the eldest: minima by ascending rank, maxima and caps in the order of tops_by_age().
 struct Merge {
   Index saddle;
   Index a;
@@ -46,8 +46,8 @@ inline std::vector<Index> tops_by_age(std::span<const Index> maxima, Index first
 }
 
 /// Of merges in the order of the sweep, keeps those that join components, as merges of the eldest basins of
-/// these; returns what ends, in the order of the sweep, at one vertex the youngest first.
-/// is_same_vertex(saddle, other) tells whether two saddles of merges are at one. O(s α(s)).
+/// these; returns the deaths, in the order of the sweep, at one vertex the youngest first.
+/// is_same_vertex(saddle, other) returns whether two saddles of merges are at one vertex. O(s α(s)).
 template <class IsSameVertex>
 std::vector<Death> apply_elder_rule(Index basins, std::vector<Merge>& merges,
                                     const IsSameVertex& is_same_vertex) {
@@ -71,12 +71,12 @@ std::vector<Death> apply_elder_rule(Index basins, std::vector<Merge>& merges,
   return deaths;
 }
 
-/// Brings pairs, those of minima before those of maxima and each as apply_elder_rule() has them, into the
-/// order in which cancellation takes them: by ascending persistence; equals stay as they are. O(s).
+/// Sorts pairs, those of minima before those of maxima and each in the order of apply_elder_rule(), into the
+/// order in which cancellation takes them: by ascending persistence, stably. O(s).
 template <class Pair, class Persistence>
 void sort_by_persistence(std::span<Pair> pairs, const Persistence& persistence_of) {
   struct Key {
-    std::uint64_t persistence;  // the bits of numbers of at least 0 are ordered as these
+    std::uint64_t persistence;  // the bits of numbers of at least 0, which are ordered as the numbers
     Index position;
   };
   core::FlatArray<Key> keys(pairs.size());

@@ -8,7 +8,7 @@ Level level_of(const core::ScalarField& field, Index rank) {
   const auto order = field.order();
   const double value = field.value(order[rank]);
   const auto is_equal = [&](Index r) { return field.value(order[r]) == value; };
-  // Steps that double, then halves: most levels have one vertex.
+  // Steps that double, then halve: most plateau ranks have one vertex.
   const auto n = static_cast<Index>(order.size());
   Index inside = rank;
   Index step = 1;

@@ -43,7 +43,7 @@ void for_each_change(const core::ScalarField& field, Index v, const Visit& visit
   note(previous, previous_is_higher, first, first_is_higher);
 }
 
-/// A place for each change of each saddle, in the order of the vertices.
+/// Reserves an entry for each change of each saddle, in the order of the vertices.
 LinkEnds make_room(const core::ScalarField& field, std::span<const core::LinkChanges> types,
                    std::span<const Saddle> saddles) {
   LinkEnds result;
@@ -64,7 +64,7 @@ LinkEnds make_room(const core::ScalarField& field, std::span<const core::LinkCha
   return result;
 }
 
-/// One more pass over the triangles. Afterwards offsets are at the ends of their places.
+/// One more pass over the triangles. Afterwards offsets are at the ends of their entries.
 template <bool kShared>
 void fill(const core::ScalarField& field, std::span<const core::LinkChanges> types, LinkEnds& ends,
           Paths& down_to_minima, Paths& up_to_maxima) {
@@ -98,7 +98,7 @@ void fill(const core::ScalarField& field, std::span<const core::LinkChanges> typ
 LinkEnds link_ends(const core::ScalarField& field, std::span<const core::LinkChanges> types,
                    std::span<const Saddle> saddles, Paths& down_to_minima, Paths& up_to_maxima) {
   LinkEnds ends = make_room(field, types, saddles);
-  if (saddles.size() < types.size() / 16) {  // walking their links is less than walking over all triangles
+  if (saddles.size() < types.size() / 16) {  // walking their links is faster than a pass over all triangles
     core::parallel_for(0, saddles.size(), kSaddles, [&](std::size_t first, std::size_t last) {
       for (std::size_t s = first; s < last; ++s) {
         const Index v = field.order()[saddles[s].rank];

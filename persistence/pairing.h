@@ -11,7 +11,7 @@ namespace morsel::persistence {
 /// filtration (Edelsbrunner, Letscher, Zomorodian 2002), pairs within one star left out. Sweeping up, the
 /// components of the sublevel sets merge at saddles: the one with the higher minimum ends there (elder rule).
 /// Sweeping down, the same for maxima and caps; a cap lies above every vertex, a cap of a later loop above
-/// that of an earlier one. What is left of a saddle's multiplicity is essential.
+/// that of an earlier one. The rest of a saddle's multiplicity is essential.
 ///
 /// Only critical vertices count: they come from one pass over the triangles, and each end of a run in a
 /// saddle's link is followed to an extremum, which is connected to it below (or above) the saddle. Union-find

@@ -1,5 +1,5 @@
 #pragma once
-/// Where monotone paths end. For the module's own use.
+/// The ends of monotone paths. For the module's own use.
 
 #include <atomic>
 #include <cstdint>
@@ -16,10 +16,10 @@ using core::Index;
 enum class Direction : std::uint8_t { up, down };
 
 /// Paths from vertices to extrema: downwards for Direction::up, upwards for Direction::down. A path follows
-/// what set_next() last said, or else the steepest edge. Which basin it ends in depends on that, but all that
-/// one can end in are connected below (or above) its start, so sweeps find the same whichever it is.
+/// the last set_next(), or else the steepest edge. In which basin it ends depends on that, but all possible
+/// ones are connected below (or above) its start, so the sweeps' result does not.
 ///
-/// Only the paths that are asked for are walked, each vertex once. Refers to mesh and ranks. All members may
+/// Paths are walked on demand, each vertex once. Refers to mesh and ranks. All members may
 /// be called from any number of threads. Memory: 4 bytes a vertex.
 class Paths {
  public:
@@ -30,7 +30,7 @@ class Paths {
   /// `to` is a neighbour of v (or its cap) in the paths' direction. Before the first find().
   void set_next(Index v, Index to) { entry(v).store(to | kNext, std::memory_order_relaxed); }
 
-  /// The basin of a vertex, or of a cap (given as in `extremum`). Each thread brings a buffer of its own,
+  /// The basin of a vertex, or of a cap (given as in `extremum`). Each thread passes a buffer of its own,
   /// whose contents do not matter. Amortised O(degree).
   Index find(Index v, std::vector<Index>& buffer) const;
 
@@ -42,7 +42,7 @@ class Paths {
   const core::TriangleMesh& mesh_;
   std::span<const Index> rank_;
   Direction direction_;
-  mutable std::vector<Index> entries_;  // per vertex and cap: its basin, kNext | what follows, or kNone
+  mutable std::vector<Index> entries_;  // per vertex and cap: its basin, kNext | the next element, or kNone
 };
 
 }  // namespace morsel::persistence::detail

@@ -20,7 +20,7 @@ using core::kNone;
 /// Vertices a chunk.
 constexpr std::size_t kChunk = std::size_t{1} << 13;
 
-/// Levels a chunk.
+/// Plateau ranks a chunk.
 constexpr std::size_t kLevels = 128;
 
 class PlateauOrder {
@@ -30,7 +30,7 @@ class PlateauOrder {
                std::span<Index> node)
       : f_(f), mesh_(f.mesh()), place_(place), roles_(roles), node_(node) {}
 
-  /// Reorders the vertices of one level, which come in f's order.
+  /// Reorders the vertices of one level, which are given in f's order.
   void arrange(const Level& level, std::span<Index> vertices) {
     if (vertices.size() < 2) return;  // as in f
     level_ = level;
@@ -52,7 +52,7 @@ class PlateauOrder {
  private:
   bool is_level(Index u) const { return level_.holds(place_[u]); }
 
-  /// Whether v becomes what it should if its level keeps f's order. (Survivors always do.)
+  /// Whether v gets the wanted role if its level keeps f's order. (Survivors always do.)
   bool is_fine(Index v) const {
     if (roles_[v] != Role::regular) return true;
     const auto is_below = [&](Index u) { return is_level(u) ? f_.is_lower(u, v) : place_[u] < level_.first; };
@@ -127,7 +127,7 @@ class PlateauOrder {
   StNumbering numbering_;
 };
 
-/// A vertex that was moved: its rank in f and the first rank of the level it came to.
+/// A vertex that was moved: its rank in f and the first rank of the level it was moved to.
 struct Move {
   Index to;
   Index from;
@@ -181,7 +181,7 @@ class Reranking {
   }
 
  private:
-  /// For each level the first of what comes to it, and its lowest new rank.
+  /// For each level the first vertex moved to it, in coming_, and its lowest new rank.
   struct Start {
     Index comes;
     Index rank;
@@ -200,7 +200,8 @@ class Reranking {
     return starts;
   }
 
-  /// Appends the vertices of a level in f's order; those that come are coming_[comes] and what follows.
+  /// Appends the vertices of a level in f's order; those moved to it are coming_[comes] and the following
+  /// ones.
   void collect(const Level& level, Index comes, std::vector<Index>& vertices) const {
     const auto order = f_.order();
     const auto is_coming = [&] { return comes < coming_.size() && coming_[comes].to == level.first; };
@@ -211,7 +212,7 @@ class Reranking {
     for (; is_coming(); ++comes) vertices.push_back(coming_[comes].vertex);
   }
 
-  /// Ranks the vertices of the levels that something was moved to, visiting the levels as they lie in memory.
+  /// Ranks the vertices of the levels that vertices were moved to, visiting the levels in memory order.
   void arrange() {
     const auto& levels = releveled_.levels;
     core::FlatArray<Index> visits(levels.size());
@@ -233,7 +234,7 @@ class Reranking {
     });
   }
 
-  /// Ranks all that stays in [begin, end) and is in no such level.
+  /// Ranks all vertices that stay in [begin, end) and are in no such level.
   void rerank(Index begin, Index end) {
     const auto& levels = releveled_.levels;
     auto level =

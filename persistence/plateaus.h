@@ -11,15 +11,15 @@
 namespace morsel::persistence::detail {
 
 /// Orders all vertices of a flooded and carved field so that the extrema are exactly those that `roles` name.
-/// Within a level f's order is kept where it does that; else the minima come first and the maxima last, both
-/// in f's order, and each connected plateau between them is numbered so that all its vertices have a lower
-/// and a higher neighbour (a cap counts as higher): an st-numbering with all that lies lower as source and
-/// all that lies higher as sink. Only levels that something was moved to need it; the rest of the order moves
-/// up or down as a whole.
+/// Within a level (levels.h) f's order is kept where that suffices; else the minima come first and the maxima
+/// last, both in f's order, and each connected plateau between them is numbered so that all its vertices have
+/// a lower and a higher neighbour (a cap counts as higher): an st-numbering with all lower vertices as source
+/// and all higher ones as sink. Only levels that vertices were moved to need it; the rest of the order is
+/// shifted as a whole.
 ///
-/// It exists because the link of a vertex is a cycle, so that no single vertex can cut a part of a plateau
-/// off from both. It needs every plateau to touch something lower (or a minimum of its own level) and
-/// something higher, which flooding and carving see to; std::logic_error is thrown if one does not.
+/// Such an order exists because the link of a vertex is a cycle, so that no single vertex can cut a part of a
+/// plateau off from both. It needs every plateau to touch something lower (or a minimum of its own level) and
+/// something higher, which flooding and carving ensure; std::logic_error is thrown if one does not.
 ///
 /// `roles` has one entry a vertex. Returns the ranks. O(n + k log k) for k vertices moved, parallel.
 core::FlatArray<Index> order_plateaus(const core::ScalarField& f, const Releveled& releveled,

@@ -17,7 +17,7 @@ namespace {
 using core::kNone;
 using core::ScalarField;
 
-/// Regions a chunk: most are of a few vertices.
+/// Regions a chunk: most have a few vertices.
 constexpr std::size_t kRegionGrain = 128;
 
 /// Basins that are not kept and overflow together, at the saddle of that rank.
@@ -83,7 +83,7 @@ class Reconstruction {
     if (joined.empty()) {
       carve(sweeps_.down.merges);
     } else {
-      // Flooding leaves the sweep of f from above as it is, but joins what it floods earlier.
+      // Flooding does not change the sweep of f from above, except that flooded parts are joined earlier.
       std::vector<Merge> merges(sweeps_.down.merges.size() + joined.size());
       std::merge(sweeps_.down.merges.begin(), sweeps_.down.merges.end(), joined.begin(), joined.end(),
                  merges.begin(), [](const Merge& a, const Merge& b) { return a.saddle > b.saddle; });
@@ -125,8 +125,8 @@ class Reconstruction {
     return joined;
   }
 
-  /// Floods what is connected to a minimum below the level, which becomes `part`; returns the part's Euler
-  /// characteristic.
+  /// Floods the part that is connected to a minimum below the level, which becomes `part`; returns the part's
+  /// Euler characteristic.
   long flood_from(Index minimum, const Level& level, std::vector<Index>& part) {
     long sixfold = 0;
     move_to(minimum, level);
@@ -155,8 +155,8 @@ class Reconstruction {
     return sixfold / 6;
   }
 
-  /// Notes that all that lies beside scratch.part, on the level or above it, is connected from the level on.
-  /// Beside a disc it is so anyway, since it lies on one circle.
+  /// Records that all neighbours of scratch.part, on the level or above it, are connected from the level on.
+  /// Around a disc they are so anyway, since they lie on one circle.
   void join_around(const Level& level, Scratch& scratch) const {
     Index joint = kNone;
     const auto touch = [&](Index u) {
@@ -192,8 +192,8 @@ class Reconstruction {
     });
   }
 
-  /// Calls visit(extremum, level, scratch) for the extrema of all regions, as these lie in memory, and notes
-  /// the levels.
+  /// Calls visit(extremum, level, scratch) for the extrema of all regions, in memory order, and stores the
+  /// levels.
   template <class Visit>
   std::vector<Merge> for_each_region(const Regions& regions, const Sweep& sweep, std::vector<Level>& levels,
                                      const Visit& visit) {
@@ -223,7 +223,7 @@ class Reconstruction {
         });
   }
 
-  /// Regions come in the order of the sweeps, and so do their levels.
+  /// Regions are in the order of the sweeps, and so are their levels.
   void add_levels() {
     result_.levels.resize(flooded_.size() + carved_.size());
     const auto is_lower = [](const Level& a, const Level& b) { return a.first < b.first; };

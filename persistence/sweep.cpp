@@ -57,7 +57,8 @@ void replace_by_basins(const Paths& paths, std::vector<Index>& ends) {
   });
 }
 
-/// What the saddles join, by ascending rank: of the basins that meet at one, the first with each other.
+/// The basins that saddles join, by ascending rank: of those that meet at a saddle, the first with each other
+/// one.
 std::vector<Merge> collect_merges(const core::ScalarField& field, std::span<const Saddle> saddles,
                                   std::span<const Index> offset, std::span<const Index> basins) {
   return core::parallel_reduce(

@@ -1,6 +1,6 @@
 #pragma once
-/// The sweeps over a surface, from below and from above: the basins of its extrema and where they meet. For
-/// the module's own use.
+/// The union-find sweeps over a surface, from below and from above: the basins of its extrema and where they
+/// meet. For the module's own use.
 
 #include <memory>
 #include <vector>
@@ -14,11 +14,12 @@
 
 namespace morsel::persistence::detail {
 
-/// One of the two. Basins are numbered from the eldest; the saddles of merges and deaths are their ranks.
+/// One of the two sweeps. Basins are numbered from the eldest; the saddles of merges and deaths are their
+/// ranks.
 struct Sweep {
   Index vertex_count = 0;
   std::vector<Index> extremum;  ///< per basin: a vertex, or vertex_count + loop for a cap
-  std::vector<Merge> merges;    ///< as apply_elder_rule() leaves them
+  std::vector<Merge> merges;    ///< as left by apply_elder_rule()
   std::vector<Death> deaths;
   std::unique_ptr<Paths> paths;
 
@@ -39,7 +40,7 @@ Sweeps sweep(const core::ScalarField& field, const core::Progress& progress = {}
 /// The diagram of the field from its sweeps, but with the finite pairs in the order of the sweeps; O(n).
 Diagram unsorted_diagram(const core::ScalarField& field, const Sweeps& sweeps);
 
-/// Brings the pairs of such a diagram into their order; O(s).
+/// Sorts the pairs of such a diagram into the order of Diagram::pairs; O(s).
 void sort_pairs(Diagram& diagram);
 
 }  // namespace morsel::persistence::detail

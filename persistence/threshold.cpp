@@ -14,7 +14,7 @@ double Threshold::on(const core::ScalarField& field) const {
   if (!in_percent) return value;
   const double share = value / 100;
   const double extent = field.extent();
-  // The extent of a field that spans more than half of all doubles overflows, a share of it need not.
+  // The range of a field that spans more than half of all doubles overflows, a share of it need not.
   return std::isfinite(extent) ? share * extent : share * field.max() - share * field.min();
 }
 
@@ -35,7 +35,7 @@ Threshold parse_threshold(std::string_view text, std::string_view what) {
   if (!valid || result.value < 0)
     throw core::InvalidArgument(std::string(what) +
                                 " must be a number of at least 0 such as 3.5 (in the field's unit) or 0.1% "
-                                "(of the field's extent), not \"" +
+                                "(of the field's range), not \"" +
                                 std::string(whole) + "\"");
   return result;
 }

@@ -8,7 +8,7 @@
 
 namespace morsel::persistence {
 
-/// A persistence: in the field's unit, or as a percentage of the field's extent.
+/// A persistence: in the field's unit, or as a percentage of the field's range.
 struct Threshold {
   double value = 0;
   bool in_percent = false;
@@ -25,8 +25,8 @@ struct Threshold {
 /// "0.1%" or "3.5"; parse_threshold() reads it back exactly.
 std::string to_string(const Threshold& threshold);
 
-/// Reads "3.5" (in the field's unit) or "0.1%" (of the field's extent). Throws InvalidArgument naming `what`
-/// for anything else, and for what is negative or not finite.
+/// Reads "3.5" (in the field's unit) or "0.1%" (of the field's range). Throws InvalidArgument naming `what`
+/// for anything else, and if the value is negative or not finite.
 Threshold parse_threshold(std::string_view text, std::string_view what);
 
 }  // namespace morsel::persistence

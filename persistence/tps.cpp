@@ -43,7 +43,7 @@ std::unique_ptr<core::Method> make_tps(core::ParameterReader& reader) {
   CancellationOptions options;
   const std::string threshold = reader.text(
       "threshold", "0.1%",
-      "cancel pairs up to this persistence: a percentage of the field's extent, or a number in the "
+      "cancel pairs up to this persistence: a percentage of the field's range, or a number in the "
       "field's unit");
   const std::string count =
       reader.text("count", "none", "cancel down to this number of critical points, instead of a threshold");

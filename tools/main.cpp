@@ -22,7 +22,6 @@
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/commands/threads.h"
 #include "morsel/tools/formats/version.h"
-#include "morsel/tools/report/provenance.h"
 
 namespace {
 
@@ -90,10 +89,9 @@ int run(std::vector<std::string> words, std::stop_token stop) {
   if (std::any_of(words.begin() + 1, std::ranges::find(words, "--"), is_help))
     return show(command_help(command));
 
-  std::vector<std::string> typed = words;
-  typed.insert(typed.begin(), "morsel");
-  program.common.command = shaping_command(typed);
-  parse(command, {words.begin() + 1, words.end()});
+  words.erase(words.begin());
+  program.common.command = shaping_command(command, words);
+  parse(command, std::move(words));
   const core::StopScope scope(stop);
   Console console(program.common.quiet, std::move(stop));
   limit_threads(program.common.threads, console);

@@ -9,14 +9,14 @@
 
 namespace morsel::core {
 
-/// From its link. O(degree).
+/// Classifies one vertex by its link. O(degree).
 inline VertexKind vertex_kind(const ScalarField& field, Index v) {
   const auto rank = field.ranks();
   const Index center = rank[v];
   return vertex_kind(field.mesh(), v, [&](Index u) { return rank[u] < center; });
 }
 
-/// The same where the changes in its link are counted already; it is walked only where they are cut off.
+/// The same from the counted changes of its link, which is walked only where the count is cut off.
 inline VertexKind vertex_kind(const ScalarField& field, Index v, LinkChanges changes) {
   return changes.is_cut_off() ? vertex_kind(field, v) : changes.kind();
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The link of a vertex on the capped surface, walked once: what classification and sweeps are made of.
+/// The link of a vertex on the capped surface, walked once: for classification and union-find sweeps.
 
 #include <type_traits>
 
@@ -19,8 +19,8 @@ decltype(auto) visit_neighbor(Visit& visit, Index u, [[maybe_unused]] Index half
 }  // namespace detail
 
 /// Calls visit(u) once for each neighbour u of v, counter-clockwise: a full turn, or from one boundary
-/// neighbour to the other. Or visit(u, h) with the half-edge from v to u; kNone for the last neighbour at a
-/// boundary, to which none leads. O(degree).
+/// neighbour to the other. Or visit(u, h) with the half-edge from v to u; h is kNone for the last
+/// neighbour at a boundary, to which no half-edge leads. O(degree).
 template <class Visit>
 void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
   const Triangle* const triangles = mesh.triangles().data();
@@ -39,13 +39,13 @@ void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
   if (h == kNone) detail::visit_neighbor(visit, apex, kNone);
 }
 
-/// The part of a link that satisfies a predicate: its lower part, say.
+/// The part of a link that satisfies a predicate, such as its lower part.
 struct LinkPart {
   Index runs = 0;     ///< maximal runs around the vertex; 0 if the part is empty or the whole link
   bool empty = true;  ///< no element of the link is in the part
   bool whole = true;  ///< every element is
 
-  /// What the vertex is whose link's lower part this is.
+  /// The kind of the vertex, if this is the lower part of its link.
   VertexKind kind() const { return kind_of_link(runs, whole); }
 };
 
@@ -85,8 +85,8 @@ LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& 
   return part;
 }
 
-/// What v is if is_lower(u), or is_lower(u, h) as in for_each_neighbor(), which is asked once for each
-/// neighbour in turn, tells which of them are lower. O(degree).
+/// The kind of v, where is_lower(u), or is_lower(u, h) as in for_each_neighbor(), says whether neighbour u is
+/// lower; it is called once for each neighbour in turn. O(degree).
 template <class IsLower>
 VertexKind vertex_kind(const TriangleMesh& mesh, Index v, const IsLower& is_lower) {
   return link_part(mesh, v, /*cap_inside=*/false, is_lower, [](Index) {}).kind();

@@ -7,7 +7,7 @@
 namespace morsel::core {
 namespace {
 
-/// Slices of triangles are counted apart and added; as sums are cut off, their number makes no difference.
+/// Slices of triangles are counted separately and added; as sums are cut off, their number does not matter.
 constexpr std::size_t kMostSlices = 8;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// How often links change between lower and higher, by passes over the triangles as they lie in memory.
+/// How often links change between lower and higher, by passes over the triangles in memory order.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ class LinkChanges {
   static constexpr Index kMostChanges = 127;  ///< or more
   constexpr bool is_cut_off() const { return changes() == kMostChanges; }
 
-  /// What the vertex is; where changes are cut off, a saddle of at least the multiplicity that it says.
+  /// The kind of the vertex; where changes are cut off, its multiplicity is a lower bound.
   constexpr VertexKind kind() const { return kind_of_link(runs(), (bits_ & 1) != 0); }
   constexpr bool is_regular() const { return is_regular_link(runs()); }
   constexpr bool is_saddle() const { return is_saddle_link(runs()); }
@@ -43,8 +43,8 @@ class LinkChanges {
     bits_ = static_cast<std::uint8_t>(sum | ((bits_ | other.bits_) & 1));
   }
 
-  /// Twice the changes, and 1 if the vertex is the highest corner of a triangle: below 2 · kMostChanges, all
-  /// that is known.
+  /// Twice the changes, and 1 if the vertex is the highest corner of a triangle. Below 2 · kMostChanges this
+  /// is the exact count.
   constexpr std::uint8_t bits() const { return bits_; }
 
  private:

@@ -16,9 +16,9 @@
 
 namespace morsel::core {
 
-struct MeshSource;  // mesh_io.h: what the mesh's file said besides the mesh
+struct MeshSource;  // mesh_io.h: the data in the mesh's file besides the mesh
 
-/// A field and every parameter as it was resolved on this mesh (a σ of 8ε in the mesh's unit, say).
+/// A field and every parameter as resolved on this mesh (such as a σ of 8ε in the mesh's unit).
 struct FunctionResult {
   ScalarField field;
   Parameters parameters;
@@ -53,7 +53,7 @@ struct IterationRecord {
   friend bool operator==(const IterationRecord&, const IterationRecord&) = default;
 };
 
-/// A field, what the parameters came to on this mesh, and what a method has to tell besides
+/// A field, the parameters as resolved on this mesh, and further details of the run
 /// ("iterations_run": 7).
 struct MethodResult {
   ScalarField field;
@@ -62,26 +62,26 @@ struct MethodResult {
   std::vector<IterationRecord> iterations = {};  ///< from the input on, where they were counted
 };
 
-/// Whom an iterative method tells of its iterations, and of which ones.
+/// A callback for the iterations of an iterative method, and the choice of those for which it is called.
 class IterationCallback {
  public:
-  /// Told the number of each iteration, 1 to the last, and the field that it made; false ends the method
-  /// there. One that iterates on another field than it was given tells that first, as 0. A method that has to
-  /// begin again begins again with its first number.
+  /// Called with the number of each iteration, 1 to the last, and its field; returning false ends the method
+  /// there. A method that iterates on another field than its input reports that one first, as iteration 0. A
+  /// method that has to start again starts again at its first number.
   using Call = std::function<bool(int iteration, const ScalarField& field)>;
   using Choice = std::function<bool(int iteration)>;
 
   /// No callback is set: no iteration is wanted.
   IterationCallback() = default;
   /// Without `wants` all iterations are wanted.
-  template <class Told>
-  requires(!std::same_as<Told, IterationCallback> && std::convertible_to<Told, Call>)
-      IterationCallback(Told call, Choice wants = {})
+  template <class Callable>
+  requires(!std::same_as<Callable, IterationCallback> && std::convertible_to<Callable, Call>)
+      IterationCallback(Callable call, Choice wants = {})
       : call_(std::move(call)), wants_(std::move(wants)) {}
 
-  /// Whether this iteration is to be told; of one that is not a method need not make a field.
+  /// Whether this iteration is to be reported; if not, the method need not make its field.
   bool wants(int iteration) const { return call_ && (!wants_ || wants_(iteration)); }
-  /// Tells the iteration if it is wanted; whether the method is to go on.
+  /// Reports the iteration if it is wanted; returns whether the method is to continue.
   bool operator()(int iteration, const ScalarField& field) const {
     return !wants(iteration) || call_(iteration, field);
   }
@@ -94,7 +94,7 @@ class IterationCallback {
 
 /// What a method may need besides the field.
 struct MethodContext {
-  /// Takes the field's Morse function again on another surface with the same triangles; empty if there is
+  /// Evaluates the field's Morse function again on another surface with the same triangles; empty if there is
   /// none.
   std::function<ScalarField(const TriangleMesh&)> morse_function = {};
   Progress progress = {};
@@ -103,15 +103,15 @@ struct MethodContext {
   IterationCallback on_iteration = {};
 };
 
-/// What is peculiar about a method, for whoever composes methods.
+/// Traits of a method, for composing methods.
 struct MethodTraits {
-  /// It takes critical points away pair by pair: fields between its input and its output have no use.
+  /// It removes critical points pair by pair: fields between its input and its output have no use.
   bool cancels_pairs = false;
-  /// It takes the Morse function again whatever field it is given: nothing can come before it.
-  bool retakes_field = false;
-  /// The field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this method
-  /// with `iterations=i` returns: then one run gives the results of all smaller numbers.
-  bool tells_results = false;
+  /// It evaluates the Morse function again whatever its input: no method can come before it in a chain.
+  bool reevaluates_function = false;
+  /// The field that MethodContext::on_iteration receives for iteration i is, bit for bit, what this method
+  /// returns with `iterations=i`: so one run gives the results for all smaller numbers.
+  bool iterates_are_results = false;
 };
 
 /// A method: a function from a scalar field to a scalar field on the same mesh. It never measures, and what

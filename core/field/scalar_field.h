@@ -10,9 +10,10 @@
 namespace morsel::core {
 
 /// A piecewise-linear function on a mesh: one finite value per vertex and the total order of the vertices
-/// that makes it Morse. Vertices are compared by (value, vertex number), "simulation of simplicity"
-/// (Edelsbrunner and Mücke 1990), unless a method hands over an order of its own. Algorithms compare ranks,
-/// never values. A value type; immutable; safe to read from any number of threads. Memory: 16 bytes a vertex.
+/// that makes it a Morse function. Vertices are compared by (value, vertex number), "simulation of
+/// simplicity" (Edelsbrunner and Mücke 1990), unless a method defines an order of its own. Algorithms compare
+/// ranks, never values. A value type; immutable; safe to read from any number of threads. Memory: 16 bytes a
+/// vertex.
 class ScalarField {
  public:
   /// Orders by (value, vertex). `values` has one entry per vertex, in the function's own unit. Throws
@@ -39,7 +40,7 @@ class ScalarField {
   /// max − min, in the field's unit.
   double extent() const { return max() - min(); }
 
-  /// −f with the order turned round exactly, ties included. O(n).
+  /// −f with the order reversed exactly, ties included. O(n).
   ScalarField negated() const;
 
  private:

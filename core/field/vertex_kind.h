@@ -1,5 +1,5 @@
 #pragma once
-/// What a vertex is to a field: the one definition, which everything that finds critical vertices uses.
+/// The kind of a vertex: the one definition, used wherever critical vertices are found.
 
 #include <array>
 #include <cstddef>
@@ -27,7 +27,7 @@ struct VertexKind {
   friend bool operator==(const VertexKind&, const VertexKind&) = default;
 };
 
-// Parts of the rule that loops over all vertices ask for alone, without branches.
+// Parts of the rule on their own, without branches, for loops over all vertices.
 constexpr bool is_regular_link(Index lower_runs) { return lower_runs == 1; }
 constexpr bool is_saddle_link(Index lower_runs) { return lower_runs > 1; }
 

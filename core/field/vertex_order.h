@@ -14,7 +14,7 @@ namespace morsel::core {
 /// of threads. Memory: 16 bytes a vertex besides the result.
 FlatArray<Index> vertex_order(std::span<const double> values);
 
-/// The same with vertices of equal value in the order in which they stand in `before`, a permutation of them.
+/// The same with vertices of equal value in the order of `before`, a permutation of the vertices.
 FlatArray<Index> vertex_order(std::span<const double> values, std::span<const Index> before);
 
 /// The position of each element: inverse(p)[p[i]] = i. `permutation` must be one.

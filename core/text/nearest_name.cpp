@@ -30,7 +30,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates) {
-  constexpr std::size_t kLongest = 64;  // nobody mistypes more than that
+  constexpr std::size_t kLongest = 64;  // longer texts are not compared
   if (word.size() > kLongest) return "";
   std::string best;
   std::size_t least = (word.size() + 1) / 3 + 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// The name that somebody meant who mistyped it.
+/// The name nearest to a mistyped one.
 
 #include <span>
 #include <string>

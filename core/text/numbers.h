@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as text: how they are written to files, for people and back and forth.
+/// Numbers as text: as written to files and for people, and as read back.
 
 #include <array>
 #include <charconv>
@@ -10,7 +10,7 @@
 
 namespace morsel::core {
 
-/// The shortest text that reads back as the same number, without an allocation: for files of many.
+/// The shortest text that reads back as the same number, without an allocation: for files of many numbers.
 class NumberText {
  public:
   explicit NumberText(double value) : NumberText(value, 0) {}

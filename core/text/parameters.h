@@ -19,7 +19,7 @@ namespace morsel::core {
 /// A resolved value as a report holds it.
 using ParameterValue = std::variant<bool, std::int64_t, double, std::string>;
 
-/// Resolved parameters, in the order in which they are to be shown.
+/// Resolved parameters, in the order in which they are shown.
 using Parameters = std::vector<std::pair<std::string, ParameterValue>>;
 
 /// A key as help shows it.
@@ -39,9 +39,9 @@ inline constexpr Range kPositive{0, true};
 inline constexpr Range kNonNegative{0, false};
 
 /// Reads a specification key by key. Each call declares one key, with its default and a description, and
-/// returns its value; finish() then refuses what was given but never declared. So a method declares each of
-/// its keys once, and help, checking and reading follow from it. All calls throw InvalidArgument, naming the
-/// owner, the key, the value and what is allowed.
+/// returns its value; finish() then throws if a key was given that was not declared. So a method declares
+/// each of its keys once, and help, checking and reading follow from it. All calls throw InvalidArgument,
+/// naming the owner, the key, the value and what is allowed.
 class ParameterReader {
  public:
   explicit ParameterReader(Specification specification);
@@ -54,10 +54,9 @@ class ParameterReader {
   /// One of `choices`, which help lists after the description.
   std::string choice(std::string_view key, std::string_view default_value,
                      const std::vector<std::string_view>& choices, std::string_view description);
-  /// Free text; a null default makes the key one that must be given.
+  /// Free text; a null default makes the key mandatory.
   std::string text(std::string_view key, const char* default_value, std::string_view description);
-  /// Texts separated by "/"; the default is given in the same form, null makes the key one that must be
-  /// given.
+  /// Texts separated by "/"; the default is given in the same form, null makes the key mandatory.
   std::vector<std::string> list(std::string_view key, const char* default_value,
                                 std::string_view description);
   /// Whether the key was given; declares nothing.
@@ -69,8 +68,7 @@ class ParameterReader {
   const std::string& owner() const { return specification_.name; }
   const std::vector<ParameterInfo>& declared() const { return declared_; }
 
-  /// A reader that hands out defaults (and empty text for keys that must be given), to learn what is
-  /// declared.
+  /// A reader that returns defaults (and empty text for mandatory keys), to list the declared keys.
   static ParameterReader for_help(std::string name);
 
  private:

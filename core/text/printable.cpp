@@ -9,7 +9,7 @@ namespace {
 
 struct Character {
   std::uint32_t code = 0;
-  std::size_t size = 0;  ///< in bytes; 0: no UTF-8
+  std::size_t size = 0;  ///< in bytes; 0: not UTF-8
 };
 
 /// The character that `text`, which is not empty, begins with.

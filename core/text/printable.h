@@ -6,11 +6,10 @@
 
 namespace morsel::core {
 
-/// The text with everything escaped that a terminal would take for more than a character to show: control
+/// The text with everything escaped that a terminal would not just show as a character: control
 /// characters (C0, DEL, C1), line and paragraph separators and what changes the direction of writing (\n, \t,
 /// \r, \x1b, \u0085, \u202e), noncharacters that XML forbids, and bytes that are not UTF-8 (\xff). All else
-/// stays, backslashes too: this is for reading, not for reading back. Those control characters stay as well
-/// that are in `but`.
+/// stays, backslashes too, so the result cannot be parsed back. Control characters in `but` stay as well.
 std::string printable(std::string_view text, std::string_view but = {});
 
 }  // namespace morsel::core

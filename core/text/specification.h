@@ -21,14 +21,14 @@ struct Specification {
 /// or key or a key without "=". `what` names the text in errors ("--method").
 std::vector<Specification> parse_chain(std::string_view text, std::string_view what);
 
-/// parse_chain() for what cannot be chained; throws InvalidArgument if it is.
+/// parse_chain() for a single specification; throws InvalidArgument if the text is a chain.
 Specification parse_specification(std::string_view text, std::string_view what);
 
 /// The text that parse_chain() reads it from.
 std::string to_string(const Specification& specification);
 std::string to_string(const std::vector<Specification>& chain);
 
-/// Takes the backslashes out.
+/// Removes the backslashes.
 std::string unescape(std::string_view raw);
 
 /// Puts a backslash before every separator, so that parse_chain() reads the text back literally.

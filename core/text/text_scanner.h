@@ -16,9 +16,9 @@ namespace morsel::core {
 /// A piece of a file as an error message may show it: quoted, short, printable.
 std::string shown(std::string_view word);
 
-/// Goes over lines that have a word, and over the words of the line it stands on. Lines end with \n, \r\n, or
-/// (in a file without any \n) \r. Independent of locales. Errors name the file and the line. Reports progress
-/// and heeds cancellation every 65,536 lines and words.
+/// Iterates over the lines that have a word, and over the words of the current line. Lines end with \n, \r\n,
+/// or (in a file without any \n) \r. Independent of locales. Errors name the file and the line. Reports
+/// progress and checks for cancellation every 65,536 lines and words.
 class TextScanner {
  public:
   struct Syntax {
@@ -47,11 +47,12 @@ class TextScanner {
   double single_number(std::string_view what);
   /// The next word as a whole number.
   std::int64_t integer(std::string_view what);
-  /// The whole number that this line goes on with, up to whatever is not a digit, without going past it.
+  /// The whole number that follows in this line, up to the first character that is no digit, without
+  /// consuming it.
   std::int64_t leading_integer(std::string_view what);
-  /// The word at which this stands, without going past it.
+  /// The next word of this line, without consuming it.
   std::string_view peek_word() const;
-  /// The next character of this line (0 at its end), and stepping over it.
+  /// The next character of this line (0 at its end), and consuming it.
   char peek() const { return cursor_ < line_end_ ? *cursor_ : '\0'; }
   void skip() { ++cursor_; }
 

@@ -102,7 +102,9 @@ class Denoise final : public core::Method {
     return control.result(parameters(smoothing), std::move(told));
   }
 
-  core::MethodTraits traits() const override { return {.retakes_field = true, .tells_results = true}; }
+  core::MethodTraits traits() const override {
+    return {.reevaluates_function = true, .iterates_are_results = true};
+  }
 
  private:
   core::Parameters parameters(const SurfaceSmoothing& smoothing) const {

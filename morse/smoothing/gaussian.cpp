@@ -32,7 +32,7 @@ class Gaussian final : public core::Method {
                           {{"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)}});
   }
 
-  core::MethodTraits traits() const override { return {.tells_results = true}; }
+  core::MethodTraits traits() const override { return {.iterates_are_results = true}; }
 
  private:
   SalientOptions options_;

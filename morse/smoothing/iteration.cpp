@@ -44,7 +44,7 @@ void check(const StopCriteria& criteria) {
                           core::shortest(*criteria.until_change));
 }
 
-/// "none", or what `parse` makes of the text.
+/// Empty for "none", else the text as read by `parse`.
 template <class Parse>
 auto optional_value(core::ParameterReader& reader, const char* key, const char* description,
                     const Parse& parse) -> std::optional<decltype(parse(std::string(), std::string()))> {
@@ -73,19 +73,18 @@ StopCriteria read_stop_criteria(core::ParameterReader& reader, int iterations) {
                        return static_cast<std::size_t>(parse_at_least(0, text, what));
                      });
   criteria.until_stable =
-      optional_value(reader, "until-stable", "stop as soon as so many fields running have the same counts",
+      optional_value(reader, "until-stable", "stop as soon as so many successive fields have the same counts",
                      [](const std::string& text, const std::string& what) {
                        return static_cast<int>(parse_at_least(2, text, what));
                      });
-  criteria.until_change =
-      optional_value(reader, "until-change",
-                     "stop as soon as no value changes by more than this share of the field's extent",
-                     [](const std::string& text, const std::string& what) {
-                       const double share = core::parse_number(text, what);
-                       if (!(share >= 0 && share <= 1))
-                         throw InvalidArgument(what + " must be between 0 and 1, not " + text);
-                       return share;
-                     });
+  criteria.until_change = optional_value(
+      reader, "until-change", "stop as soon as no value changes by more than this share of the field's range",
+      [](const std::string& text, const std::string& what) {
+        const double share = core::parse_number(text, what);
+        if (!(share >= 0 && share <= 1))
+          throw InvalidArgument(what + " must be between 0 and 1, not " + text);
+        return share;
+      });
   const bool conditions = criteria.until_count || criteria.until_stable || criteria.until_change;
   if (conditions && !reader.given("iterations")) criteria.iterations = kIterationsWithCondition;
   return criteria;

@@ -1,5 +1,5 @@
 #pragma once
-/// When an iterative method ends, and what is known of each of its iterations.
+/// Stop conditions of iterative methods, and records of their iterations.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,24 +14,24 @@
 
 namespace morsel::morse {
 
-/// Several conditions to stop; the first that holds counts. Those of counts are asked of the input too.
+/// Conditions to stop; the first that holds ends the iterations. Those on counts apply to the input too.
 struct StopCriteria {
   int iterations = 10;                          ///< at most; 0 returns the input as it is
   std::optional<std::size_t> until_count = {};  ///< until at most so many critical points are left
-  std::optional<int> until_stable = {};  ///< until so many fields running have the same counts; at least 2
+  std::optional<int> until_stable = {};  ///< until so many successive fields have the same counts; at least 2
   std::optional<double> until_change =
       {};  ///< until no value changes by more than this share of the input's extent
 };
 
-/// Declares and reads the keys iterations, until-count, until-stable and until-change. With one of the latter
-/// and without `iterations` there may be 1,000 of them, else `iterations`.
+/// Declares and reads the keys iterations, until-count, until-stable and until-change. `iterations` is
+/// the default of the first, but 1,000 where one of the others is given.
 StopCriteria read_stop_criteria(core::ParameterReader& reader, int iterations);
 
 /// As a report shows them; conditions that were not set are left out.
 core::Parameters to_parameters(const StopCriteria& criteria);
 
-/// Where an iterative method begins: at the field that it was given, or at one that it made of it, which
-/// listeners are then told as iteration 0.
+/// Where an iterative method starts: at its input, or at a field made from it, which is then reported as
+/// iteration 0.
 enum class Start : std::uint8_t { given, made };
 
 /// Counts and compares the fields that a method passes through, and says when to stop:
@@ -51,23 +51,23 @@ class IterationControl {
   bool more() const { return stopped_by_.empty(); }
   /// The next iteration's values, per vertex. Equal values keep the order of the input.
   void record(std::vector<double> values);
-  /// Whether the next iteration's field is looked at: by a criterion, by who counts all of them, by
+  /// Whether the next iteration's field is evaluated: for a criterion, for the counts of all iterations, for
   /// MethodContext::on_iteration, or as the last one.
   bool needs_field() const;
-  /// In place of record() where the next iteration's values are not needed; field() stays what it is.
+  /// In place of record() where the next iteration's values are not needed; field() does not change.
   void skip() { ++iteration_; }
-  /// The method begins again from the input.
+  /// The method starts again from the input.
   void restart();
 
-  /// After the last iteration that was recorded, the input before the first.
+  /// The field of the last recorded iteration; before the first one the input.
   const core::ScalarField& field() const { return field_; }
   int iterations_run() const { return iteration_; }
   /// "iterations", "until-count", "until-stable", "until-change", or "caller" if only the context ended it;
   /// empty while more().
   std::string_view stopped_by() const { return stopped_by_; }
 
-  /// field() with the curve of counts; `details` gains iterations_run and stopped_by. `parameters` are those
-  /// of the criteria followed by the ones given.
+  /// field() with the records of iterations; `details` gains iterations_run and stopped_by. The parameters
+  /// are those of the criteria followed by `parameters`.
   core::MethodResult result(core::Parameters parameters, core::Parameters details = {}) const;
 
  private:

@@ -61,7 +61,8 @@ class Salient final : public core::Method {
 
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
-    return {.retakes_field = retakes(), .tells_results = !options_.return_saliency && options_.accuracy == 0};
+    return {.reevaluates_function = retakes(),
+            .iterates_are_results = !options_.return_saliency && options_.accuracy == 0};
   }
 
  private:

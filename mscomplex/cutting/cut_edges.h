@@ -1,5 +1,5 @@
 #pragma once
-/// The edges of a cut as the algorithms see them: walls that part a surface, and paths between branchings.
+/// The edges of a cut as used by the algorithms: walls that separate triangles, and paths between branchings.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace morsel::mscomplex {
 
 double edge_length(const core::TriangleMesh& mesh, core::Index halfedge);
 
-/// The edges that part triangles: those on the boundary and those of a cut.
+/// The edges that separate triangles: those on the boundary and those of a cut.
 class Walls {
  public:
   /// Throws InvalidArgument if one of `edges` is none of the mesh's or on the boundary.
@@ -23,10 +23,10 @@ class Walls {
   bool is_wall(core::Index halfedge) const {
     return mesh_.twin(halfedge) == core::kNone || is_cut(mesh_.edge(halfedge));
   }
-  /// Of the walls at a vertex; a boundary counts 2.
+  /// The number of walls at a vertex; a boundary counts 2.
   core::Index degree(core::Index vertex) const { return degree_[vertex]; }
 
-  /// Adds an inner edge that is no wall, or takes one away that is.
+  /// Adds an inner edge that is no wall, or removes one that is.
   void add(core::Index edge) { change(edge, 1); }
   void remove(core::Index edge) { change(edge, 0); }
 
@@ -51,13 +51,13 @@ struct TracedPath {
   double length = 0;                   ///< sum of the edges' lengths, in that order
 };
 
-/// These edges (inner ones, ascending, each once) taken apart where is_end(v, number of them at v) holds: it
-/// must at least where that is not 2. Ordered by the paths' first vertices, then by their first edges. O(n
-/// log n).
+/// These edges (inner ones, ascending, each once) split into paths where is_end(v, number of them at v)
+/// holds; it must wherever that number is not 2. Ordered by the paths' first vertices, then by their first
+/// edges. O(n log n).
 std::vector<TracedPath> trace_paths(const core::TriangleMesh& mesh, std::span<const core::Index> edges,
                                     const std::function<bool(core::Index, std::size_t)>& is_end);
 
-/// The graph of these edges (inner ones, ascending, each once), taken apart into paths.
+/// The graph of these edges (inner ones, ascending, each once), split into paths.
 CutGraph make_cut_graph(const core::TriangleMesh& mesh, std::vector<core::Index> edges);
 
 }  // namespace morsel::mscomplex

@@ -1,4 +1,4 @@
-// A mesh with vertices doubled along a cut, and the way back.
+// A mesh with vertices doubled along a cut, and closing it again.
 
 #include <algorithm>
 #include <functional>
@@ -36,7 +36,7 @@ CutMesh cut_open(const TriangleMesh& mesh, const std::vector<Index>& edges) {
   std::vector<core::Point> positions(mesh.positions().begin(), mesh.positions().end());
   std::vector<Index> copied;
   for (const Index v : at_cut) {
-    // Counter-clockwise from a wall on: the first corner keeps the number, each wall begins another.
+    // Counter-clockwise from a wall on: the first corner keeps the number, each wall starts another one.
     Index start = mesh.vertex_halfedge(v);
     while (!walls.is_wall(start)) start = mesh.next_around(start);
     Index number = v;

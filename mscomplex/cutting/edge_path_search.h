@@ -15,16 +15,17 @@
 
 namespace morsel::mscomplex {
 
-/// Whether a search may go along a half-edge, and whether it is there then.
+/// Whether a search may go along a half-edge, and whether it ends with it.
 enum class Step { pass, blocked, goal };
 
-/// Dijkstra's search (1959) with Euclidean lengths, many times on one mesh: a search costs what it visits.
+/// Dijkstra's search (1959) with Euclidean lengths, many times on one mesh: the time of a search is that of
+/// the vertices it visits.
 class EdgePathSearch {
  public:
   explicit EdgePathSearch(const core::TriangleMesh& mesh) : mesh_(mesh), reached_(mesh.vertex_count()) {}
 
   /// The half-edges of a shortest path that begins with one of `seeds` and ends with a half-edge that is a
-  /// goal, if it is shorter than `bound`; empty otherwise. at(h) tells what going along h means; vertices
+  /// goal, if it is shorter than `bound`; empty otherwise. at(h) returns what going along h means; vertices
   /// that are entered must be inner ones. Of equally short paths the same one always.
   template <class At>
   std::vector<core::Index> find(std::span<const core::Index> seeds, double bound, const At& at,
@@ -70,7 +71,7 @@ class EdgePathSearch {
     queue_ = {};
   }
 
-  struct Reached {  // together, for a visit is a cache miss
+  struct Reached {  // together, since each visit is a cache miss
     double distance = std::numeric_limits<double>::infinity();
     core::Index by = core::kNone;  // the half-edge
   };

@@ -21,15 +21,15 @@ using core::Index;
 using core::kNone;
 using core::TriangleMesh;
 
-/// The primal side: descending ways, which end at minima and where they meet the boundary.
+/// The primal side: descending paths, which end at minima and where they meet the boundary.
 class Descents {
  public:
   explicit Descents(const DiscreteGradient& gradient)
       : gradient_(gradient), length_(gradient.mesh().vertex_count(), -1) {}
 
-  /// The next vertex on the way down, kNone at its end.
+  /// The next vertex on the path down, kNone at its end.
   Index next(Index v) const { return gradient_.mesh().is_boundary_vertex(v) ? kNone : gradient_.descend(v); }
-  /// Of the way down from v; all calls together O(n).
+  /// The length of the path down from v; all calls together O(n).
   double length(Index v) {
     way_.clear();
     for (; length_[v] < 0 && next(v) != kNone; v = next(v)) way_.push_back(v);
@@ -49,8 +49,8 @@ class Descents {
   std::vector<Index> way_;
 };
 
-/// The edges by which the trees of ascending ways touch and that are on no descending way: the critical ones
-/// and those that lead down from a boundary vertex into the surface.
+/// The edges between trees of ascending paths that are on no descending path: the critical ones and those
+/// that lead down from a boundary vertex into the surface.
 std::vector<Index> crossings(const DiscreteGradient& gradient) {
   const TriangleMesh& mesh = gradient.mesh();
   std::vector<Index> edges;
@@ -67,8 +67,8 @@ std::vector<Index> crossings(const DiscreteGradient& gradient) {
   return edges;
 }
 
-/// The dual side: each triangle's way up, to a critical triangle or to the boundary edge where it leaves the
-/// surface.
+/// The dual side: the path up from each triangle, to a critical triangle or to the boundary edge where it
+/// leaves the surface.
 class Ascents {
  public:
   explicit Ascents(const DiscreteGradient& gradient)
@@ -90,7 +90,7 @@ class Ascents {
   Index count_ = 0;
 };
 
-/// The crossings that are not in a spanning tree of the tops which prefers those with long ways down.
+/// The crossings that are not in a spanning tree of the tops that prefers those with long paths down.
 std::vector<Index> uncrossed(const DiscreteGradient& gradient, Descents& descents) {
   const TriangleMesh& mesh = gradient.mesh();
   const std::vector<Index> edges = crossings(gradient);
@@ -122,7 +122,7 @@ std::vector<Index> uncrossed(const DiscreteGradient& gradient, Descents& descent
   return rest;
 }
 
-/// The edges and the ways down from their ends.
+/// The edges and the paths down from their ends.
 Walls with_ways_down(const DiscreteGradient& gradient, const std::vector<Index>& edges,
                      const Descents& descents) {
   const TriangleMesh& mesh = gradient.mesh();
@@ -139,7 +139,7 @@ Walls with_ways_down(const DiscreteGradient& gradient, const std::vector<Index>&
   return walls;
 }
 
-/// Takes dangling edges away, until there are none.
+/// Removes dangling edges until there are none.
 void prune(const TriangleMesh& mesh, Walls& walls) {
   for (Index start = 0; start < mesh.vertex_count(); ++start)
     for (Index v = start; walls.degree(v) == 1;) {
@@ -168,7 +168,7 @@ void open_spheres(const core::ScalarField& field, Walls& walls, const core::Prog
     const Index from = lowest[c], to = highest[c];
     seeds.clear();
     mesh.for_each_outgoing(from, [&](Index h) {
-      if (mesh.target(h) != to) seeds.push_back(h);  // along a single edge nothing opens
+      if (mesh.target(h) != to) seeds.push_back(h);  // a single edge opens nothing
     });
     if (!search) search.emplace(mesh);
     const std::vector<Index> path = search->find(

@@ -23,18 +23,19 @@ using core::Index;
 using core::kNone;
 using core::TriangleMesh;
 
-/// Replaced lengths must be shorter by more than what rounding makes of sums.
+/// New lengths must be shorter by more than the rounding errors of sums.
 constexpr double kShorter = 1 - 1e-12;
 
-/// One step along the rim of a surface with walls: all corners that it has at one vertex.
+/// One step along the rim of a surface with walls: all consecutive corners at one vertex.
 class RimWalk {
  public:
-  /// From the rim's corner that half-edge `inside`, no wall, leaves; there must be walls at its origin.
+  /// Starts at the rim's corner that half-edge `inside`, no wall, leaves; there must be walls at its origin.
   RimWalk(const TriangleMesh& mesh, const Walls& walls, Index inside) : mesh_(mesh), walls_(walls) {
     while (!walls.is_wall(TriangleMesh::previous(inside))) inside = mesh.twin(TriangleMesh::previous(inside));
     start_ = here_ = TriangleMesh::previous(inside);
   }
-  /// Calls visit(h) for each half-edge that leaves the corner here inwards and goes on along the rim.
+  /// Calls visit(h) for each half-edge that leaves the corner here inwards, and takes the next step along the
+  /// rim.
   template <class Visit>
   void step(const Visit& visit) {
     Index h = TriangleMesh::next(here_);
@@ -57,8 +58,8 @@ struct Trial {
   Index time = 0;
 };
 
-/// A trial's place in the order of trials: that which is the longest ago first, of those the longest path, of
-/// those the first of the cut.
+/// The key of a path in the order of trials: first the path tried longest ago, of equal ones the longest, of
+/// those the first one of the cut.
 struct Turn {
   Index time;
   double length;
@@ -106,7 +107,7 @@ class Shortener {
  private:
   bool is_end(Index v) const { return walls_.degree(v) != 2 || mesh_.is_boundary_vertex(v); }
 
-  /// Makes trials of walls that are in none: whole paths, edges ascending.
+  /// Makes trials of the walls that are in none: whole paths, edges ascending.
   void take(const std::vector<Index>& edges) {
     for (TracedPath& path : trace_paths(mesh_, edges, [&](Index v, std::size_t) { return is_end(v); })) {
       Trial trial{std::move(path.halfedges), path.length, kNone};
@@ -128,7 +129,7 @@ class Shortener {
   /// Whether all paths were tried since the cut last changed.
   bool is_settled() {
     while (!turns_.empty() && trials_[turns_.top().trial].halfedges.empty())
-      turns_.pop();  // is no path any more
+      turns_.pop();  // no longer a path
     return turns_.empty() || turns_.top().time >= time_of_change_;
   }
 
@@ -150,7 +151,7 @@ class Shortener {
     }
 
     time_of_change_ = time_;
-    // Paths may become one at the old one's ends, and two at the new one's.
+    // At the old path's ends two paths may become one, at the new path's ends one may become two.
     std::vector<Index> edges;
     for (const Index v : {mesh_.origin(old_path.front()), mesh_.target(old_path.back()),
                           mesh_.origin(path.front()), mesh_.target(path.back())})
@@ -174,13 +175,13 @@ class Shortener {
     trials_[trial].halfedges.clear();
   }
 
-  /// The shortest path from rim to rim of the annulus that there is without the walls of this one, if it is
+  /// The shortest path from rim to rim of the annulus that results without the walls of this trial, if it is
   /// shorter; else empty.
   std::vector<Index> shorter(const std::vector<Index>& path, double length, const core::Progress& progress) {
     const std::array ends = {path.front(), mesh_.twin(path.back())};
     for (const Index h : ends)
       if (walls_.degree(mesh_.origin(h)) == 0) return {};  // opens a sphere
-    // Both rims at a time: the one with fewer corners will do, and a hole in a large surface has few.
+    // Both rims in turns: the one with fewer corners suffices, and a hole in a large surface has few.
     std::array walks = {RimWalk(mesh_, walls_, ends[0]), RimWalk(mesh_, walls_, ends[1])};
     std::array<std::vector<Index>, 2> inwards;
     std::size_t near = 0;
@@ -202,7 +203,7 @@ class Shortener {
 
   TriangleMesh mesh_;
   Walls walls_;
-  std::vector<Trial> trials_;  // empty where paths are no more
+  std::vector<Trial> trials_;  // empty for paths that no longer exist
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns_;
   EdgePathSearch search_;
   std::vector<std::uint8_t> is_near_;  // per half-edge: leaves a corner of the rim that a search starts from

@@ -14,7 +14,7 @@ using core::kNone;
 
 namespace {
 
-/// None: arcs follow angles better where lengths are not evened out.
+/// None: arcs follow angles better where the stretch is not reduced.
 constexpr int kStretchRounds = 0;
 
 }  // namespace
@@ -62,7 +62,7 @@ void ArcDrawing::draw_first() {
   draw_stars(extrema, false);
 }
 
-/// From here on the caps' fans are out of the way: rays to their middles have crossed the rims, each once.
+/// From here on the caps' fans are excluded: rays to their middles have crossed the rims, each once.
 void ArcDrawing::mark_rims() {
   on_rim_.assign(complex_.cap_count() > 0 ? mesh_.vertex_count() : 0, false);
   for (Index k = 0; k < complex_.cap_count(); ++k) {
@@ -103,9 +103,9 @@ void ArcDrawing::put_saddles_on_edges() {
   }
 }
 
-/// The disc of a minimum or maximum, and where the arcs that end there come from: its border passes its
-/// saddles, in the cyclic order of the arcs. At a saddle, the arc into the disc follows counter-clockwise on
-/// the one along which the border goes on.
+/// The disc of a minimum or maximum, and the saddles of the arcs that end there: its border passes these
+/// saddles, in the cyclic order of the arcs. At a saddle, the arc into the disc comes counter-clockwise
+/// after the one along which the border continues.
 ArcDrawing::Star ArcDrawing::find_star(Index extremum, Index some_border) {
   Star star;
   star.node = extremum;
@@ -115,7 +115,7 @@ ArcDrawing::Star ArcDrawing::find_star(Index extremum, Index some_border) {
     if (node == kNone || complex_.kind(node) != NodeKind::saddle) continue;
     const Index onward = mesh_.label(star.disc.border[i]);
     if (onward >= complex_.arc_count() || complex_.arc_saddle(onward) != node)
-      throw std::logic_error("quad layout: the border round the " + name(extremum) + " is out of order");
+      throw std::logic_error("quad layout: the border around the " + name(extremum) + " is out of order");
     star.spokes.push_back({i, complex_.next_around_saddle(onward)});
   }
   const auto arcs = complex_.arcs_ending_at(extremum);
@@ -124,7 +124,7 @@ ArcDrawing::Star ArcDrawing::find_star(Index extremum, Index some_border) {
     in_order = complex_.arc_end(star.spokes[k].arc) == extremum &&
                complex_.next_around_end(star.spokes[k].arc) == star.spokes[(k + 1) % arcs.size()].arc;
   if (!in_order)
-    throw std::logic_error("quad layout: the arcs round the " + name(extremum) + " are out of order");
+    throw std::logic_error("quad layout: the arcs around the " + name(extremum) + " are out of order");
   return star;
 }
 
@@ -194,9 +194,8 @@ void ArcDrawing::redraw(Index extremum_begin, Index extremum_end) {
   draw_stars(extrema, true);
 }
 
-/// The four quads round a saddle make a disc with eight corners, of which every other one, from that at the
-/// end of its first arc on, is joined to it. Where they are not four different ones the saddle stays where it
-/// is.
+/// The four quads around a saddle form a disc with eight corners, of which every other one, from that at the
+/// end of its first arc on, is joined to it. Where they are not four different quads the saddle is not moved.
 void ArcDrawing::redraw_saddle(Index saddle) {
   const Index first = 4 * (saddle - complex_.minimum_count());
   std::array<Index, 4> around{};
@@ -204,7 +203,7 @@ void ArcDrawing::redraw_saddle(Index saddle) {
   std::sort(around.begin(), around.end());
   if (std::adjacent_find(around.begin(), around.end()) != around.end()) return;
 
-  // The border goes on from the end of the first arc, keeping the patch on the left of the arc on its left.
+  // The border continues from the end of the first arc, keeping the patch on the left of the arc on its left.
   Index border = start_of(first);
   do {
     border = LayoutMesh::next(border);
@@ -227,7 +226,7 @@ void ArcDrawing::redraw_saddle(Index saddle) {
   for (Index i = 0; i < star.disc.border_size(); ++i)
     if (is_corner(star.disc.vertex[i]) && corners++ % 2 == 0) star.spokes.push_back({i, first + corners / 2});
   if (corners != 8)
-    throw std::logic_error("quad layout: the patches round the " + name(saddle) + " are out of order");
+    throw std::logic_error("quad layout: the patches around the " + name(saddle) + " are out of order");
   embed(star);
   draw(star, true);
 }

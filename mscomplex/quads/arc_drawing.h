@@ -1,5 +1,5 @@
 #pragma once
-/// The complex on a LayoutMesh: where its nodes are, and arcs drawn node by node. Internal.
+/// The complex on a LayoutMesh: the positions of its nodes, and its arcs, drawn node by node. Internal.
 
 #include <string>
 #include <vector>
@@ -62,8 +62,8 @@ class ArcDrawing {
   DiscFinder finder_;
   SpokeDrawer drawer_;
   std::vector<core::Index> node_vertex_;  // per node
-  std::vector<core::Index> node_at_;      // per vertex, up to the last that is one
-  std::vector<bool> on_rim_;              // per vertex, up to the last that is
+  std::vector<core::Index> node_at_;      // per vertex, up to the last one with a node
+  std::vector<bool> on_rim_;              // per vertex, up to the last one on a rim
   core::Index missed_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace {
 /// How far a boundary vertex is moved towards the middle of its triangles.
 constexpr double kCollar = 0.2;
 
-/// Along the edge in the middle of v's fan, or through its middle triangle.
+/// The direction along the edge in the middle of v's fan, or through its middle triangle.
 Point moved_inside(const TriangleMesh& mesh, Index v) {
   std::vector<Index> ring;
   mesh.neighbors(v, ring);

@@ -1,4 +1,4 @@
-// Arcs that dangle: found, and cancelled.
+// Finding and cancelling dangling arcs.
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ RepairedComplex repair_dangling(const core::ScalarField& field, MorseSmaleComple
     std::vector<Index> arcs;
     std::vector<bool> used(now.saddle_count(), false);
     for (const Dangling& d : find_dangling(now)) {
-      if (used[d.arc / 4]) continue;  // its saddle goes with another, and this one is looked at again
+      if (used[d.arc / 4]) continue;  // its saddle is cancelled with another one; left to the next round
       used[d.arc / 4] = true;
       arcs.push_back(d.arc);
       result.repairs.push_back(

@@ -40,8 +40,8 @@ Disc DiscFinder::find(Index start, const std::string& what) {
   const auto corner_of = [&](Index h) -> Index& {
     return disc.corner[3 * std::size_t{place_[h / 3]} + h % 3];
   };
-  // Gives the corners from that of h on, counter-clockwise up to a labelled edge or all round, to disc vertex
-  // `name`.
+  // Assigns the corners from that of h on, counter-clockwise up to a labelled edge or all around, to disc
+  // vertex `name`.
   const auto name_corners = [&](Index h, Index name) {
     disc.vertex.push_back(mesh_.origin(h));
     Index g = h;

@@ -21,14 +21,14 @@ struct Disc {
   core::Index border_size() const { return static_cast<core::Index>(border.size()); }
 };
 
-/// Finds discs; keeps its memory from one to the next. Not for several threads at a time.
+/// Finds discs; reuses its memory from one to the next. Not thread-safe.
 class DiscFinder {
  public:
   /// Refers to the mesh, which may be split meanwhile.
   explicit DiscFinder(const LayoutMesh& mesh) : mesh_(mesh) {}
 
   /// The region on the left of `start`, a labelled half-edge, which becomes border[0]. Throws
-  /// std::logic_error, naming `what`, if the region is no disc: several borders, or not of Euler
+  /// std::logic_error, naming `what`, if the region is no disc: it has several borders, or not Euler
   /// characteristic 1.
   Disc find(core::Index start, const std::string& what);
   /// A labelled half-edge of the region that triangle t is in; kNone if it has none.

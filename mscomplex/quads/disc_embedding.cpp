@@ -26,8 +26,8 @@ using Corners = std::array<Point, 3>;
 /// Rounds without less stretch after which no more are tried.
 constexpr int kMostInVain = 3;
 
-/// tan of half the angle at corner i of a triangle: how the mean-value weights of the two edges there begin.
-/// Slivers have angles of nearly π, whose tangents would drown all other weights.
+/// tan of half the angle at corner i of a triangle: its share in the mean-value weights of the two edges
+/// there. Slivers have angles of nearly π, whose tangents would drown all other weights.
 double half_tangent(const Corners& p, int i) {
   const Point u = p[(i + 1) % 3] - p[i];
   const Point v = p[(i + 2) % 3] - p[i];

@@ -1,4 +1,4 @@
-// The layout of a complex, and what must be true of one.
+// The layout of a complex.
 
 #include "morsel/core/error.h"
 #include "morsel/mscomplex/quads.h"

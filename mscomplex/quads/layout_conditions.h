@@ -1,5 +1,5 @@
 #pragma once
-/// What a complex needs to become a layout. Internal.
+/// Conditions on a complex for a layout. Internal.
 
 #include "morsel/mscomplex/complex.h"
 

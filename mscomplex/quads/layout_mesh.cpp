@@ -58,7 +58,7 @@ Index LayoutMesh::split_edge(Index h, double share) {
   const Index n1 = next(h1);
   const Index g1 = add_triangle(b, m, d);
   const Index q1 = previous(g1);
-  // What was b → c and d → b is so under a new number.
+  // The half-edges b → c and d → b have new numbers now.
   pair(n1, twin_[n]);
   pair(q1, twin_[q]);
   label_[n1] = label_[n];

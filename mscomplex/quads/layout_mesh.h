@@ -9,13 +9,13 @@ namespace morsel::mscomplex {
 
 /// Half-edges as in core::TriangleMesh: h = 3t + i runs from corner i of triangle t to corner i + 1.
 /// Splitting keeps the surface in space as it is. A labelled edge is one that the arcs run along: regions end
-/// there. Splitting an edge that has no label gives no label to the edges it makes; that of a labelled one
-/// gives it to both halves.
+/// there. Splitting an edge without a label makes edges without labels; both halves of a labelled edge get
+/// its label.
 class LayoutMesh {
  public:
   /// Labels on edges: an arc of the complex, or one of these.
   static constexpr core::Index kFree = core::kNone;
-  static constexpr core::Index kCut = core::kNone - 1;  ///< an arc's way, but of which arcs is not said
+  static constexpr core::Index kCut = core::kNone - 1;  ///< on the V-path of some arc, without saying which
   static constexpr core::Index kRim = core::kNone - 2;  ///< where the surface ends and a cap begins
 
   /// A copy of a closed mesh, without labels.
@@ -56,7 +56,7 @@ class LayoutMesh {
   core::Index far_side_at_origin(core::Index h) const { return next(twin_[h]); }
   core::Index far_side_at_target(core::Index h) const { return next(twin_[back_to_split(h)]); }
 
-  /// Puts a vertex into triangle t and joins it to the corners; `weights` are its barycentric coordinates.
+  /// Inserts a vertex into triangle t and joins it to the corners; `weights` are its barycentric coordinates.
   core::Index split_triangle(core::Index t, const std::array<double, 3>& weights);
 
   /// As an immutable mesh with the same triangles and half-edges.

@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-/// Rounds of evening out what a patch's parametrisation makes tiny.
+/// Rounds of reducing the stretch of a patch's parametrisation.
 constexpr int kStretchRounds = 30;
 
 std::string name_of(Index q) { return "patch " + std::to_string(q); }
@@ -47,7 +47,7 @@ LayoutMesh labelled_surface(const QuadLayout& layout) {
     Index h = start;
     do {
       mesh.set_label(LayoutMesh::next(h), LayoutMesh::kRim);
-      mesh.set_label(h, LayoutMesh::kRim);  // nothing is done inside fans
+      mesh.set_label(h, LayoutMesh::kRim);  // fans are not parametrised
       on_arc[mesh.target(h)] = true;
       h = mesh.next_around(h);
     } while (h != start);
@@ -135,7 +135,7 @@ class Buckets {
 
 void sample_inside(const LayoutMesh& mesh, Index q, const PatchMap& patch,
                    const std::vector<Vector2d>& places, Point* samples) {
-  // A point may lie between triangles, for rounding's sake.
+  // Because of rounding a point may lie between triangles.
   const Vector2d tolerance = Vector2d::Constant(1e-9);
   const Buckets buckets(places);
   std::vector<double> best(places.size(), -std::numeric_limits<double>::infinity());

@@ -30,7 +30,8 @@ PolygonGrid pentagon(Index n) {
   PolygonGrid grid;
   const Index half = n / 2;
   const Index first_inside = 5 * n;
-  // Inside: the middle, then those between it and the middle of each side, then those of each corner's quad.
+  // Inside: the middle, then those between it and the middle of each side, then the inside of each corner's
+  // quad.
   const auto on_spoke = [&](Index side, Index k) { return first_inside + 1 + side * (half - 1) + (k - 1); };
   const auto at = [&](Index c, Index i, Index j) -> Index {
     const Index before = (c + 4) % 5;

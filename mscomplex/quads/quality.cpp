@@ -1,4 +1,4 @@
-// How good a quad mesh is.
+// Quality measures of a quad mesh.
 
 #include <Eigen/Geometry>
 #include <algorithm>

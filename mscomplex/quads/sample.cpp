@@ -17,7 +17,7 @@ using core::Point;
 
 namespace {
 
-/// Points that cut a polyline into n pieces of one length, but for its ends.
+/// The inner points that cut a polyline into n pieces of equal length.
 void sample_polyline(const std::vector<Point>& line, Index n, Point* samples) {
   std::vector<double> length(line.size(), 0.0);
   for (std::size_t i = 1; i < line.size(); ++i) length[i] = length[i - 1] + (line[i] - line[i - 1]).norm();
@@ -67,7 +67,7 @@ class Numbering {
   Index first_on_rim(std::size_t q) const { return rim_[q]; }
   Index first_inside(std::size_t q) const { return inside_[q]; }
 
-  /// Of vertex i of patch q's grid.
+  /// The number of vertex i of patch q's grid.
   Index at(std::size_t q, Index i) const {
     const std::array<Index, 4>& arcs = layout_.patches[q].arcs;
     const Index side = i / n_;
@@ -163,7 +163,7 @@ QuadMesh sample(const QuadLayout& layout, Index resolution, const core::Progress
     patch = {};
   });
   if (layout.cap_count() > 0) {
-    // The collars of the layout's surface are not quite in place.
+    // The collars of the layout's surface lie slightly off the input.
     const TriangleSearch input(layout.input.positions(), layout.input.triangles());
     core::parallel_for(0, result.positions.size(), 512, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) result.positions[v] = input.nearest(result.positions[v]);

@@ -15,9 +15,9 @@ namespace {
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Edges are crossed away from their ends, lest slivers come.
+/// Edges are crossed away from their ends, to avoid slivers.
 constexpr double kLeastShare = 0.05;
-/// A new hub keeps away from the sides of its triangle.
+/// A new hub is kept away from the sides of its triangle.
 constexpr double kLeastWeight = 0.1;
 
 }  // namespace

@@ -17,10 +17,10 @@ struct Spoke {
 
 /// Draws spokes as straight lines in the plane, splitting the edges that they cross, so that none meets
 /// another but in the hub. On which side of a line a vertex lies is decided once for each, ties by a rule,
-/// and for a vertex on an earlier spoke by that spoke's start: so a line is a way between two sets of
-/// vertices, which has an end, whatever rounding does. Where it misses the hub, because triangles are too
-/// small for double precision, the spoke takes the way through the fewest triangles instead, which always
-/// exists.
+/// and for a vertex on an earlier spoke by that spoke's start: so a line runs between two sets of
+/// vertices and ends, whatever the rounding. Where it misses the hub, because triangles are too
+/// small for double precision, the spoke follows the path through the fewest triangles instead, which
+/// always exists.
 class SpokeDrawer {
  public:
   /// Refers to the mesh.

@@ -1,4 +1,4 @@
-// What must be true of layouts and quad meshes.
+// Checks of layouts and quad meshes.
 
 #include <algorithm>
 
@@ -127,7 +127,7 @@ void validate(const QuadMesh& quads, long euler_characteristic, Index boundary_l
     return there ? static_cast<std::size_t>(found - sides.begin()) : kNowhere;
   };
 
-  // The quads round a vertex are one fan, from the boundary on if it is there, or one cycle.
+  // The quads around a vertex are one fan, from the boundary on if it is there, or one cycle.
   std::vector<bool> seen(vertices, false);
   std::vector<bool> walked(sides.size(), false);
   const auto walk_round = [&](std::size_t start) {

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import time
@@ -42,6 +43,20 @@ DAMAGED = """OFF
 3 0 3 4
 3 0 3 3
 """
+
+# The commands on a mesh that must be whole: words that are quick, {} being the mesh, and each option that
+# names a file to write, with the ending of the file.
+ON_MESH = {
+    "compare": (("compare", "{}", "--method", "conventional"), {"-o": ".json", "--html": ".html"}),
+    "field": (("field", "{}"), {"-o": ".txt"}),
+    "hierarchy": (("hierarchy", "{}", "--levels", "0"), {"-o": ".json"}),
+    "segment": (("segment", "{}"), {"-o": ".ply", "--json": ".json"}),
+    "cut": (("cut", "{}"), {"-o": ".off", "--json": ".json", "--graph": ".vtp"}),
+    "quads": (("quads", "{}", "--field", "height"), {"-o": ".obj", "--json": ".json"}),
+    "render": (("render", "{}", "--size", "40x30", "--samples", "1"), {"-o": ".png"}),
+    "stability": (("stability", "{}", "--noise", "0.1", "--trials", "1"), {"-o": ".json"}),
+    "sweep": (("sweep", "{}", "--vary", "iterations=1..2"), {"-o": ".csv"}),
+}
 
 
 def until(condition, seconds=60):
@@ -98,6 +113,15 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
             self.assertEqual(result.stdout, "")
         return result
+
+    def commands(self):
+        """The names of all commands, as help lists them."""
+        listed = self.morsel().stdout.split("Commands:")[1].split("Examples:")[0]
+        return set(re.findall(r"^  (\w+) ", listed, re.MULTILINE)) - {"help"}
+
+    def usage(self, command):
+        """The first line of a command's help: what it cannot do without."""
+        return self.morsel(command, "--help").stdout.splitlines()[0]
 
     def report(self, *arguments, name="report.json"):
         self.morsel("compare", *arguments, "-o", name)

@@ -281,8 +281,10 @@ class Failures(BatchTest):
         corners = (y * width + x for y in range(height - 1) for x in range(width - 1))
         faces = (struct.pack("<B3iB3i", 3, i, i + 1, i + width, 3, i + 1, i + width + 1, i + width)
                  for i in corners)
-        header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {width * height}\nproperty float x\nproperty float y\n"
-                  f"property float z\nelement face {2 * (width - 1) * (height - 1)}\nproperty list uchar int vertex_indices\nend_header\n")
+        header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {width * height}\n"
+                  "property float x\nproperty float y\nproperty float z\n"
+                  f"element face {2 * (width - 1) * (height - 1)}\nproperty list uchar int vertex_indices\n"
+                  "end_header\n")
         (self.meshes / "large.ply").write_bytes(header.encode() + b"".join(vertices) + b"".join(faces))
         self.batch("--memory-limit", "120", code=1)
         self.assertEqual(self.statuses(), {**dict.fromkeys(self.names, "done"), "large.ply": "failed"})

@@ -33,7 +33,8 @@ class CollectionPage(BatchTest):
         page = self.page()
         self.assertEqual(self.rows(page), [self.bad, *self.names])
         by_size = ["octahedron.off", "sphere.off", "deeper/an anchor.off"]
-        sort = "[...document.querySelectorAll('thead button')].find(b => b.textContent === 'vertices').click()"
+        sort = ("[...document.querySelectorAll('thead button')]"
+                ".find(b => b.textContent === 'vertices').click()")
         page.run(sort)
         self.assertEqual(self.rows(page), [*by_size, self.bad])
         page.run(sort)
@@ -65,8 +66,9 @@ class CollectionPage(BatchTest):
         for settings in ({"width": 390, "height": 800, "phone": True}, {"dark": True}, {}):
             page = self.page(**settings)
             self.assertLessEqual(page.run("document.documentElement.scrollWidth - window.innerWidth"), 0)
-            self.assertEqual(page.run("Promise.all([...document.images].map(image => { image.loading = 'eager';"
-                                      " return image.decode(); })).then(all => all.length)"), 3 + 2 * 3)
+            self.assertEqual(page.run("Promise.all([...document.images].map(image => {"
+                                      " image.loading = 'eager'; return image.decode(); }))"
+                                      ".then(all => all.length)"), 3 + 2 * 3)
             self.assertEqual(page.said(), [])
             self.assertEqual([url for url in page.requests() if not url.startswith(("file:", "data:"))], [])
 

@@ -44,8 +44,8 @@ class Products(BatchTest):
     def test_a_page_tells_how_to_make_it_where_it_is(self):
         self.batch("--html", "--snap")
         page = (self.out / "pages/sphere.off.html").read_text()
-        self.assertIn("morsel compare meshes/sphere.off --field mean-curvature --method conventional --method "
-                      "salient:iterations=2 --snap --html out/pages/sphere.off.html", page)
+        self.assertIn("morsel compare meshes/sphere.off --field mean-curvature --method conventional "
+                      "--method salient:iterations=2 --snap --html out/pages/sphere.off.html", page)
         self.assertNotIn("out/work", page)
 
     def test_every_link_of_the_page_leads_somewhere(self):
@@ -88,8 +88,8 @@ class Products(BatchTest):
                                ("figures", ("--view", "left", "--figures", "--size", "120x90", "--inset",
                                             "3:10eps"))):
             self.morsel_batch("meshes", "--out", out, *pictures, *arguments)
-        first = {out: tuple(map(bytes,
-                                Png((self.folder / out / "thumbnails/deeper/an anchor.off.first.png").read_bytes()).rows))
+        place = "thumbnails/deeper/an anchor.off.first.png"
+        first = {out: tuple(map(bytes, Png((self.folder / out / place).read_bytes()).rows))
                  for out in ("best", "left", "low", "figures")}
         self.assertEqual(first["left"], first["figures"])
         self.assertEqual(len(set(first.values())), 3)

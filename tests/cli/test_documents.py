@@ -68,8 +68,9 @@ class Depth(Documents):
         """bug: `info` ended by SIGSEGV"""
         lines = OCTAHEDRON.split("\n", 1)
         doubled = DEEP_PROVENANCE.replace('"', '""')
-        ply = ("ply\nformat ascii 1.0\ncomment " + DEEP_PROVENANCE + "\nelement vertex 3\nproperty float x\nproperty float y\n"
-               "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        ply = ("ply\nformat ascii 1.0\ncomment " + DEEP_PROVENANCE + "\nelement vertex 3\n"
+               "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+               "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
         files = {
             "m.off": f"{lines[0]}\n# {DEEP_PROVENANCE}\n{lines[1]}",
             "m.obj": f"# {DEEP_PROVENANCE}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
@@ -268,7 +269,8 @@ class Journals(Documents):
     def test_a_journal_of_other_options_is_begun_anew(self):
         self.interrupt()
         errors = self.run_any(*self.SWEEP, "--repair", codes=(0,))[2]
-        self.assertIn("warning: rows.json.journal is of a run with another mesh, other options or another version", errors)
+        self.assertIn("warning: rows.json.journal is of a run with another mesh, other options or another "
+                      "version", errors)
 
 
 class Names(Documents):
@@ -283,8 +285,9 @@ class Names(Documents):
                                  3)):
             with self.subTest(arguments):
                 self.run_any(*arguments, codes=(code,))
-        ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-               "property float q\x1b[31m\x9b\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nproperty float q\x1b[31m\x9b\nelement face 1\n"
+               "property list uchar int vertex_indices\nend_header\n"
                "0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n")
         (self.folder / "p.ply").write_bytes(ply.encode("latin-1"))
         self.assertIn("q\\x1b[31m\\x9b", self.run_any("info", "p.ply", codes=(0,))[1])

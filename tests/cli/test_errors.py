@@ -11,16 +11,18 @@ import subprocess
 import time
 import unittest
 
-from support import DAMAGED, OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest
+from support import DAMAGED, OCTAHEDRON, ON_MESH, PROGRAM, SAMPLES, ProgramTest
 
 
 class RefusedMesh(ProgramTest):
     def test_every_command_names_the_file_of_a_mesh_that_it_refuses(self):
+        self.assertEqual(set(ON_MESH), {name for name in self.commands() if " MESH" in self.usage(name)})
         damaged = self.file("damaged.off", DAMAGED)
-        for command in (["compare"], ["field", "-o", "f.txt"], ["hierarchy"], ["segment", "-o", "s.ply"],
-                        ["cut", "-o", "c.off"], ["quads", "-o", "q.obj"], ["render", "-o", "r.png"]):
-            with self.subTest(command=command[0]):
-                result = self.morsel(command[0], damaged, *command[1:], code=3)
+        for command, (words, options) in ON_MESH.items():
+            with self.subTest(command=command):
+                outputs = (word for option, ending in options.items()
+                           for word in (option, f"out{option}{ending}"))
+                result = self.morsel(*(word.format(damaged) for word in words), *outputs, code=3)
                 self.assertIn("damaged.off", result.stderr)
                 self.assertIn("--repair", result.stderr)
 
@@ -141,17 +143,18 @@ class Usage(ProgramTest):
         text = self.morsel().stdout
         self.assertEqual(self.morsel("--help").stdout, text)
         self.assertEqual(self.morsel("help").stdout, text)
-        commands = re.findall(r"^  (\w+) ", text.split("Commands:")[1].split("Examples:")[0], re.MULTILINE)
-        self.assertIn("compare", commands)
-        for command in set(commands) - {"help"}:
+        self.assertIn("compare", self.commands())
+        for command in self.commands():
             text = self.morsel(command, "--help").stdout
             self.assertEqual(self.morsel("help", command).stdout, text)
             self.assertTrue(text.startswith(f"Usage: morsel {command} "), text)
-            self.assertGreaterEqual(len(re.findall(rf"\n  morsel {command}\b", text.split("Examples:")[1])), 2)
+            examples = text.split("Examples:")[1]
+            self.assertGreaterEqual(len(re.findall(rf"\n  morsel {command}\b", examples)), 2)
             for internal in ("->", "POSITIVE", "INT in", "{false}", "OR {"):
                 self.assertNotIn(internal, text)
+            self.assertLessEqual(len(text.splitlines()), 48, command)
             for line in text.splitlines():
-                self.assertTrue(len(line) <= 96 or line.startswith("  morsel "), line)
+                self.assertTrue(len(line) <= 100 or line.startswith("  morsel "), line)
         self.assertRegex(self.morsel("--version").stdout, r"^morsel \d+\.\d+\.\d+\n$")
 
     def test_names_are_listed(self):
@@ -168,8 +171,7 @@ class Usage(ProgramTest):
 
     def test_every_example_of_help_is_read(self):
         """None has a name, a key or an option that does not exist: each ends with a file that is missing."""
-        for command in ("compare", "field", "render", "hierarchy", "segment", "cut", "quads", "stability",
-                        "sweep"):
+        for command in ON_MESH:
             text = self.morsel(command, "--help").stdout
             for example in re.findall(r"^  morsel (.*)$", text, re.MULTILINE):
                 with self.subTest(example):

@@ -54,7 +54,8 @@ class Html(ProgramTest):
             points = method["points"]
             for i, (item, persistence) in enumerate(zip(expected["items"], page.persistence(method),
                                                         strict=True)):
-                told = points["vertex"][i], TYPES[points["type"][i]], points["multiplicity"][i], points["value"][i]
+                told = (points["vertex"][i], TYPES[points["type"][i]], points["multiplicity"][i],
+                        points["value"][i])
                 self.assertEqual(told, (item["vertex"], item["type"], item["multiplicity"], item["value"]))
                 self.assertEqual(points["origin"][i] - 1, -1 if item["origin"] is None else item["origin"])
                 self.assertEqual(persistence, math.inf

@@ -12,7 +12,8 @@ from support import OCTAHEDRON, SAMPLES, ProgramTest
 DRAWN = """(() => {
   const {viewer} = morsel, gl = viewer.renderer.getContext();
   viewer.drawNow();
-  const width = gl.drawingBufferWidth, height = gl.drawingBufferHeight, pixels = new Uint8Array(4 * width * height);
+  const width = gl.drawingBufferWidth, height = gl.drawingBufferHeight;
+  const pixels = new Uint8Array(4 * width * height);
   gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
   const colors = new Set();
   let covered = 0, hash = 0;
@@ -39,7 +40,8 @@ class Viewer(ProgramTest):
         return page
 
     def lion(self, **settings):
-        return self.page(SAMPLES / "lion-head.off", "--method", "conventional", "--method", "salient", **settings)
+        return self.page(SAMPLES / "lion-head.off", "--method", "conventional", "--method", "salient",
+                         **settings)
 
     def box(self, page, expression):
         """Left, top, width and height of an element in the window."""
@@ -56,7 +58,8 @@ class Viewer(ProgramTest):
         page.run(f"""(() => {{ const e = document.getElementById({json.dumps(control)});
             if (e.type === 'checkbox') {{ if (e.checked !== {json.dumps(value)}) e.click(); return; }}
             e.value = {json.dumps(value)};
-            for (const kind of ['input', 'change']) e.dispatchEvent(new Event(kind, {{bubbles: true}})); }})()""")
+            for (const kind of ['input', 'change'])
+              e.dispatchEvent(new Event(kind, {{bubbles: true}})); }})()""")
 
     def test_models_are_drawn_and_controls_change_them(self):
         page = self.lion()
@@ -64,7 +67,8 @@ class Viewer(ProgramTest):
         self.assertGreater(first["covered"], 0.1)
         self.assertGreater(first["colors"], 200)
         self.assertEqual(page.run(DRAWN)["hash"], first["hash"])
-        self.assertIn("462 minima, 934 saddles, 499 maxima", page.run("document.getElementById('views').textContent"))
+        self.assertIn("462 minima, 934 saddles, 499 maxima",
+                      page.run("document.getElementById('views').textContent"))
 
         # the slider: fewer points the further it goes, at its end only essential ones
         before, hashes = 10 ** 9, {first["hash"]}
@@ -78,14 +82,16 @@ class Viewer(ProgramTest):
             hashes.add(page.run(DRAWN)["hash"])
         self.assertEqual(len(hashes), 4)
         self.assertEqual(before, 1)  # the lion has a boundary: no maximum is essential, its lowest minimum is
-        self.assertIn("1 minima, 0 saddles, 0 maxima", page.run("document.getElementById('views').textContent"))
+        self.assertIn("1 minima, 0 saddles, 0 maxima",
+                      page.run("document.getElementById('views').textContent"))
         self.choose(page, "threshold", 0)
         self.assertEqual(page.run(DRAWN)["hash"], first["hash"])
 
         # every other control, one after the other, each alone
         for control, value, back in (("surface", "ascending", "field"), ("surface", "descending", "field"),
                                      ("surface", "cells", "field"), ("surface", "plain", "field"),
-                                     ("minima", False, True), ("saddles", False, True), ("maxima", False, True),
+                                     ("minima", False, True), ("saddles", False, True),
+                                     ("maxima", False, True),
                                      ("descending-arcs", True, False), ("ascending-arcs", True, False),
                                      ("size", 6, 0), ("same-scale", True, False), ("direction", "-x", "+z"),
                                      ("show-1", False, True)):
@@ -97,7 +103,8 @@ class Viewer(ProgramTest):
             self.assertEqual(page.run(DRAWN)["hash"], first["hash"], control)
         self.choose(page, "frame-time", True)
         page.run(DRAWN)
-        self.assertRegex(page.run("document.getElementById('frame').textContent"), r"^\d+\.\d ms, [\d,]+ triangles")
+        self.assertRegex(page.run("document.getElementById('frame').textContent"),
+                         r"^\d+\.\d ms, [\d,]+ triangles")
         self.assert_quiet(page)
 
     def test_a_click_selects_and_a_drag_turns(self):
@@ -120,7 +127,8 @@ class Viewer(ProgramTest):
                 self.assertIn(word, text)
             self.assertRegex(text, "conventional: (kept at|moved to|gone)")
         hidden = page.run("""(() => { const {viewer} = morsel, {points} = viewer.views[0].method;
-            return points.ranking.map((i) => viewer.placeOnPage(0, i)).filter((p) => p.hidden).length; })()""")
+            return points.ranking.map((i) => viewer.placeOnPage(0, i))
+              .filter((p) => p.hidden).length; })()""")
         self.assertGreater(hidden, 100)
         box = self.box(page, "morsel.viewer.views[1].area")
         page.click(box[0] + box[2] - 4, box[1] + box[3] / 2)
@@ -173,8 +181,10 @@ class Viewer(ProgramTest):
     def test_the_keyboard_is_enough(self):
         page = self.lion()
         tree = page.call("Accessibility.getFullAXTree")["nodes"]
-        controls = {"checkbox", "slider", "combobox", "ComboBoxSelect", "button", "application", "image", "link"}
-        found = [node for node in tree if not node.get("ignored") and node.get("role", {}).get("value") in controls]
+        controls = {"checkbox", "slider", "combobox", "ComboBoxSelect", "button", "application", "image",
+                    "link"}
+        found = [node for node in tree
+                 if not node.get("ignored") and node.get("role", {}).get("value") in controls]
         self.assertGreater(len(found), 25)
         unnamed = [node for node in found if not node.get("name", {}).get("value")]
         self.assertEqual(unnamed, [])
@@ -183,7 +193,8 @@ class Viewer(ProgramTest):
             for kind in ("keyDown", "keyUp"):
                 page.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab", windowsVirtualKeyCode=9)
             order.append(page.run("[document.activeElement].map((e) => e.id || e.className || e.tagName)[0]"))
-        for wanted in ("show-0", "surface", "minima", "threshold", "direction", "view", "next-point", "log", "copy"):
+        for wanted in ("show-0", "surface", "minima", "threshold", "direction", "view", "next-point",
+                       "log", "copy"):
             self.assertIn(wanted, order)
         self.assertLess(order.index("show-0"), order.index("threshold"))
         self.assertLess(order.index("threshold"), order.index("view"))
@@ -223,7 +234,8 @@ class Viewer(ProgramTest):
             const light = (color) => { const [r, g, b] = color.match(/[\\d.]+/g).map((x) => linear(x / 255));
                 return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
             const ground = light(getComputedStyle(document.documentElement).backgroundColor);
-            return [...document.querySelectorAll('h1, th, td, label, .hint, #subtitle, legend, dd, figcaption')]
+            return [...document.querySelectorAll(
+                'h1, th, td, label, .hint, #subtitle, legend, dd, figcaption')]
               .map((e) => light(getComputedStyle(e).color))
               .map((text) => (Math.max(text, ground) + 0.05) / (Math.min(text, ground) + 0.05)); })()"""
         contrasts = page.run(light)
@@ -240,7 +252,8 @@ class Viewer(ProgramTest):
         (self.folder / "<").mkdir()
         name = "</script><img src=x onerror=alert(1)>.off"
         page = self.page(self.file(name, OCTAHEDRON), "--field", "height:axis=z", "--method", "conventional")
-        self.assertEqual(page.run("document.getElementById('title').textContent"), name.rsplit("/", maxsplit=1)[-1])
+        self.assertEqual(page.run("document.getElementById('title').textContent"),
+                         name.rsplit("/", maxsplit=1)[-1])
         self.assertEqual(page.run("document.images.length"), 0)
         self.assertIn(name, page.run("document.getElementById('command').textContent"))
         self.assertIn("6 vertices", page.run("document.getElementById('subtitle').textContent"))
@@ -248,7 +261,8 @@ class Viewer(ProgramTest):
         self.assert_quiet(page)
 
     def test_a_damaged_page_says_so(self):
-        self.morsel("compare", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "--html", "page.html")
+        self.morsel("compare", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "--html",
+                    "page.html")
         text = (self.folder / "page.html").read_text()
         start = text.index('id="buffers">') + len('id="buffers">')
         broken = self.file("broken.html", text[:start] + text[start + 40:])

@@ -212,7 +212,8 @@ class Interrupt(unittest.TestCase):
                         latencies.append((latency, busy, command))
             latencies.sort(reverse=True)
             self.assertGreater(len(latencies), 20)
-            print(f"{len(latencies)} interruptions, median {latencies[len(latencies) // 2][0]:.2f} s, the longest:",
+            median = latencies[len(latencies) // 2][0]
+            print(f"{len(latencies)} interruptions, median {median:.2f} s, the longest:",
                   ", ".join(f"{name} {latency:.2f} s ({busy:.2f})" for latency, busy, name in latencies[:5]))
 
 

@@ -19,17 +19,16 @@ class ManualTest(ProgramTest):
         super().setUpClass()
         cls.made = pathlib.Path(MANUAL)
 
-    def commands(self):
+    def options(self):
         """Each command with the names of its options."""
-        listed = self.morsel().stdout.split("Commands:")[1].split("Examples:")[0]
         found = {}
-        for name in set(re.findall(r"^  (\w+) ", listed, re.MULTILINE)) - {"help"}:
+        for name in self.commands():
             headings = re.findall(r"^  (-.*?)(?:  |$)", self.morsel(name, "--help").stdout, re.MULTILINE)
             found[name] = set(re.findall(r"(?:^|, )(--?[a-z][a-z-]*)", "\n".join(headings), re.MULTILINE))
         return found
 
     def test_every_command_has_a_page_with_its_options(self):
-        commands = self.commands()
+        commands = self.options()
         self.assertEqual({path.name for path in (self.made / "man1").iterdir()},
                          {"morsel.1", *(f"morsel-{name}.1" for name in commands)})
         for name, options in commands.items():
@@ -67,18 +66,49 @@ class ManualTest(ProgramTest):
         self.assertEqual(self.complete("morsel", "compare", "scan.off", "--up", ""), {"x", "y", "z"})
         self.assertEqual(self.complete("morsel", "field", "scan.off", "-o", "s"), {"scan.off"})
         self.assertEqual(self.complete("morsel", "methods", "sali"), {"salient", "saliency"})
-        for name, options in self.commands().items():
+        for name, options in self.options().items():
             self.assertLessEqual(options, self.complete("morsel", name, "-") | {"-o"}, name)
 
-    def test_zsh_and_fish_read_theirs(self):
+    def test_zsh_and_fish_have_every_option(self):
         for shell, file in (("zsh", "zsh/_morsel"), ("fish", "fish/morsel.fish")):
-            with self.subTest(shell):
-                text = (self.made / file).read_text()
-                for name, options in self.commands().items():
-                    for option in options - {"-o", "-h"}:
-                        self.assertIn(option if shell == "zsh" else f"-l {option[2:]}", text, name)
-                if shutil.which(shell):
-                    subprocess.run([shell, "-n", self.made / file], check=True)
+            text = (self.made / file).read_text()
+            for name, options in self.options().items():
+                for option in options - {"-o", "-h"}:
+                    self.assertIn(option if shell == "zsh" else f"-l {option[2:]}", text, (shell, name))
+
+    def check_completion(self, shell, offered):
+        """`offered` is what the shell offers for a line."""
+        if not shutil.which(shell):
+            self.skipTest(f"{shell} is not installed")
+        self.file("scan.off", "")
+        for line, words in (("morsel comp", {"compare"}), ("morsel sc", {"scan.off"}),
+                            ("morsel help qu", {"quads"}), ("morsel compare --me", {"--method"}),
+                            ("morsel compare scan.off --method tp", {"tps"}),
+                            ("morsel scan.off --method tp", {"tps"}),
+                            ("morsel compare scan.off --up ", {"x", "y", "z"}),
+                            ("morsel compare sc", {"scan.off"}),
+                            ("morsel field scan.off -o sc", {"scan.off"}),
+                            ("morsel methods sali", {"salient", "saliency"}),
+                            ("morsel cut compare --no-s", {"--no-shorten"}),
+                            ("morsel render scan.off --ar", {"--arcs"})):
+            with self.subTest(line):
+                self.assertEqual(offered(line), words)
+
+    def lines(self, *command):
+        """What the command prints; the shells keep their files in the test's folder."""
+        homes = dict.fromkeys(("HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME"), str(self.folder / "home"))
+        result = subprocess.run([*map(str, command)], cwd=self.folder, env={**os.environ, **homes},
+                                capture_output=True, text=True, check=True, timeout=60)
+        return result.stdout.splitlines()
+
+    def test_zsh_completes(self):
+        script = pathlib.Path(__file__).with_name("complete.zsh")
+        self.check_completion("zsh", lambda line: {
+            word.strip() for word in self.lines("zsh", "-f", script, self.made / "zsh", line)})
+
+    def test_fish_completes(self):
+        self.check_completion("fish", lambda line: {word.split("\t")[0] for word in self.lines(
+            "fish", "-c", "source $argv[1]; complete -C $argv[2]", self.made / "fish/morsel.fish", line)})
 
 
 if __name__ == "__main__":

@@ -10,8 +10,8 @@ def atom(serial, position, *, name="C", residue="GLY", chain="A", number=1, elem
          alternate=" ",
          occupancy=1):
     x, y, z = position
-    return (f"{record:<6}{serial:5}  {name:<3}{alternate}{residue:>3} {chain}{number:4}    {x:8.3f}{y:8.3f}{z:8.3f}"
-            f"{occupancy:6.2f}{0:6.2f}          {element:>2}\n")
+    return (f"{record:<6}{serial:5}  {name:<3}{alternate}{residue:>3} {chain}{number:4}    "
+            f"{x:8.3f}{y:8.3f}{z:8.3f}{occupancy:6.2f}{0:6.2f}          {element:>2}\n")
 
 
 CIF = """data_TEST

@@ -9,7 +9,7 @@ import stat
 import subprocess
 import unittest
 
-from support import OCTAHEDRON, PROGRAM, SAMPLES, ProgramTest, until
+from support import OCTAHEDRON, ON_MESH, PROGRAM, SAMPLES, ProgramTest, until
 
 LIST = ".morsel-results"
 QUICK = ("--method", "conventional")
@@ -476,19 +476,6 @@ class Folders(OwnershipTest):
 class Outputs(OwnershipTest):
     """Every command, with outputs that are an input or one another."""
 
-    # Each output option and the ending of its file, by command; {} is the mesh, MESH.off.
-    COMMANDS = {
-        "compare": (("compare", "{}", *QUICK), {"-o": ".json", "--html": ".html"}),
-        "field": (("field", "{}"), {"-o": ".txt"}),
-        "hierarchy": (("hierarchy", "{}", "--levels", "0"), {"-o": ".json"}),
-        "segment": (("segment", "{}"), {"-o": ".ply", "--json": ".json"}),
-        "cut": (("cut", "{}"), {"-o": ".off", "--json": ".json", "--graph": ".vtp"}),
-        "quads": (("quads", "{}", "--field", "height"), {"-o": ".obj", "--json": ".json"}),
-        "render": (("render", "{}", "--size", "40x30", "--samples", "1"), {"-o": ".png"}),
-        "stability": (("stability", "{}", "--noise", "0.1", "--trials", "1"), {"-o": ".json"}),
-        "sweep": (("sweep", "{}", "--vary", "iterations=1..2"), {"-o": ".csv"}),
-    }
-
     def names_of(self, path, ending):
         """Names by which a file is reached that end as an output has to."""
         stem = f"{path.stem}-{path.suffix[1:]}"
@@ -504,7 +491,7 @@ class Outputs(OwnershipTest):
     def test_no_output_is_an_input(self):
         """`compare m.off -o m.off` once replaced the mesh by JSON, `cut m.off -o m.off` by the cut."""
         (self.folder / "linked").symlink_to(".")
-        for command, (words, options) in self.COMMANDS.items():
+        for command, (words, options) in ON_MESH.items():
             words = [word.format(self.mesh.name) for word in words]
             required = ()
             if command in ("segment", "cut", "quads"):
@@ -586,7 +573,8 @@ class Outputs(OwnershipTest):
         self.morsel("compare", "m.off", *QUICK, "-o", "/dev/null", "--html", "/dev/null")
         self.morsel("cut", "m.off", "-o", "c.off", "--json", "/dev/null", "--graph", "g.vtp")
         self.morsel("compare", "m.off", *QUICK, "-o", "/dev/stdout", "--html", "/dev/stdout")
-        result = subprocess.run(f"'{PROGRAM}' compare m.off {' '.join(QUICK)} -o /dev/stdout --html /dev/stdout > both",
+        result = subprocess.run(f"'{PROGRAM}' compare m.off {' '.join(QUICK)} -o /dev/stdout "
+                                "--html /dev/stdout > both",
                                 shell=True, cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         result = subprocess.run(f"'{PROGRAM}' compare m.off -o /dev/stdout >> m.off", shell=True,
@@ -597,7 +585,7 @@ class Outputs(OwnershipTest):
 
     def test_no_file_is_called_nothing(self):
         """`-o ''` was once no output at all."""
-        for command, (words, options) in self.COMMANDS.items():
+        for command, (words, options) in ON_MESH.items():
             words = [word.format(self.mesh.name) for word in words]
             for option in options:
                 self.refused(*words, option, "", naming=["''"])
@@ -614,7 +602,7 @@ class Outputs(OwnershipTest):
                 self.refused(*arguments, naming=["''"])
 
     def test_other_names_are_written_as_ever(self):
-        for command, (words, options) in self.COMMANDS.items():
+        for command, (words, options) in ON_MESH.items():
             if command == "quads":
                 continue  # needs another field
             words = [word.format(self.mesh.name) for word in words]

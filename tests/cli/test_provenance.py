@@ -150,6 +150,7 @@ class Provenance(ProgramTest):
                     for method in document["methods"]:
                         if method["name"] == "salient":
                             self.assertGreater(method["parameters"]["sigma"], 0)  # 8eps, in the mesh's unit
+
     def test_compare(self):
         methods = ["conventional", "salient", "tps"]
         files = self.written_twice(
@@ -220,8 +221,8 @@ class Provenance(ProgramTest):
         self.check(files, "render", [self.mesh], ["salient"])
         document = of_png(files["p.png"])
         self.assertEqual(document["command"],
-                         "morsel render 'a mesh--1.off' --method salient --size 160x120 --samples 1 --inset 7 "
-                                              "--view=-20/10 --caption 'über <&> --'")
+                         "morsel render 'a mesh--1.off' --method salient --size 160x120 --samples 1 "
+                         "--inset 7 --view=-20/10 --caption 'über <&> --'")
         self.assertEqual(document["picture"]["inset"], {"vertex": 7, "radius": "15eps"})
         self.assertEqual((document["picture"]["view"], document["picture"]["caption"]),
                          ("-20/10", "über <&> --"))
@@ -340,12 +341,28 @@ class Provenance(ProgramTest):
                     self.assertEqual(document["request"]["methods"], ["conventional", "salient", "tps"])
 
     def test_no_command_is_left_out(self):
-        """The files of a new command must be tested here, too."""
-        listed = re.findall(r"^  (\w+) ", self.morsel().stdout.split("Commands:")[1].split("Examples:")[0],
-                            re.MULTILINE)
+        """A new command has its files looked at here, too."""
         tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")}
-        self.assertEqual(set(listed) - tested, {"info", "check", "fields", "methods",
-                                                "help"})  # which write no file
+        writing = {name for name in self.commands() if "[OPTIONS]" in self.usage(name)}
+        self.assertEqual(writing - tested, {"info", "check"})  # which write no file
+
+    def test_a_command_is_told_without_what_leaves_the_contents_of_files_as_they_are(self):
+        """However an option is written."""
+        shutil.copy(self.folder / self.mesh, self.folder / "-m.off")
+        for words, told in (
+                (("a mesh--1.off", "-o", "f.txt", "--threads", "3", "--field", "height"),
+                 "'a mesh--1.off' --field height"),
+                (("--quiet", "--threads=1", "--field=height", "-of.txt", "--", "-m.off"),
+                 "--field=height -- -m.off"),
+                (("a mesh--1.off", "--output=f.txt", "--repair"), "'a mesh--1.off' --repair")):
+            self.morsel("field", *words)
+            self.assertEqual(of_lines(self.folder / "f.txt", b"# ")["command"], f"morsel field {told}")
+        self.morsel("cut", self.mesh, "-o", "c.off", "--json", "c.json", "--graph=g.vtp")
+        self.assertEqual(of_vtp(self.folder / "g.vtp")["command"], "morsel cut 'a mesh--1.off'")
+        self.morsel("compare", self.mesh, "--method", "conventional", "-or.json", "--html", "p.html",
+                    "--html-place", "there.html", "--view=-20/10", "--export=e")
+        self.assertEqual(of_html(self.folder / "p.html")["command"],
+                         "morsel compare 'a mesh--1.off' --method conventional --view=-20/10")
 
 
 if __name__ == "__main__":

@@ -31,7 +31,8 @@ class Quads(ProgramTest):
 
     def quads(self, *arguments):
         result = self.morsel("quads", *arguments, "-o", "quads.obj", "--json", "quads.json")
-        return *read_obj(self.folder / "quads.obj"), json.loads((self.folder / "quads.json").read_text()), result
+        report = json.loads((self.folder / "quads.json").read_text())
+        return *read_obj(self.folder / "quads.obj"), report, result
 
     def check(self, vertices, quads, document):
         """A manifold of quads that is what the document says."""

@@ -229,7 +229,8 @@ class Pieces(ProgramTest):
         for queued, said in (("", "sbatch --parsable --job-name=morsel-deal-x-0007 --mem=5 script\n"),
                              ("12", "12\n")):
             self.file("squeue",
-                      f"#!/bin/sh\n[ \"$3\" = --name=morsel-deal-x-0007 ] && printf '{queued}'\n").chmod(0o755)
+                      "#!/bin/sh\n[ \"$3\" = --name=morsel-deal-x-0007 ] && "
+                      f"printf '{queued}'\n").chmod(0o755)
             self.file("sbatch", "#!/bin/sh\necho sbatch \"$@\"\n").chmod(0o755)
             result = subprocess.run([WORKFLOW / "profiles/slurm/slurm-submit", "work/deal-x/0007", "--mem=5",
                                      "script"],

@@ -1,5 +1,5 @@
-# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs BUILD and uses
-# what was installed.
+# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs
+# BUILD and uses what was installed.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -14,7 +14,7 @@ function(configure_project name)
       -DCMAKE_PREFIX_PATH=${WORK}/moved)
 endfunction()
 
-# Moved after it was installed: the package must not know where it was.
+# Moved after installation: the package must not depend on its place.
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 file(RENAME ${WORK}/prefix ${WORK}/moved)
@@ -48,12 +48,12 @@ if(NOT output STREQUAL "bend\nconventional: 1895\nsalient: 97\nten-times: 97\n")
   message(FATAL_ERROR "the study is to print 1895, 97 and 97 critical points:\n${output}")
 endif()
 
-# The program works from where it was installed, too.
+# The installed program works, too.
 if(EXISTS ${WORK}/moved/bin/morsel)
   run(${WORK}/moved/bin/morsel info ${MESH})
 endif()
 
-# The README shows this very example.
+# The README shows the same example.
 file(READ ${SOURCE}/tests/consumer/example/main.cpp example)
 file(READ ${SOURCE}/README.md readme)
 string(FIND "${readme}" "```cpp\n${example}```" place)

@@ -13,7 +13,8 @@ import tempfile
 import time
 import unittest
 
-from scenarios import METHODS, OCTAHEDRON, Prepared, differences, left_over, library_path, program_path, scenarios
+from scenarios import (METHODS, OCTAHEDRON, Prepared, differences, left_over, library_path, program_path,
+                       scenarios)
 
 SCENARIOS = {scenario.name: scenario for scenario in scenarios()}
 NOBODY = 65534

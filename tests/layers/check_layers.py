@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "mscomplex": {"core", "persistence", "mscomplex"},
     "tools": {*LIBRARY, "tools"},
 }
-# The rooms of tools, from the ground up.
+# The rooms of tools, from the lowest floor up.
 FLOORS = (
     ("study", "formats", "results", "drawing"),
     ("molecule",),
@@ -36,10 +36,11 @@ FLOORS = (
 FLOOR_OF = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 MAY_PRINT = ("commands", "manual", "main.cpp", "batch")  # batch: its children between fork and exec
 # What a study does without, so that Python and a browser can be built on it.
-NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build", "embree3/", "openvdb/", "CLI/")
+NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build", "embree3/",
+                "openvdb/", "CLI/")
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
 NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
-                  "ft2build")  # what only sources include, a user of the installed library need not have
+                  "ft2build")  # included by sources only: users of the installed library do not need these
 NOT_IN_TOOLS = ("catch2/", "phat/", "vtk")
 PRINTS_OR_EXITS = re.compile(
     r"(?<![\w.])(?:cout|cerr|clog|stdout|stderr|STDOUT_FILENO|STDERR_FILENO)\b"
@@ -112,8 +113,8 @@ def check_source(module, text, is_header, own_header=None, room=None):
             yield line_of(code, first.start()) if first else 1, f'the first include is to be "{own_header}"'
     if module in LIBRARY or (room is not None and room not in MAY_PRINT):
         for match in PRINTS_OR_EXITS.finditer(without(text, ("//", "/*", "R", '"', "'"))):
-            yield line_of(text,
-                          match.start()), f'{room or module} may not print nor exit: "{match.group().strip("( ")}"'
+            said = match.group().strip("( ")
+            yield line_of(text, match.start()), f'{room or module} may not print nor exit: "{said}"'
 
 
 def check_cmake(module, text, room=None):
@@ -142,7 +143,7 @@ def public_headers(text):
 
 
 def check_public_headers(root):
-    """Yields the complaints about the lists of public headers: each header exists, stands there once, and
+    """Yields the complaints about the lists of public headers: each header exists, is listed once, and
     includes public headers only."""
     public, texts = set(), {}
     for listing in sorted(root.rglob("CMakeLists.txt")):
@@ -179,8 +180,9 @@ def check(root):
                 room = None
             if path.suffix in (".h", ".hpp", ".cpp", ".inl"):
                 header = path.with_suffix(".h")
-                own = f"morsel/{header.relative_to(root)}" if path.suffix == ".cpp" and header.exists() else None
-                found = check_source(module, path.read_text(encoding="utf-8"), path.suffix != ".cpp", own, room)
+                is_header = path.suffix != ".cpp"
+                own = f"morsel/{header.relative_to(root)}" if not is_header and header.exists() else None
+                found = check_source(module, path.read_text(encoding="utf-8"), is_header, own, room)
             elif path.name == "CMakeLists.txt":
                 found = check_cmake(module, path.read_text(encoding="utf-8"), room)
             else:

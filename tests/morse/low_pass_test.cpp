@@ -262,11 +262,12 @@ TEST_CASE("salient with a scale smooths the function of the smoothed surface") {
   CHECK(values_of(apply({{"scale", "1edges"}, {"iterations", "0"}}, context).field) == values_of(at_scale));
   CHECK_THROWS_WITH(apply({{"scale", "1edges"}}, {}), Catch::Contains("salient with a scale"));
   CHECK_THROWS_AS(apply({{"scale", "1e6edges"}}, context), core::BadInput);
-  CHECK(made(morse::make_salient, "salient", {{"scale", "1eps"}})->traits().retakes_field);
-  CHECK(made(morse::make_salient, "salient", {{"preset", "robust"}})->traits().retakes_field);
-  CHECK_FALSE(
-      made(morse::make_salient, "salient", {{"preset", "robust"}, {"scale", "0"}})->traits().retakes_field);
-  CHECK_FALSE(made(morse::make_salient, "salient")->traits().retakes_field);
+  CHECK(made(morse::make_salient, "salient", {{"scale", "1eps"}})->traits().reevaluates_function);
+  CHECK(made(morse::make_salient, "salient", {{"preset", "robust"}})->traits().reevaluates_function);
+  CHECK_FALSE(made(morse::make_salient, "salient", {{"preset", "robust"}, {"scale", "0"}})
+                  ->traits()
+                  .reevaluates_function);
+  CHECK_FALSE(made(morse::make_salient, "salient")->traits().reevaluates_function);
 
   // Observers get the field of the smoothed surface as iteration 0; records begin with it.
   core::MethodContext listening = context;

@@ -106,7 +106,7 @@ TEST_CASE("a journal of another key is replaced, with a warning") {
   Journal journal(folder / "j", 2);
   CHECK(journal.entries().empty());
   REQUIRE(journal.warnings().size() == 1);
-  CHECK_THAT(journal.warnings()[0], Contains("begun anew"));
+  CHECK_THAT(journal.warnings()[0], Contains("a new one is started"));
 }
 
 TEST_CASE("bug: a file with a journal's name was emptied whatever it was") {

@@ -131,13 +131,3 @@ TEST_CASE("a provenance has all members that it is read for, with their types") 
     }
   }
 }
-
-TEST_CASE("a command omits options that do not change the contents of files") {
-  const auto command = [](const std::vector<std::string>& words) { return tools::shaping_command(words); };
-  CHECK(command({"morsel", "field", "a b.off", "-o", "x.txt", "--threads", "3", "--method", "salient"}) ==
-        "morsel field 'a b.off' --method salient");
-  CHECK(command({"morsel", "compare", "--quiet", "--threads=1", "--output=r.json", "-or.json", "--html",
-                 "p.html", "--view=-20/10", "--figures=f", "--", "-o.off"}) ==
-        "morsel compare --view=-20/10 -- -o.off");
-  CHECK(command({"morsel", "cut", "m.off", "--json", "-", "--graph", "g.vtp", "-o"}) == "morsel cut m.off");
-}

@@ -51,8 +51,9 @@ TEST_CASE("a method that ignores its input can only begin a chain") {
             .make_method("salient:preset=robust+tps")
             .steps[0]
             .method->traits()
-            .retakes_field);
-  CHECK_FALSE(tools::Registry::standard().make_method("salient").steps[0].method->traits().retakes_field);
+            .reevaluates_function);
+  CHECK_FALSE(
+      tools::Registry::standard().make_method("salient").steps[0].method->traits().reevaluates_function);
 }
 
 TEST_CASE("unknown names and keys list the valid ones") {

@@ -45,7 +45,7 @@ Texts methods_of(const tools::SweepPlan& plan) {
   return texts;
 }
 
-/// The combination as `compare` runs it.
+/// The combination as run by `compare`.
 Json by_itself(const core::LoadedMesh& mesh, const tools::Combination& combination) {
   const tools::NamedFunction function =
       tools::Registry::standard().make_function(to_string(combination.field));
@@ -92,7 +92,7 @@ TEST_CASE("values of a variation are texts and ranges") {
   CHECK(values("5..5") == Texts{"5"});
 }
 
-TEST_CASE("what is no variation is refused with the text") {
+TEST_CASE("an invalid variation is refused with its text") {
   for (const std::string text :
        {"sigma", "=1", "k=", "k=1,,2", "k=1,1", "k=1..3,2", "k=1..", "k=1..x", "k=1..2..0", "k=1..2..3..4",
         "k=1eps..2edges", "k=-1..1..x2", "k=1..8..x1", "k=1..8..x2eps", "k=0..1..1e-9", "k=1..1e300"})
@@ -153,7 +153,7 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
   refused({"height", "gaussian", {"sigma=1..2000", "iterations=1..2000"}}, "more than 1000000 combinations");
 }
 
-TEST_CASE("every method that tells its results tells, bit by bit, what fewer iterations return") {
+TEST_CASE("the iterates of a method are the results of fewer iterations, bit by bit") {
   const core::LoadedMesh mesh = bumpy();
   const tools::NamedFunction function = tools::Registry::standard().make_function("mean-curvature");
   const core::ScalarField field = tools::evaluate_field(mesh, function).field;
@@ -172,7 +172,7 @@ TEST_CASE("every method that tells its results tells, bit by bit, what fewer ite
       return tools::Registry::standard().make_method(text + "iterations=" + std::to_string(iterations));
     };
     const tools::MethodChain longest = method(4);
-    REQUIRE(longest.steps[0].method->traits().tells_results);
+    REQUIRE(longest.steps[0].method->traits().iterates_are_results);
     core::MethodContext context = tools::method_context(mesh, function);
     context.on_iteration = [&](int i, const core::ScalarField& f) {
       told[i] = keep(f);
@@ -195,15 +195,15 @@ TEST_CASE("every method that tells its results tells, bit by bit, what fewer ite
                   .make_method("salient:classify=saliency")
                   .steps[0]
                   .method->traits()
-                  .tells_results);
+                  .iterates_are_results);
   CHECK_FALSE(tools::Registry::standard()
                   .make_method("salient:accuracy=1e-4")
                   .steps[0]
                   .method->traits()
-                  .tells_results);
+                  .iterates_are_results);
 }
 
-TEST_CASE("rows are what each combination gives by itself") {
+TEST_CASE("a row is the same as that of its combination run alone") {
   const core::LoadedMesh mesh = bumpy();
   for (const SweepRequest& request : std::vector<SweepRequest>{
            {"mean-curvature", "salient", {"iterations=0..4", "sigma=4eps,12eps"}},
@@ -227,7 +227,7 @@ TEST_CASE("rows are what each combination gives by itself") {
   }
 }
 
-TEST_CASE("the iterations that ran are told, of all steps together") {
+TEST_CASE("the number of iterations that ran is that of all steps together") {
   const std::vector<SweepRow> rows = sweep(
       bumpy(),
       {"mean-curvature", "gaussian:iterations=2+laplacian:until-count=20", {"laplacian.iterations=1,2,500"}});
@@ -266,7 +266,7 @@ TEST_CASE("a method of one's own takes part in a sweep") {
   CHECK(rows[0].max == rows[0].field.max);
   CHECK(rows[1].min == rows[1].field.min);
   CHECK(rows[1].max - rows[1].min == Approx((rows[0].max - rows[0].min) / 8));
-  // Halving keeps the order, and a share of the extent stays one.
+  // Halving keeps the order, and shares of the range.
   CHECK(rows[1].critical_points.total() == rows[0].critical_points.total());
   CHECK(rows[1].persistence.above == rows[0].persistence.above);
 }
@@ -280,7 +280,7 @@ TEST_CASE("a plan outlives the registry that it was made with") {
   CHECK(counts.iterations == 2);
 }
 
-TEST_CASE("a row is read back from what documents hold of it") {
+TEST_CASE("a row is read back from documents") {
   const auto written = [](const SweepRow& row) {
     return std::pair(tools::row_section(row), tools::seconds_section(row.seconds));
   };

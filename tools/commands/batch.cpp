@@ -15,11 +15,9 @@
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/batch/batch.h"
 #include "morsel/tools/batch/summary.h"
-#include "morsel/tools/commands/commands.h"
-#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/commands/steps.h"
 #include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/formats/text_table.h"
-#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::tools {
 namespace {
@@ -112,13 +110,14 @@ std::string last_line(const batch::Tally& sums, const Options& options) {
          (options.no_summary ? "" : "; " + (std::filesystem::path(options.out) / "index.html").string());
 }
 
-int run(Options& options, const CommonOptions& common, Console& console) {
+int compare_all(Options& options, const Run& run) {
   if (!options.no_thumbnails) drawing::require_pictures("morsel batch without --no-thumbnails");
   if (options.request.figures) drawing::require_pictures("--figures");
-  options.request.repair = common.repair;
+  Console& console = run.console;
+  options.request.repair = run.common.repair;
   options.request.items = !options.no_items;
   options.request.thumbnails = !options.no_thumbnails;
-  options.run.threads = std::max(common.threads, 1);
+  options.run.threads = std::max(run.common.threads, 1);
   options.run.stop = console.stop_token();
   const unsigned cores = std::max(std::thread::hardware_concurrency(), 1U);
   options.run.jobs = options.jobs > 0
@@ -158,23 +157,24 @@ int run(Options& options, const CommonOptions& common, Console& console) {
   return sums.failed + sums.not_run > 0 ? kDifferences : kDone;
 }
 
-void add_what_is_compared(Command& command, Options& options) {
+void add_what_is_made(Command& command, Options& options) {
   batch::BatchRequest& request = options.request;
   add_comparison_options(command, request.comparison);
+  command.begin_group("What is made of each mesh");
   command.flag("--no-items", options.no_items,
-               "Leave what is listed point by point out of the reports; counts stay");
+               "Leave what is listed point by point out of reports; counts stay");
   command.flag("--no-thumbnails", options.no_thumbnails, "Take no small pictures");
-  command.flag("--html", request.pages, "Make a page of each mesh that shows all this in a browser");
-  command.flag("--figures", request.figures,
-               "Make pictures of each mesh: of each method, diagrams and curves");
+  command.flag("--html", request.pages, "Make a page that shows all this in a browser");
+  command.flag("--figures", request.figures, "Make pictures of each method, diagrams and curves");
   command.flag("--export", request.exports,
-               "Write each mesh's surfaces, complexes (.vtp, for ParaView) and critical points (.csv)");
+               "Write surfaces, complexes (.vtp, for ParaView) and points (.csv)");
   add_figure_options(command, request.figure);
   command.option("--size").needs("--figures");
   command.option("--inset").needs("--figures");
 }
 
 void add_how_it_is_run(Command& command, Options& options) {
+  command.begin_group("How it is run");
   command.number("--jobs", options.jobs, "Meshes at the same time")
       .between(1, 4096)
       .shows_default("the cores over --threads");
@@ -182,29 +182,27 @@ void add_how_it_is_run(Command& command, Options& options) {
       .above(0)
       .value("SECONDS")
       .shows_default("none");
-  command
-      .number("--memory-limit", options.run.limits.memory_mib,
-              "A mesh that needs more writable memory of its own (heap and stacks; not code) fails, from "
-              "64 MiB on, of which the program itself takes 45")
+  command.number("--memory-limit", options.run.limits.memory_mib, "A mesh that needs more memory fails")
       .between(64, 0x1p40)
       .value("MIB")
-      .shows_default("none");
+      .shows_default("none")
+      .in_detail(
+          "Writable memory of its own (heap and stacks; not code), from 64 MiB on, of which the program "
+          "itself takes 45");
   command.flag("--retry", options.run.retry, "Run what failed before again");
-  command
-      .texts("--only", options.only,
-             "Run this mesh only, by its path within the collection; may be given several times")
+  command.texts("--only", options.only, "Run this mesh only, by its path in COLLECTION; repeatable")
       .value("NAME");
   command.flag("--no-summary", options.no_summary, "Leave the summary to a later call");
   command.flag("--summary-only", options.summary_only, "Run nothing: write the summary of what is there")
       .excludes("--no-summary");
-  command
-      .flag("--plan", options.plan,
-            "Run nothing: print the meshes that a run would work on, a line each: the size of the file "
-            "in bytes, a tab, NAME (a JSON string if it has control characters or begins with a quote)")
+  command.flag("--plan", options.plan, "Run nothing: print the meshes that a run would work on")
       .excludes("--no-summary")
-      .excludes("--summary-only");
-  command.flag("--with-timings", options.with_timings,
-               "Give summary.csv a column of seconds, which differ from run to run");
+      .excludes("--summary-only")
+      .in_detail(
+          "A line each: the size of the file in bytes, a tab, NAME (a JSON string if it has control "
+          "characters or begins with a quote)");
+  command.flag("--with-timings", options.with_timings, "Give summary.csv a column of seconds")
+      .in_detail("They differ from run to run");
 }
 
 }  // namespace
@@ -214,17 +212,17 @@ void add_batch(Program& program) {
   Command& command = program.add(
       "batch",
       "Compare methods on every mesh of a collection, each once and in a process of its own, and sum up");
-  command
-      .path("COLLECTION", options->collection,
-            "A folder, whose meshes and those of the folders in it are taken, or a list: a file with "
-            "the path of a mesh on each line, relative to the list's folder")
-      .required();
-  command
-      .path("--out", options->out,
-            "Where results go: a new or an empty folder, or one of an earlier batch; not within COLLECTION")
+  command.path("COLLECTION", options->collection, "A folder of meshes, or a file that lists paths of meshes")
+      .required()
+      .in_detail(
+          "Of a folder its meshes and those of the folders in it; of a list the path on each line, relative "
+          "to the list's folder");
+  command.path("--out", options->out, "A new or empty folder for results, or one of an earlier batch")
       .value("OUT")
-      .required();
-  add_what_is_compared(command, *options);
+      .required()
+      .shapes_nothing()
+      .in_detail("It is not within COLLECTION");
+  add_what_is_made(command, *options);
   add_how_it_is_run(command, *options);
   add_common_options(command, program.common);
   command.option("--threads").help = "Number of threads of each mesh; never changes a result";
@@ -232,15 +230,15 @@ void add_batch(Program& program) {
   command.examples = {
       {"batch scans --out results", "a table, a page and a report of each mesh of a folder"},
       {"batch scans --out results --figures --jobs 2", "pictures as well, of what is done, too"}};
-  command.notes =
+  command.notes = "Exit code: 0 if all meshes are done, 1 if any failed. ";
+  command.details =
       "OUT gets reports/NAME.json, thumbnails/NAME.first.png and .last.png (the first and the last method), "
       "pages/NAME.html, figures/NAME/ and exports/NAME/ if they are asked for, state/NAME.json, and the "
       "summary: summary.csv, summary.json, plots/ and index.html. NAME is the mesh's path within the "
       "collection. What is done is not done again unless the mesh, the options, a file that they name or the "
-      "program's version changed; what failed, unless these or the limits did, or with --retry.\n\n"
-      "Exit code: 0 if all meshes are done, 1 if any failed.\n\n" +
-      std::string(kSpecificationNotes);
-  command.action = [options, &program](Console& console) { return run(*options, program.common, console); };
+      "program's version changed; what failed, unless these or the limits did, or with --retry.\n\n";
+  add_specification_notes(command);
+  set_action(program, command, options, compare_all);
 }
 
 }  // namespace morsel::tools

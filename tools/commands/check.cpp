@@ -118,10 +118,10 @@ class ManyReports {
   std::vector<std::vector<std::string>> rows_ = {{"report", "what", "report has", "now"}};
 };
 
-int check(const Options& options, Console& console) {
+int check(const Options& options, const Run& run) {
   if (options.paths.size() == 1 && !is_folder(options.paths.front()))
-    return check_one(options.paths.front(), options.all, console);
-  ManyReports reports(options.all, console);
+    return check_one(options.paths.front(), options.all, run.console);
+  ManyReports reports(options.all, run.console);
   for (const std::string& path : options.paths) {
     if (!is_folder(path))
       reports.check(path, true);
@@ -136,9 +136,7 @@ int check(const Options& options, Console& console) {
 void add_check(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add("check", "Run comparisons of reports again and show what changed");
-  command
-      .paths("REPORT", options->paths,
-             "Reports of morsel compare, or folders in which all of them (.json) are checked")
+  command.paths("REPORT", options->paths, "Reports of morsel compare, or folders with such reports (.json)")
       .required();
   command.flag("--all", options->all, "Show every difference, not only the first 20 of a report");
   add_common_options(command, program.common, false);
@@ -146,10 +144,10 @@ void add_check(Program& program) {
                       {"check results/reports", "all reports of a folder, as of a batch"}};
   command.notes =
       "Meshes are looked for from the working folder, then from the report's folder. Timings and the "
-      "program's "
-      "version may differ; counts and texts may not, real numbers by no more than 1e-9 of themselves.\n\n"
+      "program's version may differ; counts and texts may not, real numbers by no more than 1e-9 of "
+      "themselves.\n\n"
       "Exit code: 0 if nothing changed, 1 if anything did, 3 if a report could not be checked.";
-  command.action = [options](Console& console) { return check(*options, console); };
+  set_action(program, command, options, check);
 }
 
 }  // namespace morsel::tools

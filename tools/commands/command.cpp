@@ -6,6 +6,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/parameters.h"
+#include "morsel/tools/formats/command_line.h"
 
 namespace morsel::tools {
 namespace {
@@ -43,6 +44,11 @@ std::vector<std::string> Option::all_names() const {
   return all;
 }
 
+bool Option::is_called(std::string_view any_name) const {
+  const std::vector<std::string> all = all_names();
+  return std::ranges::find(all, any_name) != all.end();
+}
+
 Option& Option::value(std::string name) {
   value_name = std::move(name);
   return *this;
@@ -55,6 +61,16 @@ Option& Option::required() {
 
 Option& Option::shows_default(std::string text) {
   default_text = std::move(text);
+  return *this;
+}
+
+Option& Option::in_detail(std::string text) {
+  details = std::move(text);
+  return *this;
+}
+
+Option& Option::shapes_nothing() {
+  shapes_result = false;
   return *this;
 }
 
@@ -85,11 +101,14 @@ Option& Option::excludes(std::string other) {
   return *this;
 }
 
-Option& Command::add(Option option) { return options_.emplace_back(std::move(option)); }
+Option& Command::add(Option option) {
+  option.group = group_;
+  return options_.emplace_back(std::move(option));
+}
 
 Option& Command::option(std::string_view any_name) {
   for (Option& row : options_)
-    if (const auto names = row.all_names(); std::ranges::find(names, any_name) != names.end()) return row;
+    if (row.is_called(any_name)) return row;
   throw core::InvalidArgument(name + " has no option " + std::string(any_name));
 }
 
@@ -168,6 +187,25 @@ Option& Command::numbers(std::string names, std::vector<double>& target, std::st
       for (const std::string& part : split(word, ',')) target.push_back(real_number(option, part));
   };
   return add(std::move(row));
+}
+
+std::string shaping_command(const Command& command, const std::vector<std::string>& words) {
+  std::vector<std::string> kept = {"morsel", command.name};
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (*word == "--") {
+      kept.insert(kept.end(), word, words.end());
+      break;
+    }
+    // "--name", "--name=VALUE", "-n" or "-nVALUE"
+    const std::string name = word->starts_with("--") ? word->substr(0, word->find('=')) : word->substr(0, 2);
+    const auto option = std::ranges::find_if(
+        command.options(), [&](const Option& row) { return !row.is_argument() && row.is_called(name); });
+    if (option == command.options().end() || option->shapes_result)
+      kept.push_back(*word);
+    else if (!option->is_flag() && *word == name && word + 1 != words.end())
+      ++word;
+  }
+  return command_line(kept);
 }
 
 std::uint64_t whole_number(const Option& option, const std::string& word, std::uint64_t most) {

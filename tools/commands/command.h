@@ -21,9 +21,11 @@ namespace morsel::tools {
 /// A row of the table. The functions that return the row itself refine it.
 struct Option {
   std::string names;              ///< "MESH" of an argument, "-o,--output" of an option
-  std::string help;               ///< line breaks are made by whoever shows it
+  std::string help;               ///< a line: what --help shows
   std::string value_name = {};    ///< what stands for a value in texts; a flag has none
   std::string default_text = {};  ///< empty: none is shown
+  std::string details = {};       ///< what man pages say besides; line breaks are made by whoever shows it
+  std::string group = {};         ///< the heading that help shows it under, with its neighbours
   std::string negation = {};      ///< the name of the flag that says no
   std::string environment = {};   ///< a variable that gives the value if the option is not given
   std::vector<std::string> choices = {};
@@ -35,6 +37,7 @@ struct Option {
   bool is_required = false;
   bool is_repeated = false;  ///< may be given several times
   bool is_path = false;
+  bool shapes_result = true;  ///< otherwise the contents of files are the same with any value
   /// Takes the words that were given for it; for a flag "yes" or "no". Throws InvalidArgument.
   std::function<void(const Option& option, const std::vector<std::string>& words)> take = {};
 
@@ -42,10 +45,14 @@ struct Option {
   bool is_argument() const { return !names.starts_with('-'); }
   /// Each of the names, the short one first, the negation last.
   std::vector<std::string> all_names() const;
+  bool is_called(std::string_view any_name) const;
 
   Option& value(std::string name);
   Option& required();
   Option& shows_default(std::string text);
+  Option& in_detail(std::string text);
+  /// Where outputs go, threads, messages: a provenance tells nothing of it.
+  Option& shapes_nothing();
   Option& between(double low, double high);
   Option& above(double low);
   Option& among(std::vector<std::string> words);
@@ -70,8 +77,12 @@ class Command {
   std::string name;
   std::string summary;  ///< a line
   std::vector<Example> examples;
-  std::string notes;  ///< what is to be known besides the options: paragraphs, separated by an empty line
-  Action action;      ///< returns the exit code
+  std::string notes;    ///< what is to be known besides the options: paragraphs, separated by an empty line
+  std::string details;  ///< likewise, what man pages say besides
+  Action action;        ///< returns the exit code
+
+  /// The heading of the options that are added from here on.
+  void begin_group(std::string heading) { group_ = std::move(heading); }
 
   Option& flag(std::string names, bool& target, std::string help);
   /// With a flag of the opposite meaning: "--points" and "--no-points".
@@ -106,7 +117,12 @@ class Command {
   Option& add_path(std::string names, std::string help, std::function<void(const std::string&)> take);
 
   std::deque<Option> options_;  // whose rows stay where they are
+  std::string group_;
 };
+
+/// The command line as a Provenance has it: `words` follow the command's name; those that shape nothing are
+/// left out.
+std::string shaping_command(const Command& command, const std::vector<std::string>& words);
 
 /// The number that a word is; throws InvalidArgument, with the range that the option has.
 std::uint64_t whole_number(const Option& option, const std::string& word, std::uint64_t most);

@@ -3,13 +3,12 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
 #include "morsel/tools/render/request_text.h"
@@ -46,14 +45,28 @@ struct Program {
   }
 };
 
-/// All commands, in the order in which help lists them. A new one is a file and a line there.
+/// What an action is given besides its own options.
+struct Run {
+  const CommonOptions& common;
+  Console& console;
+};
+
+/// All commands, in the order in which help lists them: made from the list in tools/CMakeLists.txt.
 void add_commands(Program& program);
 
+/// Sets the action: int action(Options&, const Run&).
+template <class Options, class Action>
+void set_action(Program& program, Command& command, std::shared_ptr<Options> options, Action action) {
+  command.action = [&program, options = std::move(options), action](Console& console) {
+    return action(*options, Run{program.common, console});
+  };
+}
+
+/// --threads, --repair and --quiet, after the command's own.
 void add_common_options(Command& command, CommonOptions& common, bool with_repair = true);
 
 /// --target K
-void add_target_option(Command& command, std::optional<std::size_t>& target);
-
+Option& add_target_option(Command& command, std::optional<std::size_t>& target);
 /// MESH, --field, --method and --target of the commands that work on one field.
 void add_field_options(Command& command, std::string& mesh, FieldRequest& request);
 /// --view, --up and --inset of the commands that take pictures.
@@ -64,27 +77,14 @@ void add_methods_option(Command& command, std::vector<std::string>& methods);
 void add_comparison_options(Command& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures.
 void add_figure_options(Command& command, render::FigureText& figure);
-/// Says why a wanted number of critical points was not reached.
-void tell_target(const MadeField& made, Console& console);
-
-void add_batch(Program& program);
-void add_catalogue(Program& program);
-void add_compare(Program& program);
-void add_field(Program& program);
-void add_hierarchy(Program& program);
-void add_info(Program& program);
-void add_check(Program& program);
-void add_molecule(Program& program);
-void add_segment(Program& program);
-void add_cut(Program& program);
-void add_quads(Program& program);
-void add_render(Program& program);
-void add_reproduce(Program& program);
-void add_stability(Program& program);
-void add_sweep(Program& program);
+/// An output, which must be given: -o, --output
+Option& add_output_option(Command& command, std::string& output, std::string help);
+/// A document that may be wanted besides: --json
+Option& add_json_option(Command& command, std::string& json, std::string help);
 
 /// Texts that more than one command shows.
-extern const char* const kSpecificationNotes;
 std::string mesh_help();
+/// How Morse functions and methods are written.
+void add_specification_notes(Command& command);
 
 }  // namespace morsel::tools

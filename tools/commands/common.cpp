@@ -8,42 +8,27 @@
 
 namespace morsel::tools {
 
-void add_commands(Program& program) {
-  add_compare(program);
-  add_field(program);
-  add_render(program);
-  add_hierarchy(program);
-  add_segment(program);
-  add_cut(program);
-  add_quads(program);
-  add_stability(program);
-  add_sweep(program);
-  add_batch(program);
-  add_check(program);
-  add_reproduce(program);
-  add_molecule(program);
-  add_info(program);
-  add_catalogue(program);
-}
-
 void add_common_options(Command& command, CommonOptions& common, bool with_repair) {
+  command.begin_group("General");
   command.number("--threads", common.threads, "Number of threads; never changes a result")
       .between(1, 4096)
-      .shows_default("all");
+      .shows_default("all")
+      .shapes_nothing();
   if (with_repair)
-    command.flag("--repair", common.repair,
-                 "Mend what breaks the mesh's rules (unreferenced vertices, degenerate and duplicate faces, "
-                 "non-manifold edges and vertices, orientation) instead of refusing it");
-  command.flag("--quiet", common.quiet, "No progress, no messages");
+    command.flag("--repair", common.repair, "Mend what breaks the mesh's rules, instead of refusing the mesh")
+        .in_detail(
+            "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
+            "vertices, orientation");
+  command.flag("--quiet", common.quiet, "No progress, no messages").shapes_nothing();
 }
 
-void add_target_option(Command& command, std::optional<std::size_t>& target) {
-  command
-      .number("--target", target,
-              "End with so many critical points, or with the nearest smaller number that can be had: as much "
-              "of the (last) method as leaves enough of them, persistence cancellation for the rest")
+Option& add_target_option(Command& command, std::optional<std::size_t>& target) {
+  return command.number("--target", target, "End with K critical points, or the nearest smaller number")
       .between(1, std::numeric_limits<double>::infinity())
-      .value("K");
+      .value("K")
+      .in_detail(
+          "As much of the (last) method as leaves enough of them, persistence cancellation for the rest; the "
+          "number is smaller where K cannot be had");
 }
 
 void add_field_options(Command& command, std::string& mesh, FieldRequest& request) {
@@ -54,36 +39,36 @@ void add_field_options(Command& command, std::string& mesh, FieldRequest& reques
 }
 
 void add_camera_options(Command& command, render::CameraText& camera) {
+  command.text("--view", camera.view, "best, front, back, left, right, top, bottom or azimuth/elevation")
+      .value("VIEW")
+      .in_detail(
+          "Where pictures are taken from: best shows most of the mesh saliency; azimuth and elevation are in "
+          "degrees: 0/0 is the front, 90/0 the right");
   command
-      .text("--view", camera.view,
-            "Where pictures are taken from: best (shows most of the mesh saliency), front, back, left, "
-            "right, top, bottom, or azimuth/elevation in degrees: 0/0 is the front, 90/0 the right")
-      .value("VIEW");
-  command
-      .choice(
-          "--up", camera.up,
-          std::vector<std::pair<std::string, render::UpAxis>>{
-              {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}},
-          "The axis that points up in pictures, x, y or z; the front is seen from +z (y up), -y (z up) or "
-          "+y (x up)")
-      .value("AXIS");
-  command
-      .text("--inset", camera.inset,
-            "Magnify, in a corner of pictures, what lies within a radius (default 15eps) of a vertex")
-      .value("VERTEX[:RADIUS]");
+      .choice("--up", camera.up,
+              std::vector<std::pair<std::string, render::UpAxis>>{
+                  {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}},
+              "The axis that points up in pictures: x, y or z")
+      .value("AXIS")
+      .in_detail("The front is seen from +z (y up), -y (z up) or +y (x up)");
+  command.text("--inset", camera.inset, "Magnify a vertex and what is around it, in a corner of pictures")
+      .value("VERTEX[:RADIUS]")
+      .in_detail("The radius is 15eps if it is not given");
 }
 
 void add_methods_option(Command& command, std::vector<std::string>& methods) {
-  command.texts("--method", methods, "A method or chain of methods; may be given several times").value("M");
+  command.texts("--method", methods, "A method or chain; repeatable")
+      .value("M")
+      .in_detail("May be given several times; what is given replaces the default");
 }
 
 void add_comparison_options(Command& command, ComparisonRequest& request) {
   command.text("--field", request.field, "Morse function").value("F");
   add_methods_option(command, request.methods);
   add_target_option(command, request.target);
-  command.flag("--snap", request.snap,
-               "Report each critical point at the position of the one of the input field that it came "
-               "from (its origin)");
+  command.flag("--snap", request.snap, "Report each critical point at its origin")
+      .in_detail(
+          "Its position is that of the critical point of the input field that it came from, its origin");
 }
 
 void add_figure_options(Command& command, render::FigureText& figure) {
@@ -91,17 +76,22 @@ void add_figure_options(Command& command, render::FigureText& figure) {
   add_camera_options(command, figure.camera);
 }
 
-void tell_target(const MadeField& made, Console& console) {
-  if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
+Option& add_output_option(Command& command, std::string& output, std::string help) {
+  return command.path("-o,--output", output, std::move(help)).value("OUT").required().shapes_nothing();
+}
+
+Option& add_json_option(Command& command, std::string& json, std::string help) {
+  return command.path("--json", json, std::move(help) + "; - is standard output").shapes_nothing();
 }
 
 std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
 
-const char* const kSpecificationNotes =
-    "F and M are written name or name:key=value,key=value; methods chain as M+M; a backslash keeps , : + = / "
-    "literal. Lengths are in the mesh's unit, in eps (0.3 % of the bounding box's diagonal) or in mean "
-    "edges: "
-    "8eps, 3edges. `morsel fields` and `morsel methods` list all names, `morsel methods salient` the keys of "
-    "one.";
+void add_specification_notes(Command& command) {
+  command.notes +=
+      "F and M are written name or name:key=value,key=value; methods chain as M+M. Lengths are in the mesh's "
+      "unit, in eps (0.3 % of the bounding box's diagonal) or in mean edges: 8eps, 3edges. `morsel fields` "
+      "and `morsel methods` list all names, `morsel methods salient` the keys of one.";
+  command.details += "A backslash keeps , : + = / in names and values literal.";
+}
 
 }  // namespace morsel::tools

@@ -1,9 +1,7 @@
 // morsel compare: the main job.
 
-#include <algorithm>
 #include <cstddef>
 #include <deque>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -13,9 +11,8 @@
 
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/parallel/parallel.h"
-#include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
-#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/commands/steps.h"
 #include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/export/export_sink.h"
 #include "morsel/tools/formats/command_line.h"
@@ -24,9 +21,7 @@
 #include "morsel/tools/render/figure_sink.h"
 #include "morsel/tools/render/thumbnail_sink.h"
 #include "morsel/tools/report/comparison_table.h"
-#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/report_writer.h"
-#include "morsel/tools/results/result_folder.h"
 #include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
@@ -121,27 +116,26 @@ class Folders {
 class Outputs {
  public:
   /// Unwritable targets are told here, before the work.
-  Outputs(const Options& options, const CommonOptions& common, const std::stop_token& stop)
+  Outputs(const Options& options, const Run& run)
       : options_(options),
-        common_(common),
+        common_(run.common),
         figure_size_(render::parse_size(options.figure.size)),
-        folders_(options, checked_files(options), stop),
+        folders_(options, checked_files(options), run.console.stop_token()),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
   }
 
   /// `sinks` are told, too. Refers to `input`.
-  void run(const ComparisonPlan& comparison, const HashedMesh& input, double load_seconds,
-           std::vector<ComparisonSink*> sinks, const core::Progress& progress) {
+  void run(const ComparisonPlan& comparison, const MeshInput& input, std::vector<ComparisonSink*> sinks,
+           const core::Progress& progress) {
     const core::LoadedMesh& loaded = input.loaded;
-    const ReportInput about{options_.mesh, input.sha256, common_.repair, !options_.no_items, load_seconds};
-    const Provenance provenance(common_.command, request_section(about, options_.request),
-                                {{options_.mesh, input.sha256}});
+    const Provenance provenance(common_.command, request_section(input.about, options_.request),
+                                {input.file()});
     if (report_target_.is_wanted())
-      files_.add(report_.emplace(report_target_.json(), loaded, about, options_.request));
+      files_.add(report_.emplace(report_target_.json(), loaded, input.about, options_.request));
     if (page_file_)
-      files_.add(page_.emplace(*page_file_, loaded, about, options_.request, page_command(options_, common_),
-                               provenance));
+      files_.add(page_.emplace(*page_file_, loaded, input.about, options_.request,
+                               page_command(options_, common_), provenance));
     if (!options_.export_folder.empty())
       files_.add(exports_.emplace(folders_.at(options_.export_folder), loaded, provenance));
     if (!options_.figure_folder.empty())
@@ -162,11 +156,9 @@ class Outputs {
     if (page_file_) page_file_->commit();
   }
 
-  /// Whether the report is what standard output is for.
-  bool is_on_stdout() const { return report_target_.is_stdout(); }
-
-  void tell(Console& console) const {
-    if (report_target_.is_file()) console.message("report: " + options_.report);
+  void tell(const std::string& table, Console& console) const {
+    report_target_.show(table);
+    report_target_.tell("report", console);
     if (page_file_) console.message("page: " + options_.page);
     if (exports_) console.message("files for ParaView: " + options_.export_folder);
     if (figures_) console.message("pictures and plots: " + options_.figure_folder);
@@ -201,23 +193,53 @@ class Outputs {
   SideBySide files_;
 };
 
-int compare(const Options& options, const CommonOptions& common, Console& console) {
-  // Wrong names and unwritable targets are told before the work, not after it.
+int compare(const Options& options, const Run& run) {
   if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   if (!options.thumbnails.empty()) drawing::require_pictures("--thumbnails");
   const ComparisonPlan comparison = prepare(options.request);
   options.figure.check();
-  Outputs outputs(options, common, console.stop_token());
-
-  const Stopwatch load_watch;
-  const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
-  Announcer announcer(console, comparison.chains.size());
+  Outputs outputs(options, run);
+  const MeshInput input = read_input(options.mesh, run, !options.no_items);
+  Announcer announcer(run.console, comparison.chains.size());
   ComparisonTable table;
-  outputs.run(comparison, input, load_watch.seconds(), {&announcer, &table}, console.progress());
-
-  if (!outputs.is_on_stdout()) std::cout << table.text();
-  outputs.tell(console);
+  outputs.run(comparison, input, {&announcer, &table}, run.console.progress());
+  outputs.tell(table.text(), run.console);
   return kDone;
+}
+
+void add_outputs(Command& command, Options& options) {
+  command.begin_group("What is written");
+  command.path("-o,--output", options.report, "Write the JSON report here; - is standard output")
+      .value("REPORT.json")
+      .shapes_nothing();
+  command.flag("--no-items", options.no_items, "Leave what is listed point by point out of it; counts stay")
+      .in_detail("That is: the critical points and the diagram's pairs");
+  command
+      .path("--export", options.export_folder,
+            "Write surfaces, complexes (.vtp, for ParaView) and points (.csv) here")
+      .value("DIR")
+      .shapes_nothing()
+      .in_detail("One of each method");
+  command.path("--figures", options.figure_folder, "Write pictures, persistence diagrams and curves here")
+      .value("DIR")
+      .shapes_nothing()
+      .in_detail(
+          "A picture of each method, a sheet with them side by side (.png), persistence diagrams, and curves "
+          "of count against persistence and against iteration (.svg and .png)");
+  command
+      .path("--thumbnails", options.thumbnails, "Write small pictures: PREFIX.first.png and PREFIX.last.png")
+      .value("PREFIX")
+      .shapes_nothing()
+      .in_detail("Of the first and of the last method");
+  command.path("--html", options.page, "Write a page here that shows all this in a browser")
+      .value("REPORT.html")
+      .shapes_nothing()
+      .in_detail("Models to turn, diagrams, curves, numbers; one file, for which no network is needed");
+  command
+      .path("--html-place", options.page_place,
+            "Where the page will be moved to, for the command that it shows")
+      .value("PATH")
+      .shapes_nothing();
 }
 
 }  // namespace
@@ -228,35 +250,9 @@ void add_compare(Program& program) {
       "compare", "Run methods on a field and compare their critical points, diagrams and complexes");
   command.path("MESH", options->mesh, mesh_help()).required();
   add_comparison_options(command, options->request);
-  command.path("-o,--output", options->report, "Write the JSON report here; - is standard output")
-      .value("REPORT.json");
-  command.flag("--no-items", options->no_items,
-               "Leave what is listed point by point out of the report: the critical points and the "
-               "diagram's pairs; their counts stay");
-  command
-      .path("--export", options->export_folder,
-            "Write each method's surface, complex (.vtp, for ParaView) and critical points (.csv) here")
-      .value("DIR");
-  command
-      .path("--figures", options->figure_folder,
-            "Write pictures here: one of each method, a sheet with them side by side (.png), persistence "
-            "diagrams, and curves of count against persistence and against iteration (.svg and .png)")
-      .value("DIR");
+  add_outputs(command, *options);
+  command.begin_group("Pictures");
   add_figure_options(command, options->figure);
-  command
-      .path("--thumbnails", options->thumbnails,
-            "Write a small picture of the first and one of the last method: PREFIX.first.png and "
-            "PREFIX.last.png")
-      .value("PREFIX");
-  command
-      .path("--html", options->page,
-            "Write a page here that shows all this in a browser: models to turn, diagrams, curves, numbers; "
-            "one file, for which no network is needed")
-      .value("REPORT.html");
-  command
-      .path("--html-place", options->page_place,
-            "Where the page will be moved to, for the command line that it shows")
-      .value("PATH");
   add_common_options(command, program.common);
   command.examples = {
       {"compare scan.off", "a table: conventional, salient and tps on the mean curvature"},
@@ -264,10 +260,8 @@ void add_compare(Program& program) {
        "two methods, with pictures and plots"},
       {"compare scan.off --field height:axis=z --target 40 -o report.json --html report.html",
        "40 points of each method on the height, as numbers and as a page"}};
-  command.notes = kSpecificationNotes;
-  command.action = [options, &program](Console& console) {
-    return compare(*options, program.common, console);
-  };
+  add_specification_notes(command);
+  set_action(program, command, options, compare);
 }
 
 }  // namespace morsel::tools

@@ -4,17 +4,27 @@
 
 namespace morsel::tools {
 
-DocumentTarget::DocumentTarget(const std::string& path) : to_stdout_(path == "-") {
-  if (!path.empty() && !to_stdout_) file_.emplace(path);
+DocumentTarget::DocumentTarget(const std::string& path) : path_(path) {
+  if (!path.empty() && !is_stdout()) file_.emplace(path);
 }
 
+std::ostream& DocumentTarget::stream() { return file_ ? file_->stream() : std::cout; }
+
 JsonStream& DocumentTarget::json() {
-  if (!json_) json_.emplace(to_stdout_ ? std::cout : file_->stream());
+  if (!json_) json_.emplace(stream());
   return *json_;
 }
 
 void DocumentTarget::commit() {
   if (file_) file_->commit();
+}
+
+void DocumentTarget::show(const std::string& text) const {
+  if (!is_stdout()) std::cout << text;
+}
+
+void DocumentTarget::tell(const std::string& what, Console& console) const {
+  if (is_file()) console.message(what + ": " + path_);
 }
 
 }  // namespace morsel::tools

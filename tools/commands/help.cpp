@@ -8,8 +8,8 @@
 namespace morsel::tools {
 namespace {
 
-constexpr std::size_t kWidth = 96;
-constexpr std::size_t kColumn = 25;  // where texts begin
+constexpr std::size_t kWidth = 100;
+constexpr std::size_t kColumn = 28;  // where texts begin
 
 /// A heading with its text beside it, or below it if there is no room.
 std::string row(const std::string& heading, const std::string& text) {
@@ -53,8 +53,9 @@ std::string option_heading(const Option& option) {
   return heading + (option.is_argument() && option.is_repeated ? " ..." : "");
 }
 
-std::string option_text(const Option& option) {
+std::string option_text(const Option& option, bool with_details) {
   std::string text = option.help;
+  if (with_details && !option.details.empty()) text += ". " + option.details;
   if (!option.default_text.empty()) text += " [" + option.default_text + "]";
   return text;
 }
@@ -77,9 +78,14 @@ std::string usage(const Command& command) {
 std::string command_help(const Command& command) {
   std::string text = "Usage: morsel " + command.name + " " + usage(command) + "\n" +
                      wrapped(command.summary + ".", 0, kWidth) + "\n\n";
-  for (const bool arguments : {true, false})
-    for (const Option& option : command.options())
-      if (option.is_argument() == arguments) text += row(option_heading(option), option_text(option));
+  for (const Option& option : command.options())
+    if (option.is_argument()) text += row(option_heading(option), option_text(option));
+  std::string group;
+  for (const Option& option : command.options()) {
+    if (option.is_argument()) continue;
+    if (option.group != group) text += "\n" + (group = option.group) + ":\n";
+    text += row(option_heading(option), option_text(option));
+  }
   if (!command.examples.empty()) text += "\nExamples:\n";
   for (const Example& example : command.examples)
     text += "  morsel " + example.words + "\n      " + wrapped(example.does, 6, kWidth) + "\n";

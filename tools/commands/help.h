@@ -20,8 +20,8 @@ extern const char* const kExitCodes;
 std::string usage(const Command& command);
 /// "-o, --output FILE", as help shows it; of a flag with a negation "--points, --no-points".
 std::string option_heading(const Option& option);
-/// Help, choices and default in one text.
-std::string option_text(const Option& option);
+/// Help and default in one text, with the details between them where they are wanted.
+std::string option_text(const Option& option, bool with_details = false);
 /// `text` in lines of at most `width` bytes where words allow, each after `indent` spaces but for the first.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 

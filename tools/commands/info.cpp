@@ -149,11 +149,11 @@ Json provenance_of(const std::string& path, bool is_mesh, Console& console) {
   }
 }
 
-int inform(const Options& options, const CommonOptions& common, Console& console) {
+int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
   if (core::has_mesh_extension(options.file))
-    findings = inspect(options.file, common.repair, console.progress());
-  const Json provenance = provenance_of(options.file, findings.has_value(), console);
+    findings = inspect(options.file, run.common.repair, run.console.progress());
+  const Json provenance = provenance_of(options.file, findings.has_value(), run.console);
   if (!findings && provenance.is_null())
     throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
                          ") and does not tell where it comes from");
@@ -164,7 +164,7 @@ int inform(const Options& options, const CommonOptions& common, Console& console
     return kDone;
   }
   std::cout << core::printable(options.file) << '\n';
-  if (findings) print_text(*findings, common.repair);
+  if (findings) print_text(*findings, run.common.repair);
   if (!provenance.is_null()) print_provenance(provenance);
   return kDone;
 }
@@ -177,18 +177,14 @@ void add_info(Program& program) {
       "info",
       "What a mesh is: counts, topology, components, defects; and where a file that morsel wrote comes from");
   command
-      .path("FILE", options->file,
-            "A triangle mesh (" + core::mesh_extensions() +
-                "), or any file that morsel wrote but JSON, which "
-                "tells by itself: .png, .svg, .vtp, .html, .csv, .txt")
-      .required();
+      .path("FILE", options->file, "A triangle mesh (" + core::mesh_extensions() + "), or what morsel wrote")
+      .required()
+      .in_detail("Of these any but JSON, which tells by itself: .png, .svg, .vtp, .html, .csv, .txt");
   command.flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, program.common);
   command.examples = {{"info scan.off", "counts, genus, boundary loops, and what would have to be repaired"},
                       {"info figure.png", "the command, the mesh and the version that made a picture"}};
-  command.action = [options, &program](Console& console) {
-    return inform(*options, program.common, console);
-  };
+  set_action(program, command, options, inform);
 }
 
 }  // namespace morsel::tools

@@ -11,15 +11,12 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
-#include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/core/io/molecule.h"
-#include "morsel/tools/commands/commands.h"
-#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/commands/steps.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/molecule/surface.h"
 #include "morsel/tools/report/outcome_sections.h"
-#include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
 namespace {
@@ -85,7 +82,7 @@ Json request_section(const Options& options, const core::MoleculeOptions& atoms)
   return section;
 }
 
-int make(Options& options, const CommonOptions& common, Console& console) {
+int make(Options& options, const Run& run) {
   core::require_molecules("morsel molecule");
   const bool ply = is_ply(options.output);
   const core::MoleculeOptions wanted = molecule_options(options);
@@ -94,19 +91,19 @@ int make(Options& options, const CommonOptions& common, Console& console) {
   options.surface.cavities = options.cavities == "keep";
   check_surface_options(options.surface);
   RunFiles().reads("FILE", options.structure).writes("-o", options.output).check();
-  { const core::FileWriter target(options.output); }  // one that cannot be written is told before the work
-  const core::Progress progress = console.progress();
+  check_writable(options.output);
+  const core::Progress progress = run.console.progress();
   const core::Molecule molecule = core::read_molecule(options.structure, wanted, progress);
   const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
-  const Provenance provenance(common.command, request_section(options, wanted),
+  const Provenance provenance(run.common.command, request_section(options, wanted),
                               {{options.structure, sha256_of_file(options.structure)}});
   if (ply)
     core::write_ply(options.output, surface.mesh, {}, provenance.lines(), progress);
   else
     core::write_off(options.output, surface.mesh, provenance.lines(), progress);
-  console.message(described(molecule));
-  console.message(described(surface, options));
-  console.message("written: " + options.output);
+  run.console.message(described(molecule));
+  run.console.message(described(surface, options));
+  run.console.message("written: " + options.output);
   return kDone;
 }
 
@@ -116,13 +113,13 @@ void add_molecule(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add("molecule", "Make the surface of a molecule, a closed manifold");
   command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif").required();
-  command.path("-o,--output", options->output, "The surface, in Å: .off or .ply").value("SURFACE").required();
-  command
-      .text("--kind", options->kind,
-            "gaussian (a level of a sum of Gaussians, smooth), ses (solvent-excluded), "
-            "sas (solvent-accessible) or vdw (the atoms' balls)")
+  add_output_option(command, options->output, "The surface, in Å: .off or .ply").value("SURFACE");
+  command.text("--kind", options->kind, "gaussian, ses, sas or vdw")
       .among({kKinds.begin(), kKinds.end()})
-      .value("KIND");
+      .value("KIND")
+      .in_detail(
+          "gaussian: a level of a sum of Gaussians, smooth; ses: solvent-excluded; sas: solvent-accessible; "
+          "vdw: the atoms' balls");
   command
       .number("--resolution", options->surface.resolution,
               "Spacing of the grid, about an edge's length, in Å")
@@ -132,8 +129,7 @@ void add_molecule(Program& program) {
       .number("--blobbiness", options->surface.blobbiness,
               "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
       .value("B");
-  command
-      .text("--cavities", options->cavities, "keep or drop the walls of closed cavities inside the molecule")
+  command.text("--cavities", options->cavities, "keep or drop the walls of closed cavities inside")
       .among({"keep", "drop"})
       .value("C");
 
@@ -162,7 +158,7 @@ void add_molecule(Program& program) {
       "An atom's radius is its element's van der Waals radius (Bondi 1964 and others, as gemmi has them). "
       "By default the first model's chains are taken, modified residues included, without ligands, ions and "
       "waters, and of alternate locations the one with the highest occupancy.";
-  command.action = [options, &program](Console& console) { return make(*options, program.common, console); };
+  set_action(program, command, options, make);
 }
 
 }  // namespace morsel::tools

@@ -75,10 +75,8 @@ std::vector<std::string> option_names(const Command& command) {
 
 void check(const Command& command, const std::vector<Parsed>& rows) {
   const auto is_given = [&](const std::string& name) {
-    return std::ranges::any_of(rows, [&](const Parsed& row) {
-      const std::vector<std::string> names = row.option->all_names();
-      return row.count() > 0 && std::ranges::find(names, name) != names.end();
-    });
+    return std::ranges::any_of(
+        rows, [&](const Parsed& row) { return row.count() > 0 && row.option->is_called(name); });
   };
   for (const Parsed& row : rows) {
     const Option& option = *row.option;

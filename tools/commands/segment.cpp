@@ -1,17 +1,14 @@
 // morsel segment: the segments of one field.
 
-#include <iostream>
+#include <array>
+#include <limits>
 #include <memory>
 #include <optional>
-#include <utility>
 
-#include "morsel/core/io/mesh_io.h"
-#include "morsel/tools/commands/commands.h"
 #include "morsel/tools/commands/document_target.h"
-#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/commands/steps.h"
 #include "morsel/tools/export/label_file.h"
 #include "morsel/tools/formats/text_table.h"
-#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/segments_writer.h"
 #include "morsel/tools/study/made_segments.h"
 
@@ -49,45 +46,31 @@ std::string described(const MadeSegments& made) {
          core::to_digits(areas.median) + ", largest " + core::to_digits(areas.largest);
 }
 
-int segment(const Options& options, const CommonOptions& common, Console& console) {
-  // Wrong names and unwritable targets are told before the work, not after it.
-  const FieldPlan recipe = prepare(options.request);
-  const SegmentRequest request = segment_request(options);
-  RunFiles files;
-  files.reads("MESH", options.mesh).reads_of_field(options.request.field);
+int segment(const Options& options, const Run& run) {
+  FieldRun base(options.mesh, options.request, run);
+  const SegmentsRequest request{options.request, segment_request(options), run.common.repair};
+  RunFiles files = base.files();
   for (const std::filesystem::path& file : label_files(options.output)) files.writes("-o", file);
   files.writes_document("--json", options.json).check();
   check_label_path(options.output);
   DocumentTarget document(options.json);
 
-  const core::Progress progress = console.progress();
-  Timings timings;
-  const Stopwatch load_watch;
-  const HashedWholeMesh mesh = read_hashed_whole_mesh(options.mesh, {.repair = common.repair}, progress);
-  const core::LoadedMesh& loaded = mesh.input.loaded;
-  timings.emplace_back("load", load_watch.seconds());
+  base.read_whole();
+  base.make();
+  const Stopwatch watch;
+  const MadeSegments made = make_segments(base.field(), request.segments, run.console.progress());
+  const Timings timings = base.timings({{"segments", watch.seconds()}});
 
-  const MadeField field = make_field(recipe, loaded, progress);
-  timings.emplace_back("field", field.input.seconds);
-  timings.emplace_back("method", field.method_seconds);
-  tell_target(field, console);
-  const Stopwatch segment_watch;
-  const MadeSegments made = make_segments(field.field(), request, progress);
-  timings.emplace_back("segments", segment_watch.seconds());
-
-  const SegmentsRequest asked{options.request, request, common.repair};
-  const HashedFile file{options.mesh, mesh.sha256};
-  const FieldSource source{file, loaded, recipe, field};
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
-  const std::vector<std::filesystem::path> written =
-      write_labels(options.output, labels, field.field(), field.input.name, loaded.source.numbering,
-                   mesh.input.input_positions, {common.command, request_section(asked), source});
-  if (document.is_wanted()) write_segments(document.json(), asked, source, made, timings);
+  const std::vector<std::filesystem::path> written = write_labels(
+      options.output, labels, base.field(), base.made().input.name, base.loaded().source.numbering,
+      base.input_positions(), base.provenance(request_section(request)));
+  if (document.is_wanted()) write_segments(document.json(), request, base.source(), made, timings);
   document.commit();
-  console.message(described(made));
-  if (!made.note.empty()) console.message(made.note);
-  for (const std::filesystem::path& path : written) console.message("labels: " + path.string());
-  if (document.is_file()) console.message("table: " + options.json);
+  run.console.message(described(made));
+  if (!made.note.empty()) run.console.message(made.note);
+  for (const std::filesystem::path& path : written) run.console.message("labels: " + path.string());
+  document.tell("table", run.console);
   return kDone;
 }
 
@@ -98,40 +81,32 @@ void add_segment(Program& program) {
   Command& command = program.add(
       "segment", "Cut the surface into the segments of one field, small ones merged by persistence");
   add_field_options(command, options->mesh, options->request);
-  command
-      .text("--by", options->by,
-            "descending (a segment for each maximum: the bumps of a curvature), ascending (for each "
-            "minimum: with atomic-density, which is lowest where the surface bulges, too) or morse-smale "
-            "(for each cell between a minimum and a maximum)")
-      .value("KIND");
-  command
-      .number("--segments", options->segments,
-              "Merge segments, those of least persistence first, until at most N are left")
-      .between(1, std::numeric_limits<double>::infinity());
-  command
-      .text("--persistence", options->persistence,
-            "Or: merge all of at most this persistence, in the field's unit or, as in 0.1%, in percent of "
-            "its extent (default: merge nothing)")
-      .value("T");
-  command
-      .path("-o,--output", options->output,
-            "Labels of vertices and triangles, in the input's vertex numbers: .ply (int properties "
-            "\"segment\"), .vtp (arrays \"segment\", and the field) or .txt (a label a line: "
-            "OUT.vertices.txt, OUT.faces.txt)")
-      .value("OUT")
-      .required();
-  command.path("--json", options->json,
-               "Write a table of the segments here: area, critical points, neighbours, boundary length; - is "
-               "standard output");
+  command.text("--by", options->by, "descending, ascending or morse-smale")
+      .value("KIND")
+      .in_detail(
+          "descending: a segment for each maximum, the bumps of a curvature; ascending: for each minimum, "
+          "with atomic-density, which is lowest where the surface bulges, too; morse-smale: for each cell "
+          "between a minimum and a maximum");
+  command.number("--segments", options->segments, "Merge segments until at most N are left")
+      .between(1, std::numeric_limits<double>::infinity())
+      .in_detail("Those of least persistence first");
+  command.text("--persistence", options->persistence, "Or: merge all of at most this persistence")
+      .value("T")
+      .shows_default("none")
+      .in_detail("In the field's unit or, as in 0.1%, in percent of its extent");
+  add_output_option(command, options->output, "Labels of vertices and triangles: .ply, .vtp or .txt")
+      .in_detail(
+          "In the input's vertex numbers: .ply (int properties \"segment\"), .vtp (arrays \"segment\", and "
+          "the field) or .txt (a label a line: OUT.vertices.txt, OUT.faces.txt)");
+  add_json_option(command, options->json, "Write a table of the segments here")
+      .in_detail("It has area, critical points, neighbours and boundary length of each");
   add_common_options(command, program.common);
   command.examples = {
       {"segment scan.off --method salient --segments 40 -o parts.ply", "the 40 most persistent bumps"},
       {"segment protein.off --by ascending --persistence 1% -o parts.vtp --json parts.json",
        "all that stand out by more than 1 %, with a table"}};
-  command.notes = kSpecificationNotes;
-  command.action = [options, &program](Console& console) {
-    return segment(*options, program.common, console);
-  };
+  add_specification_notes(command);
+  set_action(program, command, options, segment);
 }
 
 }  // namespace morsel::tools

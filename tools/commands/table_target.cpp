@@ -1,7 +1,5 @@
 #include "morsel/tools/commands/table_target.h"
 
-#include <iostream>
-
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 
@@ -11,6 +9,15 @@ namespace {
 
 std::string journal_path(const std::string& path) { return path + ".journal"; }
 
+bool is_csv(const std::string& path) { return core::file_extension(path) == ".csv"; }
+
+/// The path, if it names no file or one of a kind that can be written.
+const std::string& checked(const std::string& path) {
+  if (!path.empty() && path != "-" && !is_csv(path) && core::file_extension(path) != ".json")
+    throw core::InvalidArgument("cannot write " + path + ": the output is a .json or a .csv file");
+  return path;
+}
+
 }  // namespace
 
 RunFiles& write_table(RunFiles& files, const std::string& path) {
@@ -18,31 +25,28 @@ RunFiles& write_table(RunFiles& files, const std::string& path) {
   return files.writes("-o", path).writes("the journal of -o", journal_path(path));
 }
 
-TableTarget::TableTarget(const std::string& path) : path_(path) {
-  if (path.empty() || is_stdout()) return;
-  const std::string extension = core::file_extension(path);
-  if (extension != ".json" && extension != ".csv")
-    throw core::InvalidArgument("cannot write " + path + ": the output is a .json or a .csv file");
-  is_csv_ = extension == ".csv";
-  file_.emplace(path);
-}
+TableTarget::TableTarget(const std::string& path) : DocumentTarget(checked(path)) {}
 
 Journal* TableTarget::open_journal(const Json& key) {
-  if (file_) journal_.emplace(journal_path(path_), key);
+  if (is_file()) journal_.emplace(journal_path(path()), key);
   return journal_ ? &*journal_ : nullptr;
+}
+
+void TableTarget::tell_journal(std::size_t count, const std::string& of_what, Console& console) const {
+  if (!journal_) return;
+  for (const std::string& warning : journal_->warnings()) console.warning(warning);
+  if (count > 0)
+    console.message("going on with " + std::to_string(count) + of_what + ": " + journal_path(path()));
 }
 
 void TableTarget::write(const std::function<void(JsonSink&)>& as_json,
                         const std::function<void(std::ostream&)>& as_csv) {
-  if (!file_ && !is_stdout()) return;
-  std::ostream& out = file_ ? file_->stream() : std::cout;
-  if (is_csv_) {
-    as_csv(out);
-  } else {
-    JsonStream json(out);
-    as_json(json);
-  }
-  if (file_) file_->commit();
+  if (!is_wanted()) return;
+  if (is_csv(path()))
+    as_csv(stream());
+  else
+    as_json(json());
+  commit();
   if (journal_) journal_->finish();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes as text.
+/// Encodes bytes as text.
 
 #include <string>
 #include <string_view>

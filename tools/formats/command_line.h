@@ -6,7 +6,7 @@
 
 namespace morsel::tools {
 
-/// The words separated by spaces, those quoted that a POSIX shell would not take as they are.
+/// The words separated by spaces, quoted where a POSIX shell would not take them literally.
 std::string command_line(const std::vector<std::string>& words);
 
 }  // namespace morsel::tools

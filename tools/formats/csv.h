@@ -2,9 +2,8 @@
 /// Tables of comma-separated values (RFC 4180).
 ///
 /// Spreadsheets run a field as a formula that begins with = + - @, a tab or a line's end, also in quotes; and
-/// names of files, and errors, may begin with anything. So a path that does is written as ./PATH, which is
-/// the same path, and any other text that does and is not a number with an apostrophe before it. Numbers stay
-/// numbers.
+/// names of files, and errors, may begin with anything. So such a path is written as ./PATH, which is the
+/// same path, and any other such text, unless it is a number, with an apostrophe before it.
 
 #include <cstdint>
 #include <optional>
@@ -29,7 +28,7 @@ class CsvLine {
   void add(double value);
   void add(const std::optional<double>& value) { value ? add(*value) : add_raw(""); }
   void add(std::uint64_t value) { add_raw(std::to_string(value)); }
-  /// Nothing for null, a text as it is, all else as JSON.
+  /// Nothing for null, a text as it is, anything else as JSON.
   void add_json(const Json& value);
   /// Without the line's end.
   const std::string& text() const { return line_; }

@@ -22,7 +22,7 @@ constexpr std::size_t kMostLine = std::size_t{16} << 20;  // bytes
 
 Json read_line_as_json(std::string_view line) { return read_json(line, "the line", {.bytes = kMostLine}); }
 
-/// Whether it is where a journal's first line was cut off while it was written.
+/// Whether the text is the start of a journal's first line that was cut off while it was written.
 bool is_cut_head(std::string_view text) {
   return text.starts_with(kBegin.substr(0, std::min(text.size(), kBegin.size())));
 }
@@ -76,7 +76,7 @@ std::vector<std::string> Journal::warnings() const {
   std::vector<std::string> texts;
   if (had_other_key_)
     texts.push_back(path_.string() +
-                    " is of a run with another mesh, other options or another version: it is begun anew");
+                    " is of a run with another mesh, other options or another version: a new one is started");
   if (dropped_ > 0)
     texts.push_back(path_.string() + ": " + counted(dropped_, "damaged entr") +
                     (dropped_ == 1 ? " counts as absent" : " count as absent") + " and will be made again (" +
@@ -96,12 +96,12 @@ void Journal::fail(int error) const {
   throw core::WriteFailed("cannot write " + path_.string() + ": " + std::generic_category().message(error));
 }
 
-/// A link is not followed: nobody has named this file.
+/// A link is not followed: the user has not named this file.
 void Journal::open_file() {
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   const int error = errno;
   const auto refuse = [&](const char* what) {
-    throw core::InvalidArgument(path_.string() + ", where the run keeps what it has done, is " + what +
+    throw core::InvalidArgument(path_.string() + ", the journal of the run, is " + what +
                                 ": move it away or choose another output");
   };
   struct stat about {};
@@ -121,7 +121,7 @@ void Journal::append(const Json& value) {
   }
 }
 
-/// Overwrites a line by white space, in which nothing is read.
+/// Overwrites a line with white space, which is skipped when the file is read.
 void Journal::blank(const Line& line) {
   const std::string spaces(std::min<std::size_t>(line.size, 1 << 16), ' ');
   for (std::size_t done = 0; done < line.size;) {
@@ -137,7 +137,7 @@ void Journal::drop(const Line& line, const std::string& why) {
   blank(line);
 }
 
-/// Leaves the file with what may stay in it, ready to be appended to.
+/// Reads the file and removes its invalid parts, so that it can be appended to.
 void Journal::read(const Json& head) {
   std::string text;  // from `begin` on
   off_t begin = 0;
@@ -160,12 +160,12 @@ void Journal::read(const Json& head) {
       why_dropped_ = "a line has more than " + std::to_string(kMostLine) + " bytes";
     break;
   }
-  if (!has_head_ && !had_other_key_ && !is_cut_head(text)) read_line(text, {}, head);  // which refuses it
+  if (!has_head_ && !had_other_key_ && !is_cut_head(text)) read_line(text, {}, head);  // which throws
   const off_t good = has_head_ ? begin : 0;
   if (ftruncate(file_, good) != 0 || lseek(file_, 0, SEEK_END) < 0) fail(errno);
 }
 
-/// Returns false if the file is another run's.
+/// Returns false if the file is that of another run.
 bool Journal::read_line(std::string_view text, const Line& line, const Json& key) {
   if (!has_head_) {
     try {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a long run has done so far, in a file: a run that was interrupted goes on from there.
+/// The journal of a long run, a file of its results so far, from which an interrupted run continues.
 
 #include <sys/types.h>
 
@@ -15,34 +15,33 @@
 
 namespace morsel::tools {
 
-/// A file of lines, each a JSON value: first {"schema": "morsel.journal/1", "key": …}, whose key says what
-/// entries follow from besides themselves, then entries. Each is handed to the system before add() returns,
-/// so that no end of the process takes it away. While it is open no other process can open it.
+/// A file of lines, each a JSON value: first {"schema": "morsel.journal/1", "key": …}, whose key has all
+/// that the entries depend on besides their own data, then entries. Each is handed to the system before add()
+/// returns, so that it is kept however the process ends. While it is open no other process can open it.
 ///
-/// The file is untrusted: a line that is not JSON, and an entry that whoever reads them refuses (drop()),
-/// count as absent. They are overwritten by white space, so that they are told once; a line that was cut off
-/// is removed.
+/// The file is untrusted: a line that is not JSON, and an entry that take_entries() rejects, count as absent.
+/// They are overwritten with white space, so that each is reported once; a line that was cut off is removed.
 class Journal {
  public:
-  /// Reads the entries, if the file is there with the same key; else begins an empty one. Throws
-  /// InvalidArgument if the file that is there is not a journal (nothing in it is changed), WriteFailed if it
+  /// Reads the entries, if the file is there with the same key; else starts an empty one. Throws
+  /// InvalidArgument if there is a file that is not a journal (nothing in it is changed), WriteFailed if it
   /// cannot be written or another process has it open.
   Journal(std::filesystem::path path, const Json& key);
-  /// Leaves the file, unless it has no entries.
+  /// Keeps the file, unless it has no entries.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Those that were there.
+  /// The entries that were in the file.
   const std::vector<Json>& entries() const { return entries_; }
-  /// Hands each entry to `take`, which throws BadInput on one of the wrong shape: that is dropped.
+  /// Hands each entry to `take`, which throws BadInput on one of the wrong shape; that one is dropped.
   void take_entries(const std::function<void(const JsonView& entry)>& take);
-  /// What a person should know of the file that was there, a sentence each.
+  /// Warnings about the file that was there, a sentence each.
   std::vector<std::string> warnings() const;
 
   /// May be called from several threads at once. Throws WriteFailed.
   void add(const Json& entry);
-  /// Removes the file: what it was for is done.
+  /// Removes the file: the run is complete.
   void finish();
 
  private:
@@ -64,13 +63,13 @@ class Journal {
   bool has_head_ = false;
   bool had_other_key_ = false;
   std::size_t dropped_ = 0;
-  std::string why_dropped_;  // the first
+  std::string why_dropped_;  // of the first one
   std::vector<Json> entries_;
   std::vector<Line> lines_;  // of the entries
   std::mutex mutex_;
 };
 
-/// What a journal's first line is. Throws BadInput if it is not that of a journal.
+/// The key in a journal's first line. Throws BadInput if it is not that of a journal.
 Json journal_key(std::string_view line);
 
 }  // namespace morsel::tools

@@ -13,7 +13,7 @@
 namespace morsel::tools {
 namespace {
 
-/// The document's bytes, a piece at a time: after each it is looked whether a limit is exceeded.
+/// The document's bytes, a piece at a time: after each the limits are checked.
 class Bytes {
  public:
   Bytes(std::istream& in, const std::string& name, const JsonLimits& limits)
@@ -72,7 +72,7 @@ class Bytes {
   std::size_t marked_ = 0;  // where the last token ended
 };
 
-/// An input iterator over them; the one without bytes is the end.
+/// An input iterator over these bytes; the one without bytes is the end.
 struct ByteIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -96,7 +96,7 @@ struct ByteIterator {
   bool is_at_end() const { return bytes == nullptr || bytes->is_at_end(); }
 };
 
-/// Builds the document from what nlohmann's parser, which does not recurse, hands over.
+/// Builds the document from the events of nlohmann's parser, which does not recurse.
 class Builder {
  public:
   Builder(Bytes& bytes, const JsonLimits& limits, JsonFollower& follower)
@@ -134,7 +134,7 @@ class Builder {
     if (bytes_.is_at_end())
       bytes_.refuse("it is cut off, or wrong at its end, after " + std::to_string(bytes_.position()) +
                     " bytes");
-    bytes_.refuse(at + " cannot stand there");
+    bytes_.refuse(at + " is unexpected");
   }
 
  private:
@@ -145,7 +145,7 @@ class Builder {
     bytes_.mark();
   }
 
-  /// The place of a value that comes.
+  /// The place of the next value.
   Json& place() {
     if (open_.empty()) return document_;
     if (!open_.back()->is_array()) return *slot_;

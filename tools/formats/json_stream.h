@@ -1,5 +1,5 @@
 #pragma once
-/// Writes a JSON document piece by piece, so that a million items never stand in memory together.
+/// Writes a JSON document piece by piece, so that a million items are never in memory at once.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,13 +18,13 @@ namespace morsel::tools {
 using Json = nlohmann::ordered_json;
 
 struct RowMember;
-/// An object of scalars, of which a document has many: written without a JSON value for each.
+/// An object of scalars, for documents with many: written without a JSON value for each.
 using Row = std::initializer_list<RowMember>;
 using TakeRow = std::function<void(Row)>;
 /// Hands the i-th of some rows to `take`.
 using MakeRow = std::function<void(std::size_t, const TakeRow&)>;
 
-/// An array of rows within a row; refers to what makes them.
+/// An array of rows within a row; refers to the function that makes them.
 struct NestedRows {
   NestedRows(std::size_t row_count, const MakeRow& make_row) : count(row_count), make(&make_row) {}
   std::size_t count;

@@ -14,8 +14,8 @@
 
 namespace morsel::tools {
 
-/// A value and where it stands in its document; refers to the value. What is asked of it and does not hold
-/// throws BadInput: one sentence, "report.json is a damaged report: methods[2].name is not a text".
+/// A value and its place in the document; refers to the value. All accessors throw BadInput if the value does
+/// not fit: one sentence, "report.json is a damaged report: methods[2].name is not a text".
 class JsonView {
  public:
   static constexpr std::uint64_t kMostCount = std::uint64_t{1} << 53;  // the same in every reader of JSON
@@ -23,9 +23,9 @@ class JsonView {
   /// A whole document. `subject` begins the sentence: "report.json is a damaged report".
   JsonView(const Json& document, std::string subject) : value_(&document), subject_(std::move(subject)) {}
 
-  /// The member of an object, which it must have.
+  /// The member of an object; throws if it is absent.
   JsonView operator[](std::string_view key) const;
-  /// The member of an object, if it has it.
+  /// The member of an object; empty if it is absent.
   std::optional<JsonView> find(std::string_view key) const;
   /// An object's keys and values, `most` at most.
   std::vector<std::pair<std::string, JsonView>> members() const;
@@ -34,7 +34,7 @@ class JsonView {
                              std::size_t most = std::numeric_limits<std::size_t>::max()) const;
 
   const std::string& text() const;
-  /// One of these texts.
+  /// A text, which must be one of these.
   const std::string& text_of(std::initializer_list<std::string_view> choices) const;
   /// A text that can be a path: not empty, without a NUL.
   const std::string& path() const;

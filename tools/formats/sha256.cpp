@@ -36,7 +36,7 @@ class Sha256 {
   }
 
  private:
-  /// Of libcrypto, whose SHA-256 lacks nothing but memory.
+  /// Checks a call of libcrypto, whose SHA-256 fails only if memory is short.
   static void require(bool done) {
     if (!done) throw std::bad_alloc();
   }

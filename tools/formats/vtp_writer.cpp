@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kInt32Bound = std::uint64_t{1} << 31;
 
-/// The number of points of cells that have them all in a row.
+/// The number of points of cells whose points are consecutive.
 std::size_t points_in(std::size_t cells, const std::function<std::int64_t(std::size_t)>& end) {
   return cells == 0 ? 0 : static_cast<std::size_t>(end(cells - 1));
 }

@@ -14,7 +14,7 @@
 
 namespace morsel::tools {
 
-/// A named array of a .vtp file; refers to the caller's data, which must live until it is written. Whole
+/// A named array of a .vtp file; refers to the caller's data, which must outlive it. Whole
 /// numbers take 32 bits where all of them fit.
 struct VtpArray {
   std::string name;
@@ -31,7 +31,7 @@ struct VtpArray {
   VtpArray(std::string array_name, std::span<const core::Index> values, std::uint64_t bound);
   /// Points from several places, in this order.
   VtpArray(std::string array_name, const std::vector<std::span<const core::Point>>& points);
-  /// Numbers that are made as they are written: value(i) for i < count, all of them below `bound`.
+  /// Numbers that are computed as they are written: value(i) for i < count, all of them below `bound`.
   VtpArray(std::string array_name, std::size_t count, std::uint64_t bound,
            std::function<std::int64_t(std::size_t)> value);
 };
@@ -44,7 +44,7 @@ struct VtpCells {
   VtpArray offsets;
 
   VtpCells() : VtpCells(0, 0, {}) {}
-  /// Cell i has the points first_point + end(i − 1) … first_point + end(i) − 1, all in a row; end(−1) is 0.
+  /// Cell i has the points first_point + end(i − 1) … first_point + end(i) − 1, consecutive; end(−1) is 0.
   VtpCells(std::size_t cells, std::size_t first_point, std::function<std::int64_t(std::size_t)> end);
   /// Triangles on `points` points; refers to them.
   VtpCells(std::span<const core::Triangle> triangles, std::size_t points);

@@ -1,8 +1,9 @@
 # Texts that the program holds: style sheets, scripts, pages.
 #
-# morsel_embed(OUTPUT FILE.cpp HEADER NAME.h NAMESPACE NAMESPACE LITERALS NAME=FILE[,FILE…]… [DEPENDS FILE…]): makes FILE.cpp, which defines each
-# NAME (that HEADER declares as a std::string_view) as the texts of its files one after the other. Where a text has EMBED(FILE FILE…), these files,
-# which are beside it, are put there; DEPENDS names them.
+# morsel_embed(OUTPUT FILE.cpp HEADER NAME.h NAMESPACE NAMESPACE LITERALS NAME=FILE[,FILE…]… [DEPENDS FILE…]):
+# makes FILE.cpp, which defines each NAME (that HEADER declares as a std::string_view) as the texts of its
+# files one after the other. Where a text has EMBED(FILE FILE…), these files, which are beside it, are put
+# there; DEPENDS names them.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(MORSEL_EMBED ${CMAKE_CURRENT_LIST_FILE})
   function(morsel_embed)
@@ -11,8 +12,9 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
     list(REMOVE_ITEM files "")
     add_custom_command(
       OUTPUT ${asked_OUTPUT}
-      COMMAND ${CMAKE_COMMAND} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DLITERALS=${asked_LITERALS}" -DHEADER=${asked_HEADER}
-              -DNAMESPACE=${asked_NAMESPACE} -DOUTPUT=${asked_OUTPUT} -P ${MORSEL_EMBED}
+      COMMAND ${CMAKE_COMMAND} -DFOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DLITERALS=${asked_LITERALS}"
+              -DHEADER=${asked_HEADER} -DNAMESPACE=${asked_NAMESPACE} -DOUTPUT=${asked_OUTPUT}
+              -P ${MORSEL_EMBED}
       DEPENDS ${MORSEL_EMBED} ${files} ${asked_DEPENDS}
       VERBATIM)
   endfunction()

@@ -1,5 +1,6 @@
-# MORSEL_PAGE_SOURCE: a source file with the sources of the page, three.js among them, as string literals. A release of which every line of the page was
-# tried out: later ones change the names of what it uses, and come as modules, which a page may not load from a file.
+# MORSEL_PAGE_SOURCE: a source file with the sources of the page, three.js among them, as string literals. A
+# release of which every line of the page was tried out: later ones change the names of what it uses, and come
+# as modules, which a page may not load from a file.
 find_file(MORSEL_THREE_JS three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH REQUIRED)
 file(STRINGS ${MORSEL_THREE_JS} three_revision REGEX "REVISION=\"111\"" LIMIT_COUNT 1)
 if(NOT three_revision)

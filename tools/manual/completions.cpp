@@ -31,6 +31,15 @@ std::vector<std::string> values_of(const Command& command, const Option& option)
   return {};
 }
 
+constexpr const char* kImplied = "compare";  // of which a file is, where a command is expected
+constexpr const char* kHelpText = "Tell about a command";
+
+std::vector<std::string> command_names(const std::deque<Command>& commands) {
+  std::vector<std::string> names = {"help"};
+  for (const Command& command : commands) names.push_back(command.name);
+  return names;
+}
+
 /// In single quotes, as the three shells read them.
 std::string quoted_word(std::string_view text) {
   std::string word = "'";
@@ -58,9 +67,8 @@ std::string zsh_action(const Command& command, const Option& option) {
 
 std::string bash_completion(const std::deque<Command>& commands) {
   std::string cases;
-  std::vector<std::string> names = {"help"};
+  const std::string names = joined(command_names(commands), " ");
   for (const Command& command : commands) {
-    names.push_back(command.name);
     std::vector<std::string> options = {"--help"};
     std::string values;
     for (const Option& option : command.options()) {
@@ -81,24 +89,31 @@ std::string bash_completion(const std::deque<Command>& commands) {
              "\n      case $previous in\n" + values + "      esac ;;\n";
   }
   return "# bash completion of morsel\n_morsel() {\n"
-         "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} options= words= files= "
-         "value=\n"
-         "  if ((COMP_CWORD == 1)); then\n    mapfile -t COMPREPLY < <(compgen -W " +
-         quoted_word(joined(names, " ")) +
-         " -- \"$word\"; compgen -f -- \"$word\")\n    return\n  fi\n  case ${COMP_WORDS[1]} in\n    help) "
-         "words=" +
-         quoted_word(joined(names, " ")) + "; value=1 ;;\n" + cases +
+         "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+         "  local names=" +
+         quoted_word(names) +
+         " command=${COMP_WORDS[1]} options= words= files= value=\n"
+         "  if ((COMP_CWORD == 1)); then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$names\" -- \"$word\"; compgen -f -- \"$word\")\n"
+         "    return\n  fi\n"
+         "  [[ \" $names \" == *\" $command \"* ]] || command=" +
+         kImplied +
+         "\n"
+         "  case $command in\n    help) words=$names; value=1 ;;\n" +
+         cases +
          "  esac\n"
-         "  if [[ -z $value && $word == -* ]]; then\n    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- "
-         "\"$word\")\n"
-         "  elif [[ -n $words ]]; then\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
-         "  elif [[ -z $value || -n $files ]]; then\n    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n "
-         " fi\n}\n"
+         "  if [[ -z $value && $word == -* ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
+         "  elif [[ -n $words ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
+         "  elif [[ -z $value || -n $files ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
+         "  fi\n}\n"
          "complete -o filenames -F _morsel morsel\n";
 }
 
 std::string zsh_completion(const std::deque<Command>& commands) {
-  std::string list;
+  std::string list = "    " + quoted_word("help:" + std::string(kHelpText)) + "\n";
   std::string cases;
   for (const Command& command : commands) {
     list += "    " + quoted_word(command.name + ":" + brief(command.summary)) + "\n";
@@ -121,20 +136,35 @@ std::string zsh_completion(const std::deque<Command>& commands) {
     cases += " ;;\n";
   }
   return "#compdef morsel\n# zsh completion of morsel\nlocal -a commands\ncommands=(\n" + list +
-         ")\nif ((CURRENT == 2)); then\n  _describe command commands\n  _files\nelse\n  shift words\n  "
-         "((CURRENT--))\n"
-         "  case $words[1] in\n    help) _describe command commands ;;\n" +
+         ")\nif ((CURRENT == 2)); then\n  _describe command commands\n  _files\nelse\n"
+         "  shift words\n  ((CURRENT--))\n"
+         "  local name=$words[1]\n"
+         "  ((${commands[(I)$name:*]})) || name=" +
+         kImplied +
+         "\n"
+         "  case $name in\n    help) _describe command commands ;;\n" +
          cases + "  esac\nfi\n";
 }
 
 std::string fish_completion(const std::deque<Command>& commands) {
-  std::string text = "# fish completion of morsel\n";
-  for (const Command& command : commands)
-    text += "complete -c morsel -n __fish_use_subcommand -a " + command.name + " -d " +
-            quoted_word(brief(command.summary)) + "\n";
+  // The command is the second word; completions are offered where it is the one that they are of.
+  std::string text =
+      "# fish completion of morsel\nfunction __morsel_is\n"
+      "  set -l words (commandline -opc)\n"
+      "  set -l name $words[2]\n"
+      "  if set -q words[2]; and not contains -- $name " +
+      joined(command_names(commands), " ") + "\n    set name " + kImplied +
+      "\n  end\n  test \"$name\" = \"$argv[1]\"\nend\n";
+  const auto offer_name = [&](const std::string& name, const std::string& summary) {
+    const std::string end = " -a " + name + " -d " + quoted_word(brief(summary)) + "\n";
+    text += "complete -c morsel -n '__morsel_is \"\"'" + end;
+    text += "complete -c morsel -n '__morsel_is help' -f" + end;
+  };
+  offer_name("help", kHelpText);
+  for (const Command& command : commands) offer_name(command.name, command.summary);
   for (const Command& command : commands) {
-    const std::string begin =
-        "complete -c morsel -n " + quoted_word("__fish_seen_subcommand_from " + command.name);
+    const std::string begin = "complete -c morsel -n " + quoted_word("__morsel_is " + command.name);
+    text += begin + " -l help -d 'Tell about this command'\n";
     for (const Option& option : command.options()) {
       const std::vector<std::string> listed = values_of(command, option);
       const std::string offered = listed.empty() ? "" : " -f -a " + quoted_word(joined(listed, " "));

@@ -37,7 +37,7 @@ std::string entry(const Option& option) {
   std::string names;
   for (const std::string& name : option.all_names()) names += (names.empty() ? "" : ", ") + bold(name);
   if (!option.is_flag() && !option.is_argument()) names += " \\fI" + plain(option.value_name) + "\\fR";
-  return ".TP\n" + names + "\n" + plain(option_text(option)) + "\n";
+  return ".TP\n" + names + "\n" + plain(option_text(option, true)) + "\n";
 }
 
 std::string paragraphs(const std::string& text) {
@@ -52,8 +52,12 @@ std::string paragraphs(const std::string& text) {
 
 std::string entries(const Command& command, bool arguments) {
   std::string roff;
-  for (const Option& option : command.options())
-    if (option.is_argument() == arguments) roff += entry(option);
+  std::string group;
+  for (const Option& option : command.options()) {
+    if (option.is_argument() != arguments) continue;
+    if (!arguments && option.group != group) roff += ".SS " + plain(group = option.group) + "\n";
+    roff += entry(option);
+  }
   return roff;
 }
 
@@ -69,7 +73,8 @@ std::string command_man_page(const Command& command) {
   roff += ".SH EXAMPLES\n";
   for (const Example& example : command.examples)
     roff += ".TP\n" + bold("morsel " + example.words) + "\n" + plain(example.does) + "\n";
-  if (!command.notes.empty()) roff += ".SH NOTES\n" + paragraphs(command.notes);
+  if (!command.notes.empty() || !command.details.empty())
+    roff += ".SH NOTES\n" + paragraphs(command.notes) + paragraphs(command.details);
   return roff + ".SH EXIT STATUS\n" + plain(kExitCodes) + "\n.SH SEE ALSO\n" + bold("morsel") + "(1)\n";
 }
 

@@ -16,7 +16,7 @@ class ComparisonTable : public ComparisonSink {
  public:
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
-  /// The table, with a line on the field above it and what methods have to tell below.
+  /// The table, with a line on the field above it and details of the runs below.
   std::string text() const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace morsel::tools {
 
-/// What was asked for.
+/// The request.
 struct CutRequest {
   FieldRequest field;
   bool shorten = true;
@@ -15,8 +15,8 @@ struct CutRequest {
 
 Json request_section(const CutRequest& request);
 
-/// Writes the whole document. Vertices are in the input's numbers; "output" tells which input vertex each
-/// vertex of the written mesh copies that comes after the input's. `timings` becomes the last member.
+/// Writes the whole document. Vertices are in the input's numbers; "output" lists, for each vertex of the
+/// written mesh after the input's, the input vertex that it copies. `timings` becomes the last member.
 void write_cut_document(JsonSink& json, const CutRequest& request, const FieldSource& source,
                         const CutOutcome& outcome, const Timings& timings);
 

@@ -120,7 +120,7 @@ class Comparer {
   const ReportDocument& after_;
   double scale_;
   std::size_t method_ = static_cast<std::size_t>(-1);  // the method that is being compared
-  std::string method_name_;                            // how it begins its differences
+  std::string method_name_;                            // prefix of its differences
   std::vector<Difference> differences_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What differs between two reports.
+/// The differences between two reports.
 
 #include <string>
 #include <vector>
@@ -14,10 +14,10 @@ struct Difference {
   std::string after;
 };
 
-/// All differences between two comparison reports but those in `timings` and the program's version. Whole
+/// All differences between two comparison reports except those in `timings` and the program's version. Whole
 /// numbers, texts and structure must be equal. Real numbers may differ by 1e-9 of themselves or 1e-12 of the
-/// report's largest field value (the last digits depend on the processor's exp), a bound far below anything
-/// that would move a critical point.
+/// report's largest field value (the last digits depend on the processor's exp), a bound far below any
+/// change that would move a critical point.
 std::vector<Difference> report_differences(const ReportDocument& before, const ReportDocument& after);
 
 }  // namespace morsel::tools

@@ -1,5 +1,5 @@
 #pragma once
-/// The head that every JSON document about what is built on one field has.
+/// The head of every JSON document of a result that is built on one field.
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace morsel::tools {
 
-/// What a field was made from; refers to all of it.
+/// The origin of a field; refers to all of it.
 struct FieldSource {
   const HashedFile& mesh;
   const core::LoadedMesh& loaded;
@@ -19,10 +19,10 @@ struct FieldSource {
   const MadeField& made;
 };
 
-/// {"field", "method", "repair", "target" (if there is one)}: in the words of the command line.
+/// {"field", "method", "repair", "target" (if there is one)}: in the syntax of the command line.
 Json request_section(const FieldRequest& request, bool repair);
 
-/// Begins a document: "schema", "tool", "request", "mesh", "field", "method". The caller adds what is its own
+/// Begins a document: "schema", "tool", "request", "mesh", "field", "method". The caller adds its own members
 /// and ends it.
 void begin_field_document(JsonSink& json, std::string_view schema, const Json& request,
                           const FieldSource& source);

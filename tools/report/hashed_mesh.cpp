@@ -11,12 +11,12 @@
 namespace morsel::tools {
 namespace {
 
-/// What `read` returns, and the hash.
+/// Returns the result of `read`, and the hash.
 template <class Hashed, class Read>
 Hashed read_hashed(const std::filesystem::path& path, const Read& read) {
   std::optional<std::invoke_result_t<Read>> loaded;
   std::string hash;
-  std::exception_ptr hash_error;  // of a file that cannot be read the reader has more to tell
+  std::exception_ptr hash_error;  // if a file cannot be read, the reader's error is more specific
   core::parallel_for(0, 2, 1, [&](std::size_t task, std::size_t) {
     if (task == 0) {
       loaded.emplace(read());

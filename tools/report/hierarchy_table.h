@@ -15,7 +15,7 @@ class HierarchyTable : public HierarchySink {
   explicit HierarchyTable(const HierarchyPlan& plan) : plan_(plan) {}
   void begin(const HierarchyBasis& basis) override;
   void level(const Level& level) override;
-  /// The table, with a line on the field above it, and below it where levels are not what was asked for.
+  /// The table, with a line on the field above it, and below it where levels differ from the request.
   std::string text() const;
 
  private:

@@ -14,8 +14,8 @@ using mscomplex::NodeKind;
 
 Cell number(Index i) { return i == core::kNone ? Cell(nullptr) : Cell(std::uint64_t{i}); }
 
-/// An overlap as members of a row: the other cell, the area shared with it, and how much that is of this
-/// cell's.
+/// An overlap as members of a row: the other cell, the area shared with it, and its share of this
+/// cell's area.
 struct SharedCells {
   Cell other = nullptr;
   Cell area = nullptr;

@@ -7,11 +7,11 @@
 
 namespace morsel::tools {
 
-/// What was asked for, `request` with its defaults.
+/// The request, with its defaults.
 Json request_section(const HierarchyRequest& request, const ReportInput& input);
 
-/// Writes the document while the levels are made. Without ReportInput::items it leaves out what grows with
-/// the mesh: cancellations, points, arcs, cells.
+/// Writes the document while the levels are made. Without ReportInput::items it leaves out all lists that
+/// grow with the mesh: cancellations, points, arcs, cells.
 class HierarchyWriter : public HierarchySink {
  public:
   /// Refers to all but `input`, which must outlive the writer. `request` with its defaults.

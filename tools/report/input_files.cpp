@@ -22,7 +22,7 @@ std::vector<HashedFile> input_files(const std::vector<std::string>& fields) {
   std::map<std::string, std::string> hashes;
   for (const std::string& field : fields)
     for (const auto& [key, path] : named_files(field)) {
-      std::error_code error;  // then the function has more to tell
+      std::error_code error;  // then the function's error is more specific
       if (!hashes.contains(path) && std::filesystem::is_regular_file(path, error))
         hashes[path] = sha256_of_file(path);
     }

@@ -11,13 +11,13 @@
 
 namespace morsel::tools {
 
-/// The files that keys of a Morse function, in the words of the command line, name: "--field NAME:KEY" and
-/// the path. Throws InvalidArgument as make_function().
+/// The files that keys of a Morse function, in the syntax of the command line, name: "--field NAME:KEY"
+/// and the path. Throws InvalidArgument as make_function().
 std::vector<std::pair<std::string, std::string>> named_files(const std::string& field);
 
-/// Each file that these Morse functions, in the words of the command line, are to read, by path; not one that
-/// is missing, of which the function has more to tell. Throws InvalidArgument as make_function(), BadInput on
-/// one that cannot be read.
+/// Each file that these Morse functions, in the syntax of the command line, are to read, by path. Missing
+/// ones are left out: the function itself reports a more specific error. Throws InvalidArgument as
+/// make_function(), BadInput on one that cannot be read.
 std::vector<HashedFile> input_files(const std::vector<std::string>& fields);
 
 /// The files that a field was read from. Throws BadInput on one that cannot be read any more.

@@ -1,5 +1,5 @@
 #pragma once
-/// What reports and `morsel info` say about a mesh.
+/// The properties of a mesh in reports and `morsel info`.
 
 #include <filesystem>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace morsel::tools {
 
-/// The report's "mesh": path as given, hash, counts, topology, size and what repair did. Lengths in the
+/// The report's "mesh": path as given, hash, counts, topology, size and repairs. Lengths in the
 /// mesh's unit.
 Json mesh_section(const std::filesystem::path& path, const std::string& sha256,
                   const core::TriangleMesh& mesh, const std::vector<core::Repair>& repairs);

@@ -10,7 +10,7 @@
 namespace morsel::tools {
 namespace {
 
-/// One step's values as they are, a chain's by step.
+/// The values of a single step directly, of a chain by step.
 template <class Values>
 Json by_step(const std::vector<StepOutcome>& steps, Values StepOutcome::*values) {
   if (steps.size() == 1) return to_json(steps.front().*values);

@@ -1,5 +1,5 @@
 #pragma once
-/// What every JSON document of the program says of its field and methods, in the same words.
+/// The parts of JSON documents about their fields and methods, the same in all of them.
 
 #include <span>
 #include <vector>
@@ -17,7 +17,7 @@ namespace morsel::tools {
 /// A parameter's value as JSON; non-finite numbers become null.
 Json to_json(const core::ParameterValue& value);
 Json to_json(const core::Parameters& parameters);
-/// The curve of an iterative method: an object for each of its fields.
+/// The records of an iterative method: an object for each of its fields.
 Json to_json(const std::vector<core::IterationRecord>& iterations);
 
 /// {"name", "version"} of the program.
@@ -30,8 +30,8 @@ Json field_section(const FieldSummary& field, std::span<const HashedFile> known 
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);
-/// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the field's
-/// extent is what the percentages are of.
+/// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the
+/// percentages are of the field's range.
 Json persistence_section(const PersistenceSummary& summary);
 Json persistence_section(const persistence::Diagram& diagram, double extent);
 /// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending",
@@ -40,11 +40,11 @@ Json complex_section(const mscomplex::MorseSmaleComplex& complex,
                      const mscomplex::Segmentation& segmentation);
 /// Steps with their seconds.
 Json timings_section(const Timings& timings);
-/// The resolved parameters of one step as they are, a chain's by step.
+/// The resolved parameters: of a single step directly, of a chain by step.
 Json parameters_section(const std::vector<StepOutcome>& steps);
-/// {"parameters", "details", "iterations"}: one step's as they are, a chain's by step.
+/// {"parameters", "details", "iterations"}: of a single step directly, of a chain by step.
 Json steps_section(const std::vector<StepOutcome>& steps);
-/// How a wanted number came about, without the list of the cancelled pairs; vertices in the input's numbers.
+/// How a wanted number was reached, without the list of the cancelled pairs; vertices in the input's numbers.
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering);
 /// The method that made a field: {"name", "parameters", "details", "iterations", "target" (if there was one),
 /// "min", "max"}

@@ -1,12 +1,10 @@
 #include "morsel/tools/report/provenance.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_bytes.h"
-#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -18,7 +16,7 @@ namespace {
 constexpr std::string_view kBegin = R"({"schema":"morsel.provenance/1")";
 constexpr std::string_view kBeginInTable = R"({""schema"":""morsel.provenance/1"")";
 constexpr std::size_t kLine = 150;
-constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; what follows in a file may be large
+constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; the rest of the file may be large
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {
   std::string replaced;
@@ -54,7 +52,7 @@ std::string_view first_object(std::string_view text) {
   return text.substr(0, size);
 }
 
-/// The lines from `at` on without the mark that they all begin with, put together.
+/// The lines from `at` on without the mark that they all begin with, joined.
 std::string marked_lines(std::string_view text, std::size_t at) {
   const std::size_t before = text.substr(0, at).find_last_of("\r\n");
   const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
@@ -82,7 +80,7 @@ std::string table_field(std::string_view text) {
   return field;
 }
 
-/// Whether it is what provenance.schema.json describes.
+/// Checks it against provenance.schema.json.
 void check(const JsonView& provenance) {
   const auto check_made = [](const JsonView& made) {
     static_cast<void>(made["name"].text());
@@ -177,27 +175,6 @@ std::string Provenance::html_comment() const {
   std::string text = json();
   replace_all(text, "--", "-\\u002d");  // which would end it
   return "<!-- " + text + " -->\n";
-}
-
-std::string shaping_command(const std::vector<std::string>& words) {
-  constexpr std::array<std::string_view, 11> kWithValue = {
-      "-o",     "--output",     "--json", "--graph",   "--export",    "--figures",
-      "--html", "--thumbnails", "--out",  "--threads", "--html-place"};
-  std::vector<std::string> kept;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (word == "--") {
-      kept.insert(kept.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
-      break;
-    }
-    const std::string name = word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
-    if (word == "--quiet") continue;
-    if (std::ranges::find(kWithValue, name) == kWithValue.end())
-      kept.push_back(word);
-    else if (word == name)
-      ++i;
-  }
-  return command_line(kept);
 }
 
 Json find_provenance(std::string_view bytes) {

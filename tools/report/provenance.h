@@ -1,5 +1,5 @@
 #pragma once
-/// Where a result file comes from: what every file that the program writes tells of itself.
+/// The provenance of a result file, held by every file that the program writes.
 
 #include <filesystem>
 #include <string>
@@ -14,22 +14,24 @@
 namespace morsel::tools {
 
 /// A JSON object, "morsel.provenance/1":
-///   schema, tool {name, version}
-///   command   the command line, but for what leaves the contents of files as they are: outputs, threads,
-///   messages inputs[]  {path, sha256}: all files that were read, the mesh first request   {…}: all options
-///   that shape the result, those included that were not given field     {name, parameters{}}, with every
-///   value as it was resolved on the mesh methods[] {name, parameters{}}, likewise: those that the file shows
-/// and what else tells a command's files apart ("level"). No date, no machine: the same command gives the
+/// - schema, tool {name, version}
+/// - command: the command line without what does not change the contents of files: outputs, threads, messages
+/// - inputs[] {path, sha256}: all files that were read, the mesh first
+/// - request {…}: all options that determine the result, with the defaults of those not given
+/// - field {name, parameters{}}: with every value as resolved on the mesh
+/// - methods[] {name, parameters{}}: likewise; those that the file shows
+///
+/// and members that distinguish a command's files ("level"). No date, no machine: the same command gives the
 /// same bytes.
 ///
 /// JSON documents have the same in members of their own; the other formats hold this object: as a PNG's
 /// comment, in an SVG's <metadata>, as a .vtp file's field array "provenance", in a page's last comment, in
-/// comment lines of meshes and texts (their marks taken off and put together again, they are the object), in
-/// the first row of a table's column "provenance". find_provenance() reads it back from any of them.
+/// comment lines of meshes and texts (joined without their marks, they are the object), in the
+/// first row of a table's column "provenance". find_provenance() reads it back from any of them.
 class Provenance {
  public:
   Provenance(std::string_view command, Json request, const std::vector<HashedFile>& inputs);
-  /// Of what is made from one field.
+  /// The provenance of a result of one field.
   Provenance(std::string_view command, Json request, const FieldSource& source);
 
   /// Also adds the files that the field was read from to the inputs.
@@ -38,14 +40,15 @@ class Provenance {
   void set_fill(const FieldOutcome& field);
   void add_method(const std::vector<StepOutcome>& steps);
   void set(std::string_view key, Json value) { document_[std::string(key)] = std::move(value); }
-  /// This and one method more.
+  /// A copy with one more method.
   Provenance with_method(const std::vector<StepOutcome>& steps) const;
 
-  /// On one line, in ASCII, without < > and &: it stands as it is in the text of any markup.
+  /// On one line, in ASCII, without < > and &: it needs no escaping in any markup.
   std::string json() const;
-  /// The same cut into lines of some 150 bytes, for the comments of formats whose readers take no long lines.
+  /// The same split into lines of some 150 bytes, for the comments of formats whose readers take no long
+  /// lines.
   std::vector<std::string> lines() const;
-  /// These lines behind "# ".
+  /// These lines, each after "# ".
   std::string text_comment() const;
   /// A comment of HTML, with a line's end.
   std::string html_comment() const;
@@ -56,14 +59,11 @@ class Provenance {
   Json document_;
 };
 
-/// The command's words, the program's name first, as `command` of a Provenance has them.
-std::string shaping_command(const std::vector<std::string>& words);
-
 /// The provenance that the bytes of a file hold, in whatever format; null if there is none. It is untrusted:
 /// throws BadInput if it is cut off, longer than 1 MiB, nested deeper than any that the program writes, or
-/// has not the members above.
+/// lacks members above.
 Json find_provenance(std::string_view bytes);
-/// That of a file. Throws BadInput also if that cannot be read.
+/// The same of a file. Throws BadInput also if it cannot be read.
 Json read_provenance(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

@@ -6,7 +6,7 @@
 
 namespace morsel::tools {
 
-/// What was asked for.
+/// The request.
 struct QuadsRequest {
   FieldRequest field;
   QuadRequest quads;

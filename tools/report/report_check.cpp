@@ -38,7 +38,7 @@ ReportCheck check_report(const std::filesystem::path& path, const core::Progress
   try {
     result.differences = report_differences(report.document, run_again(report, mesh, progress));
   } catch (const core::InvalidArgument& error) {
-    throw core::BadInput(path.string() + " asks for what this version does not do: " + error.what());
+    throw core::BadInput(path.string() + " requests what this version does not support: " + error.what());
   }
   return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Reports as regression tests: their comparisons run again.
+/// Reports as regression tests: runs their comparisons again.
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@
 namespace morsel::tools {
 
 struct ReportCheck {
-  std::string mesh_path;  ///< as it stands in the report
+  std::string mesh_path;  ///< as in the report
   std::size_t methods = 0;
   bool mesh_is_missing = false;  ///< then nothing was run
   std::vector<Difference> differences;
@@ -20,8 +20,7 @@ struct ReportCheck {
 };
 
 /// Runs a report's comparison again and compares. Throws OtherDocument or BadInput (report_reader.h) on what
-/// is no report, BadInput also on one that asks for what this version does not do, and what comparisons
-/// throw.
+/// is no report, BadInput also on a request that this version does not support, and what comparisons throw.
 ReportCheck check_report(const std::filesystem::path& report, const core::Progress& progress = {});
 
 /// The .json files in a folder and the folders in it, by name. Throws BadInput if it cannot be read or has

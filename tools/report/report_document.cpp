@@ -65,9 +65,9 @@ class ReportFollower : public JsonFollower {
 
  private:
   void check_schema(const Json& value) const {
-    const std::string told = value.is_string() ? value.get<std::string>() : "none";
-    if (!schema_.empty() && told != schema_)
-      throw OtherDocument(name_ + " is not a comparison report: its schema is \"" + told + "\", not \"" +
+    const std::string actual = value.is_string() ? value.get<std::string>() : "none";
+    if (!schema_.empty() && actual != schema_)
+      throw OtherDocument(name_ + " is not a comparison report: its schema is \"" + actual + "\", not \"" +
                           std::string(schema_) + "\"");
   }
 
@@ -125,7 +125,7 @@ void RowFinder::begin(std::size_t depth, bool is_array) {
   levels_[depth].is_array = is_array;
   levels_[depth].size = 0;
   if (PackedRows* rows = is_array ? found(depth) : nullptr) {
-    rows->clear();  // JSON lets a key be there twice; the last counts
+    rows->clear();  // JSON allows a key twice; the last one counts
     row_depth_ = depth + 1;
     rows_ = rows;
   }

@@ -13,7 +13,8 @@
 
 namespace morsel::tools {
 
-/// The elements of a long array, about 60 bytes each: CBOR, with the keys of the first, an object, told once.
+/// The elements of a long array, about 60 bytes each: CBOR, with the keys of the first, an object, stored
+/// once.
 class PackedRows {
  public:
   void add(const Json& row);
@@ -37,19 +38,20 @@ class PackedRows {
   std::vector<Block> blocks_;
 };
 
-/// What a report lists of a method, point by point.
+/// The rows that a report lists of a method, point by point.
 struct MethodRows {
   PackedRows diagram;  ///< methods[i].persistence.diagram
   PackedRows items;    ///< methods[i].items
 };
 
-/// A report. Of each method's items and diagram `head` keeps empty arrays; `methods` has what is in them.
+/// A report. Of each method's items and diagram `head` keeps empty arrays; `methods` has their
+/// rows.
 struct ReportDocument {  // NOLINT(bugprone-exception-escape): of the JSON library
   Json head;
   std::vector<MethodRows> methods;
 };
 
-/// Most methods whose points are listed apart from the head.
+/// The largest number of methods whose points are kept apart from the head.
 inline constexpr std::size_t kMostMethods = 10'000;
 
 /// The document is JSON, but of another schema.
@@ -60,12 +62,12 @@ class OtherDocument : public core::BadInput {
 
 /// Reads a report, or any other JSON document, however it is laid out (json_reader.h: untrusted, limited in
 /// depth). `name` is what errors call it. If a schema is given, throws OtherDocument as soon as the document
-/// tells that it has another. Throws BadInput.
+/// turns out to have another one. Throws BadInput.
 ReportDocument parse_report(std::istream& in, const std::string& name = "the document",
                             std::string_view schema = {});
 
-/// Follows a document from piece to piece and tells where its rows belong. Depth is the number of containers
-/// round a value.
+/// Follows a document piece by piece and finds the lists that its rows belong to. Depth is the number of
+/// containers around a value.
 class RowFinder {
  public:
   explicit RowFinder(ReportDocument& document) : document_(document) {}
@@ -79,7 +81,7 @@ class RowFinder {
  private:
   PackedRows* found(std::size_t depth);
 
-  static constexpr std::size_t kLevels = 5;  // containers round a row of the diagram
+  static constexpr std::size_t kLevels = 5;  // containers around a row of the diagram
   struct Level {
     bool is_array = false;
     std::size_t size = 0;
@@ -91,7 +93,7 @@ class RowFinder {
   PackedRows* rows_ = nullptr;
 };
 
-/// Takes a report from its writer instead of a file: the same that writing and reading it would give.
+/// Takes a report from its writer instead of a file: the same result as writing and reading it.
 class ReportCollector : public JsonSink {
  public:
   void begin_object(std::string_view key = {}) override { begin(key, Json::object()); }

@@ -11,25 +11,25 @@
 
 namespace morsel::tools {
 
-/// A report and what it says was asked for.
+/// A report and its request.
 struct LoadedReport {
   ReportDocument document;
   ComparisonRequest request;
   bool repair = false;
-  bool items = true;      ///< false: left out, as was asked for
-  std::string mesh_path;  ///< as it stands in the report
+  bool items = true;      ///< false: left out, as requested
+  std::string mesh_path;  ///< as in the report
   std::string mesh_sha256;
 };
 
 /// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of
-/// this schema. Of what methods list, and of results, nothing is checked but the methods' names: whoever
-/// compares them finds what is wrong with them as differences.
+/// this schema. Of results and of lists of methods only the methods' names are checked: a comparison
+/// of reports shows all other errors as differences.
 LoadedReport read_report(const std::filesystem::path& path);
 /// The same of a stream; errors call it `name`.
 LoadedReport read_report(std::istream& in, const std::string& name);
 
-/// Where the report's mesh lies now: its path from the working folder, or else from the report's own folder.
-/// Empty if it is in neither place.
+/// The place of the report's mesh now: its path from the working folder, or else from the report's own
+/// folder. Empty if it is in neither.
 std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path);
 
 }  // namespace morsel::tools

@@ -9,7 +9,7 @@
 
 namespace morsel::tools {
 
-/// What the report says of its input besides the mesh itself.
+/// The input of a report besides the mesh itself.
 struct ReportInput {
   std::string mesh_path;  ///< as the user gave it
   std::string mesh_sha256;
@@ -18,7 +18,7 @@ struct ReportInput {
   double load_seconds = 0;
 };
 
-/// What was asked for.
+/// The request.
 Json request_section(const ReportInput& input, const ComparisonRequest& request);
 
 /// Writes a report while the comparison runs, method by method.

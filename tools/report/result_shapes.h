@@ -1,5 +1,5 @@
 #pragma once
-/// The shapes of what documents hold of results, as they are read back. All throw BadInput (json_view.h).
+/// Checks of the shapes of results in documents that are read back. All throw BadInput (json_view.h).
 
 #include <initializer_list>
 #include <string_view>
@@ -11,10 +11,10 @@ namespace morsel::tools {
 /// An object with these members and no others.
 void check_members(const JsonView& object, std::initializer_list<std::string_view> names);
 
-/// An object whose members so called are counts.
+/// An object whose members of these names are counts.
 void check_counts(const JsonView& object, std::initializer_list<std::string_view> names);
 
-/// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}, which agree.
+/// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}, which must agree.
 void check_critical_points(const JsonView& points);
 
 /// {"pairs", "infinite_pairs", "essential_saddles", "max", "above"}: of pairs over 0.1, 1 and 5 %.

@@ -1,5 +1,5 @@
 #pragma once
-/// The rows of an interrupted sweep.
+/// The rows of an interrupted parameter sweep.
 
 #include <cstddef>
 #include <optional>
@@ -19,9 +19,9 @@ class RowJournal {
   /// dropped.
   RowJournal(Journal& journal, const SweepPlan& plan, const std::vector<HashedFile>& files);
 
-  /// Rows of this sweep that the journal has.
+  /// The number of rows of this sweep that the journal has.
   std::size_t count() const { return count_; }
-  /// With these known, and those to come told to the journal; refers to this.
+  /// Options with these rows known, and a callback that adds new ones to the journal; refers to this.
   SweepOptions options();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace morsel::tools {
 
-/// What was asked for.
+/// The request.
 struct SegmentsRequest {
   FieldRequest field;
   SegmentRequest segments;

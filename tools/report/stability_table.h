@@ -1,5 +1,5 @@
 #pragma once
-/// The outcome of a stability run as tables for people.
+/// The result of a stability study as tables for people.
 
 #include <string>
 

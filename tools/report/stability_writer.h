@@ -1,6 +1,6 @@
 #pragma once
-/// What a stability run found, as a JSON document ("morsel.stability/1", see stability.schema.json) and as
-/// CSV.
+/// The result of a stability study, as a JSON document ("morsel.stability/1", see stability.schema.json) and
+/// as CSV.
 
 #include <ostream>
 
@@ -20,13 +20,13 @@ struct StabilityReport {
   const StabilityResult& result;
 };
 
-/// What the trials of a run follow from, besides their perturbation and number: the key of their journal.
+/// All that the trials of a run depend on besides their perturbation and number: the key of their journal.
 Json trials_key(const StabilityRequest& request, const ReportInput& input);
 
 /// The whole document, every trial included.
 void write_stability(JsonSink& json, const StabilityReport& report);
 
-/// A row for each count, field, method and perturbation, with the means over the trials; each tells the
+/// A row for each count, field, method and perturbation, with the means over the trials; each has the
 /// program's version, the mesh with its hash, the seed and all resolved parameters. Without timings, so
 /// always the same bytes.
 void write_stability_csv(std::ostream& out, const StabilityReport& report);

@@ -32,7 +32,7 @@ FieldSummary read_field(const JsonView& field) {
           field["max"].number()};
 }
 
-/// A single step has its own parameters, a chain a list of its steps'.
+/// The parameters of a single step directly, of a chain as a list of its steps'.
 std::vector<StepOutcome> read_steps(const JsonView& method) {
   const JsonView parameters = method["parameters"];
   const std::optional<JsonView> listed = parameters.find("steps");

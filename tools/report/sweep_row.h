@@ -1,5 +1,5 @@
 #pragma once
-/// A row of a sweep as documents and journals hold it, written and read back.
+/// Writes and reads rows of parameter sweeps in documents and journals.
 
 #include <span>
 
@@ -15,7 +15,7 @@ Json row_section(const SweepRow& row, std::span<const HashedFile> known = {});
 /// {"field", "method", "measuring"}
 Json seconds_section(const SweepSeconds& seconds);
 
-/// The row that both sections were made of, but for the details of its steps, which no section holds. Throws
+/// The row that both sections were made of, without the details of its steps, which no section holds. Throws
 /// BadInput (json_view.h) on other shapes.
 SweepRow read_row(const JsonView& row, const JsonView& seconds);
 

@@ -21,7 +21,7 @@ const std::string& value_of(const SweepReport& report, std::size_t row, std::siz
   return varied.values[report.plan.combinations[row].choices[variation]];
 }
 
-/// Minima, saddles, their multiplicities, maxima and all of them.
+/// Minima, saddles, their multiplicities, maxima and the total.
 std::array<std::uint64_t, 5> counts_of(const SweepRow& row) {
   const morse::CriticalPoints& points = row.critical_points;
   return {points.minima, points.saddles, points.saddle_multiplicity, points.maxima, points.total()};

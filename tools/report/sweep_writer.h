@@ -1,6 +1,6 @@
 #pragma once
-/// What came of a sweep, as a JSON document ("morsel.sweep/1", see sweep.schema.json), as CSV and as a table
-/// for people.
+/// The result of a parameter sweep, as a JSON document ("morsel.sweep/1", see sweep.schema.json), as CSV and
+/// as a table for people.
 
 #include <ostream>
 #include <string>
@@ -24,19 +24,19 @@ struct SweepReport {
   const std::vector<HashedFile>& files;
 };
 
-/// What was asked for, and with which ranges.
+/// The request, with ranges written out.
 Json request_section(const SweepRequest& request, const SweepPlan& plan, bool repair);
 
-/// What rows follow from, besides their combination: the key of their journal. `files` are those that fields
+/// All that rows depend on besides their combination: the key of their journal. `files` are those that fields
 /// read.
 Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files);
 
-/// Of its members only "timings" differs when it is run again.
+/// The document. Of its members only "timings" differs between runs.
 void write_sweep(JsonSink& json, const SweepReport& report);
 
-/// A row for each combination: version, mesh and its hash, field and method as they can be given to other
+/// A row for each combination: version, mesh and its hash, field and method in the syntax of other
 /// commands, the varied values, a column each, counts, pairs, all resolved parameters, and last the seconds,
-/// the only column that differs when it is run again.
+/// the only column that differs between runs.
 void write_sweep_csv(std::ostream& out, const SweepReport& report);
 
 /// Varied values, counts, pairs and seconds.

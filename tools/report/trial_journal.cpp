@@ -22,7 +22,7 @@ Json to_json(const Trial& trial) {
           trial.agreement.matched, trial.agreement.distances, trial.chance};
 }
 
-/// Points that are matched are points, and expected F-scores are those of matches.
+/// Checks that matched points do not outnumber points, and that F-scores are possible.
 Trial trial_of(const JsonView& json) {
   const std::vector<JsonView> numbers = json.list(9, 9);
   Trial trial;

@@ -1,5 +1,5 @@
 #pragma once
-/// The trials of an interrupted stability run.
+/// The trials of an interrupted stability study.
 
 #include <map>
 #include <string>
@@ -19,7 +19,7 @@ class TrialJournal : public TrialStore {
   std::optional<std::vector<Trial>> find(const Perturbation& perturbation, std::size_t number) const override;
   void add(const Perturbation& perturbation, std::size_t number, const std::vector<Trial>& trials) override;
 
-  /// Surfaces that the journal has.
+  /// The number of surfaces that the journal has.
   std::size_t count() const { return known_.size(); }
 
  private:

@@ -39,7 +39,7 @@ Json panel_section(const Model& model, const PanelOutcome& panel, std::size_t nu
   Json section = {{"panel", std::string(1, static_cast<char>('a' + number))},
                   {"title", panel.recipe->title},
                   {"file", panel.file},
-                  {"command", command_line(panel.command)},
+                  {"command", command_line(panel.command())},
                   {"paper", nullptr}};
   if (!panel.recipe->paper.empty()) section["paper"] = panel.recipe->paper;
   section.update(run_section(model, *panel.run));

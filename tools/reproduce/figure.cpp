@@ -7,6 +7,7 @@
 
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/text/parameters.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/render/caption.h"
@@ -80,9 +81,10 @@ std::string region_text(const Model& model, const ComparedRegion& region) {
          core::to_string(region.radius);
 }
 
-/// The arguments of `morsel render` that make the panel.
-std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutcome& figure,
-                                    const PictureOptions& options, const render::PictureRequest& request) {
+/// The arguments of `morsel render` that make the panel, without its output.
+std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const FigureOutcome& figure,
+                                          const PictureOptions& options,
+                                          const render::PictureRequest& request) {
   const Model& model = *figure.model;
   std::vector<std::string> words = {
       "morsel",   "render",    model.file().path.string(), "--field", std::string(kField),
@@ -105,7 +107,7 @@ std::vector<std::string> command_of(const PanelOutcome& panel, const FigureOutco
     add({"--view", options.camera.view});
   if (options.camera.up != render::UpAxis::y) add({"--up", to_string(options.camera.up)});
   add({"--size", std::to_string(request.size.width) + "x" + std::to_string(request.size.height), "--samples",
-       std::to_string(request.samples), "-o", panel.file});
+       std::to_string(request.samples)});
   return words;
 }
 
@@ -153,7 +155,7 @@ std::string panel_png(const render::Image& image, const PanelOutcome& panel, con
                       const PictureOptions& options, const render::PictureRequest& request) {
   const HashedFile mesh{model.file().path.string(), model.sha256()};
   Provenance provenance(
-      shaping_command(panel.command),
+      command_line(panel.shaping_words),
       tools::request_section(FieldRequest{std::string(kField), panel.method, {}}, options.repair),
       {mesh, model.loaded(), panel.run->plan, panel.run->made});
   provenance.set("picture",
@@ -201,7 +203,7 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     if (figure.region && panel.recipe->region != Region::none)
       (panel.recipe->region == Region::framed ? request.frame : request.close_up) =
           render::Inset{figure.region->vertex, figure.region->radius};
-    panel.command = command_of(panel, figure, options, request);
+    panel.shaping_words = shaping_words_of(panel, figure, options, request);
     panel.caption = caption_of(panel, figure);
     const render::Subject subject{
         panel.run->made.field(), &panel.run->measurement,

@@ -70,10 +70,17 @@ struct PanelOutcome {
   const PanelRecipe* recipe = nullptr;
   std::string method;  ///< without placeholders
   const MethodRun* run = nullptr;
-  std::string file;                  ///< name
-  std::vector<std::string> command;  ///< the words of the command line that makes the file
-  std::string caption;               ///< lines: title; method; counts; the paper's number
+  std::string file;                        ///< name
+  std::vector<std::string> shaping_words;  ///< of command(), but for the file's name
+  std::string caption;                     ///< lines: title; method; counts; the paper's number
   std::string png;
+
+  /// The words of the command line that makes the file.
+  std::vector<std::string> command() const {
+    std::vector<std::string> words = shaping_words;
+    words.insert(words.end(), {"-o", file});
+    return words;
+  }
 };
 
 /// Counts from the links of one level of a hierarchy.

@@ -100,7 +100,7 @@ std::string panel_markup(const PanelOutcome& panel, std::size_t number) {
   for (std::size_t i = 1; i < lines.size(); ++i)
     text += std::string("<span") + (i == 1 ? " class=\"soft\">" : ">") + markup_text(lines[i]) + "</span>";
   return text + "</figcaption>\n<details><summary>Command</summary><pre class=\"copy\">" +
-         markup_text(command_line(panel.command)) + "</pre></details></figure>\n";
+         markup_text(command_line(panel.command())) + "</pre></details></figure>\n";
 }
 
 std::string figure_section(const FigureOutcome& figure) {

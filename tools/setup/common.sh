@@ -15,8 +15,8 @@ fail() {
 # The comment at the head of the script.
 usage() { sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0"; }
 
-# apt_get ARGUMENTS…: as root, through sudo if need be, without questions, waiting for a package manager that is busy.
-# What it says goes to build/apt.log and is shown if it fails.
+# apt_get ARGUMENTS…: as root, through sudo if need be, without questions, waiting for a package manager that
+# is busy. What it says goes to build/apt.log and is shown if it fails.
 apt_get() {
   local command=(env DEBIAN_FRONTEND=noninteractive apt-get -q -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300
     -o Acquire::Retries=3 "$@")
@@ -31,8 +31,8 @@ apt_get() {
   }
 }
 
-# A repository that cannot be reached, perhaps one that has nothing to do with us, is no reason to stop: what follows
-# says whether the lists at hand suffice.
+# A repository that cannot be reached, perhaps one that has nothing to do with us, is no reason to stop: what
+# follows says whether the lists at hand suffice.
 refresh_package_lists() {
   note 'refreshing the package lists'
   apt_get update || note 'not all package lists could be refreshed; going on with what is there'
@@ -42,7 +42,8 @@ refresh_package_lists() {
 packages_for() {
   local purpose
   for purpose in "$@"; do
-    awk -v purpose="$purpose" '$1 == purpose { print $2; found = 1 } END { exit !found }' "$root/tools/setup/packages.txt" ||
+    awk -v purpose="$purpose" '$1 == purpose { print $2; found = 1 } END { exit !found }' \
+      "$root/tools/setup/packages.txt" ||
       fail "no packages are listed for '$purpose'"
   done
 }
@@ -51,7 +52,8 @@ packages_for() {
 missing_packages() {
   local name
   for name in "$@"; do
-    dpkg-query -W -f '${db:Status-Status}\n' "$name" 2> /dev/null | grep -qx installed || printf '%s\n' "$name"
+    dpkg-query -W -f '${db:Status-Status}\n' "$name" 2> /dev/null | grep -qx installed ||
+      printf '%s\n' "$name"
   done
 }
 
@@ -61,8 +63,8 @@ install_packages() {
   text=$(packages_for "$@")
   mapfile -t names <<< "$text"
   if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
-    fail "this is not Debian; install what corresponds to these packages of Debian 12, then use CMake's presets:" \
-      "${names[@]}"
+    fail "this is not Debian; install what corresponds to these packages of Debian 12," \
+      "then use CMake's presets:" "${names[@]}"
   fi
   text=$(missing_packages "${names[@]}")
   [[ -n $text ]] || return 0

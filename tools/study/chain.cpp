@@ -14,7 +14,7 @@ bool is_same(const core::ScalarField& a, const core::ScalarField& b) {
   return std::ranges::equal(a.values(), b.values()) && std::ranges::equal(a.ranks(), b.ranks());
 }
 
-/// Watches one step: shows its fields to the tracker and to the search for the wanted number.
+/// Observes one step: passes its fields to the tracker and to the search for the wanted number.
 class StepWatcher {
  public:
   /// Either may be null.
@@ -29,7 +29,7 @@ class StepWatcher {
     return pass(field);
   }
 
-  /// The step's result, unless its last iteration made it.
+  /// The step's result, unless it is the field of its last iteration.
   void finish(const core::ScalarField& field) {
     if (!wanted() || ended_) return;
     const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->reached();
@@ -61,8 +61,8 @@ class StepWatcher {
   morse::CriticalPointTracker* tracker_;
   TargetSearch* search_;
   std::optional<morse::CriticalPointTracker> at_start_;  // once the first iteration is seen
-  int last_ = std::numeric_limits<int>::max();           // the number told; a first one begins
-  bool passed_ = false;                                  // a field that counts
+  int last_ = std::numeric_limits<int>::max();  // the last reported number; a smaller one is a new start
+  bool passed_ = false;                         // a field that counts
   bool ended_ = false;
 };
 
@@ -86,18 +86,18 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
   ChainOutcome outcome{field, {}, {}};
   for (const MethodStep& step : chain.steps) {
     const bool is_last = &step == &chain.steps.back();
-    const core::IterationCallback told = is_last ? options.on_iteration : core::IterationCallback();
+    const core::IterationCallback callback = is_last ? options.on_iteration : core::IterationCallback();
     std::optional<TargetSearch> search;
     if (options.target && is_last)
       search.emplace(outcome.field, *options.target, !step.method->traits().cancels_pairs, progress);
     StepWatcher watcher(options.tracker, search ? &*search : nullptr);
-    context.on_iteration = told;
+    context.on_iteration = callback;
     if (watcher.wanted())
       context.on_iteration = [&](int number, const core::ScalarField& passed) {
         const bool go_on = watcher.iteration(number, passed);
-        return told(number, passed) && go_on;
+        return callback(number, passed) && go_on;
       };
-    told(0, outcome.field);
+    callback(0, outcome.field);
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
     outcome.steps.push_back(

@@ -1,6 +1,5 @@
 #pragma once
-/// Applying a chain of methods, watched: what each step told, where critical points came from, and a wanted
-/// number.
+/// Applying a chain of methods: records of each step, origins of critical points, and a target number.
 
 #include <cstddef>
 #include <optional>
@@ -19,7 +18,7 @@ namespace morsel::tools {
 core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFunction& function,
                                    const core::Progress& progress = {});
 
-/// One step of a chain, as it came out on this mesh.
+/// The outcome of one step of a chain.
 struct StepOutcome {
   std::string name;
   core::Parameters parameters;
@@ -28,12 +27,11 @@ struct StepOutcome {
 };
 
 struct ChainOptions {
-  std::optional<std::size_t> target =
-      {};                         ///< critical points to end with; the last step is what is adapted to it
-  bool count_iterations = false;  ///< of iterative methods
+  std::optional<std::size_t> target = {};  ///< critical points to end with; the last step is adapted to it
+  bool count_iterations = false;           ///< of iterative methods
   morse::CriticalPointTracker* tracker =
-      nullptr;  ///< made for the input; told every field that is passed through
-  /// As core::MethodContext's, of the last step alone; told its input first, as iteration 0.
+      nullptr;  ///< made for the input; advanced by every field that is passed through
+  /// As core::MethodContext's, for the last step only; its input is reported first, as iteration 0.
   core::IterationCallback on_iteration = {};
 };
 
@@ -43,7 +41,7 @@ struct ChainOutcome {
   std::optional<TargetOutcome> target;
 };
 
-/// The steps one after the other. Throws what functions and methods throw.
+/// Applies the steps one after the other. Throws what functions and methods throw.
 ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loaded,
                          const NamedFunction& function, const core::ScalarField& field,
                          const ChainOptions& options = {}, const core::Progress& progress = {});

@@ -1,5 +1,5 @@
 #pragma once
-/// The main job: several methods on one field of one mesh, each measured by the same code.
+/// Comparison of several methods on one field of one mesh, each measured by the same code.
 
 #include <chrono>
 #include <cstddef>
@@ -21,12 +21,12 @@
 
 namespace morsel::tools {
 
-/// What is to be compared, in the words of the command line.
+/// A comparison in the syntax of the command line.
 struct ComparisonRequest {
   std::string field = "mean-curvature";
   std::vector<std::string> methods = {"conventional", "salient", "tps"};
   std::optional<std::size_t> target;  ///< every method is to end with so many critical points
-  bool snap = false;                  ///< critical points are reported where they came from
+  bool snap = false;                  ///< critical points are reported at their origins
 };
 
 /// Seconds by step, in the order in which the steps ran.
@@ -48,10 +48,11 @@ struct MethodOutcome {
   core::ScalarField field;
   std::optional<TargetOutcome> target;
   Measurement measurement;
-  /// For each critical point, the vertex of the one of the input field that it came from; kNone if the way
-  /// was lost.
+  /// For each critical point, the vertex of the one of the input field that it came from; kNone if it has no
+  /// origin.
   std::vector<core::Index> origins;
-  /// For each critical point, the vertex at whose position it is reported: its own, or its origin's to snap.
+  /// For each critical point, the vertex at whose position it is reported: its own, or its origin's if
+  /// `snap` is set.
   std::vector<core::Index> places;
   Matching compared_to_first;
   Timings timings;
@@ -72,7 +73,7 @@ struct FieldOutcome {
   std::vector<FieldFile> files = {};
 };
 
-/// Takes a Morse function on a loaded mesh.
+/// Evaluates a Morse function on a loaded mesh.
 FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
                             const core::Progress& progress = {});
 
@@ -80,7 +81,8 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
 /// `timings`.
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress = {});
 
-/// Receives a comparison as it is made, so that no more than one method's results need be in memory.
+/// Receives the parts of a comparison as they are made, so that no more than one method's results need be in
+/// memory.
 class ComparisonSink {
  public:
   virtual ~ComparisonSink() = default;
@@ -89,7 +91,7 @@ class ComparisonSink {
   virtual void method(const MethodOutcome& outcome) = 0;
 };
 
-/// A comparison whose names have been looked up.
+/// A checked request: its names have been looked up.
 struct ComparisonPlan {
   NamedFunction function;
   std::vector<MethodChain> chains;
@@ -100,8 +102,8 @@ struct ComparisonPlan {
 /// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
 ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
 
-/// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods
-/// and sinks throw.
+/// Evaluates the function and then applies each chain in turn, calling every sink. Throws what functions,
+/// methods and sinks throw.
 void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What `morsel cut` does between reading a mesh and writing files.
+/// Cutting a surface open, as `morsel cut` does between reading a mesh and writing files.
 
 #include <cstddef>
 #include <vector>
@@ -16,7 +16,7 @@ struct ComponentCut {
   core::Index genus = 0;
   core::Index loops = 0;  ///< of its boundary
   std::size_t paths = 0;
-  double length_found = 0;  ///< of the cut as the arcs make it
+  double length_found = 0;  ///< of the cut made of arcs
   double length = 0;        ///< after shortening
   std::size_t copies = 0;   ///< of vertices, that the cut makes
 };

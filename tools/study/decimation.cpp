@@ -155,7 +155,7 @@ core::LoadedMesh decimated(const core::LoadedMesh& clean, double share, std::uin
     if (!shrinking.is_edge(u, w) || !shrinking.can_collapse(u, w)) continue;
     shrinking.collapse(u, w);
     --left;
-    for (const Index v : shrinking.neighbors(w)) {  // those that were refused too: they may be possible now
+    for (const Index v : shrinking.neighbors(w)) {  // also those refused before: they may be possible now
       propose(v, w);
       propose(w, v);
     }

@@ -26,7 +26,7 @@ constexpr std::int64_t kLargestCount = std::int64_t{1} << 40;
   throw InvalidArgument(option + " " + text + " has " + item + " twice");
 }
 
-/// What `parse` makes of each of the texts that commas separate; none may be there twice.
+/// The texts that commas separate, each read by `parse`; throws if one is there twice.
 template <class Parse>
 auto parse_list(const std::string& text, const std::string& option, const Parse& parse) {
   std::vector<decltype(parse(text))> items;
@@ -102,7 +102,7 @@ HierarchyPlan prepare(const HierarchyRequest& given, const Registry& registry) {
     throw InvalidArgument("--counts are levels by persistence: give them with --by persistence");
   if (by_iteration && given.field.target)
     throw InvalidArgument(
-        "--target takes a method no further than to that many critical points, so that levels by iteration "
+        "--target ends a method at that many critical points, so that levels by iteration "
         "would be missing: give it with --by persistence");
   if (!given.levels.empty() && !given.counts.empty())
     throw InvalidArgument("levels by persistence are given by --levels or by --counts, not by both");

@@ -22,7 +22,7 @@ enum class HierarchyKind : std::uint8_t { iteration, persistence };
 /// "iteration", "persistence".
 std::string_view to_string(HierarchyKind kind);
 
-/// In the words of the command line.
+/// A hierarchy in the syntax of the command line.
 struct HierarchyRequest {
   FieldRequest field{.method = "",
                      .target = {}};  ///< no method: salient by iteration, conventional by persistence
@@ -40,23 +40,24 @@ struct HierarchyPlan {
   std::vector<std::size_t> counts;
 };
 
-/// Puts the method and levels in that a request leaves to us: salient, levels 1,5,10 (the paper's Figure 4)
-/// by iteration; conventional, levels 0.1%,1%,5% by persistence.
+/// Fills in the method and levels where a request leaves them out: salient, levels 1,5,10 (the paper's Figure
+/// 4) by iteration; conventional, levels 0.1%,1%,5% by persistence.
 HierarchyRequest with_defaults(HierarchyRequest request);
 
-/// Throws InvalidArgument on unknown names and keys, bad values, a level that is given twice, what does not
-/// go together, and a method that has no iterations or fewer than the levels need. Levels may come in any
-/// order. Touches no file.
+/// Throws InvalidArgument on unknown names and keys, bad values, a level that is given twice, options
+/// that exclude each other, and a method that has no iterations or fewer than the levels need. Levels may
+/// come in any order. Touches no file.
 HierarchyPlan prepare(const HierarchyRequest& request, const Registry& registry = Registry::standard());
 
-/// What the levels are made of.
+/// The data that levels are made from.
 struct HierarchyBasis {
   const MadeField& made;                             ///< by iteration, the last level's field
   const mscomplex::PersistenceHierarchy* hierarchy;  ///< null by iteration
   double hierarchy_seconds;
 };
 
-/// Receives a hierarchy as it is made, the finest level first, so that no more than two need be in memory.
+/// Receives the levels of a hierarchy as they are made, the finest first, so that no more than two need be in
+/// memory.
 class HierarchySink {
  public:
   virtual ~HierarchySink() = default;
@@ -64,8 +65,8 @@ class HierarchySink {
   virtual void level(const Level& level) = 0;
 };
 
-/// Makes the field, and then level by level. Throws what functions, methods, sinks and iteration_levels()
-/// throw.
+/// Makes the field, then the hierarchy level by level. Throws what functions, methods, sinks and
+/// iteration_levels() throw.
 void run_hierarchy(const core::LoadedMesh& loaded, const HierarchyPlan& plan,
                    const std::vector<HierarchySink*>& sinks, const core::Progress& progress = {});
 

@@ -88,7 +88,7 @@ class LevelCollector {
     kept_.push_back({std::move(shared), tracker_->points(), std::move(parents)});
   }
 
-  /// The method begins again: what its input made stays.
+  /// The method starts again: what was made of its input stays.
   void restart() {
     const bool input_is_kept = !levels_.empty() && levels_.front() == 0;
     kept_.resize(std::min<std::size_t>(kept_.size(), input_is_kept ? 1 : 0));
@@ -113,7 +113,7 @@ std::string stopped_by(const StepOutcome& step) {
 }  // namespace
 
 std::string with_iterations(const std::string& method, int needed, const Registry& registry) {
-  registry.make_method(method);  // refuses unknown names and keys before anything else is said
+  registry.make_method(method);  // unknown names and keys are reported before all other errors
   const std::vector<core::Specification> chain = core::parse_chain(method, "--method");
   const core::Specification& last = chain.back();
   if (!is_iterative(last.name, registry))
@@ -148,7 +148,8 @@ IterationLevels iteration_levels(const MethodChain& chain, const core::LoadedMes
   if (!std::ranges::equal(outcome.field.values(), last.values()) ||
       !std::ranges::equal(outcome.field.ranks(), last.ranks()))
     throw InvalidArgument(
-        name + " hands on another field than its last iteration made, so that its iterations are no levels");
+        name +
+        " returns another field than that of its last iteration, so that its iterations are no levels");
   return {std::move(outcome), collector.finish()};
 }
 

@@ -20,20 +20,20 @@
 
 namespace morsel::tools {
 
-/// How far cancellation went to a level by persistence.
+/// The cancellations that lead to a level by persistence.
 struct CancelledLevel {
   core::Index cancellations = 0;
   double largest = 0;                     ///< the largest persistence among them
-  std::optional<double> threshold = {};   ///< that was asked for, in the field's unit
-  std::optional<std::size_t> count = {};  ///< of critical cells that was asked for
+  std::optional<double> threshold = {};   ///< the one requested, in the field's unit
+  std::optional<std::size_t> count = {};  ///< the number of critical cells requested
 };
 
-/// What makes a level.
+/// The definition of a level.
 struct LevelName {
   std::string asked;  ///< "5", "0.1%", "150"
   std::optional<int> iteration = {};
   std::optional<CancelledLevel> cancelled = {};
-  std::string note = {};  ///< why it is not what was asked for; empty if it is
+  std::string note = {};  ///< why it differs from the request; empty if it does not
 };
 
 /// The segments of a level: by maximum, by minimum, by both.
@@ -51,11 +51,11 @@ struct CellLinks {
   std::vector<mscomplex::Overlap> merges_into;
 };
 
-/// How a critical point came to be.
+/// How a critical point of a level relates to the level before.
 enum class PointStatus : std::uint8_t {
-  first,  ///< of the finest level: nothing is known of where it came from
+  first,  ///< of the finest level: it has no level before
   kept,   ///< its parent is at the same vertex
-  moved,  ///< its parent is at another one
+  moved,  ///< its parent is at another vertex
   fresh   ///< it has no parent: it is new
 };
 /// "first", "kept", "moved", "new".
@@ -66,7 +66,7 @@ struct Level {
   LevelName name;
   std::shared_ptr<const core::ScalarField> field;
   morse::CriticalPoints points;      ///< the nodes of the complex but for caps, by vertex
-  std::vector<double> persistence;   ///< per point; kInfinite where it never dies
+  std::vector<double> persistence;   ///< per point; kInfinite if essential or paired with a cap
   std::vector<core::Index> parents;  ///< per point, the vertex of a point of the level before; kNone
   mscomplex::MorseSmaleComplex complex;
   mscomplex::Segmentation segmentation;
@@ -75,8 +75,7 @@ struct Level {
 
   const mscomplex::SegmentLabels& cells(CellKind kind) const;
   const CellLinks& cell_links(CellKind kind) const { return links[static_cast<std::size_t>(kind)]; }
-  /// Labels are below this; those that no triangle carries are counted here, and in cells().count they are
-  /// not.
+  /// Labels are below this number, which counts also those that no triangle carries; cells().count does not.
   core::Index label_count(CellKind kind) const;
   /// The labels that triangles carry, ascending; as many as cells().count. O(n).
   std::vector<core::Index> labels(CellKind kind) const;

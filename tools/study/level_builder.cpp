@@ -6,7 +6,7 @@
 namespace morsel::tools {
 namespace {
 
-/// What `run` takes is added to the level's timings.
+/// The time of `run` is added to the level's timings.
 template <class Run>
 auto timed(Timings& timings, const char* step, const Run& run) {
   const Stopwatch watch;

@@ -1,5 +1,5 @@
 #pragma once
-/// From what is known of each level to the levels with their complexes and links.
+/// Building levels with their complexes and links.
 
 #include <functional>
 #include <vector>
@@ -17,11 +17,11 @@ struct LevelSeed {
   std::vector<double> persistence;   ///< per point
   std::vector<core::Index> parents;  ///< per point
   std::function<mscomplex::DiscreteGradient()>
-      gradient;  ///< of the level, on the field's mesh; called when it is its turn
+      gradient;  ///< of the level, on the field's mesh; called when the level is built
 };
 
 /// Makes the levels, the finest first, and links the cells of each with those of the levels beside it. Each
-/// is handed to `take` as soon as its links are complete, so that no more than two complexes stand in memory.
+/// is passed to `take` as soon as its links are complete, so that no more than two complexes are in memory.
 /// Parallel, the same for every number of threads but for timings.
 void build_levels(std::vector<LevelSeed> seeds, const std::function<void(const Level&)>& take,
                   const core::Progress& progress = {});

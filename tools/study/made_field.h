@@ -1,6 +1,5 @@
 #pragma once
-/// One field of one mesh, made as the command line names it: what everything that is built on a single field
-/// begins with.
+/// One field of one mesh, made from a request: the start of everything that is built on a single field.
 
 #include <cstddef>
 #include <optional>
@@ -11,7 +10,7 @@
 
 namespace morsel::tools {
 
-/// In the words of the command line.
+/// A field in the syntax of the command line.
 struct FieldRequest {
   std::string field = "mean-curvature";
   std::string method = "conventional";  ///< or a chain
@@ -37,7 +36,7 @@ struct MadeField {
   const core::ScalarField& field() const { return outcome.field; }
 };
 
-/// Takes the function and applies the chain. Throws what functions and methods throw.
+/// Evaluates the function and applies the chain. Throws what functions and methods throw.
 MadeField make_field(const FieldPlan& plan, const core::LoadedMesh& loaded,
                      const core::Progress& progress = {});
 

@@ -36,7 +36,7 @@ void count_cancelled(MadeSegments& made) {
         of_minimum != (made.segments.kind == SegmentKind::ascending))
       continue;
     ++made.cancelled_pairs;
-    made.largest_persistence = c.persistence;  // they ascend
+    made.largest_persistence = c.persistence;  // in ascending order
   }
 }
 

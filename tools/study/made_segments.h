@@ -1,5 +1,5 @@
 #pragma once
-/// The segments of a field as the command line asks for them.
+/// The segments of a field, made from a request.
 
 #include <cstddef>
 #include <optional>
@@ -21,7 +21,7 @@ struct SegmentRequest {
   std::optional<persistence::Threshold> persistence;
 };
 
-/// "descending", "ascending", "morse-smale": as the command line has them.
+/// "descending", "ascending", "morse-smale": as in the syntax of the command line.
 std::string to_string(mscomplex::SegmentKind kind);
 /// Throws InvalidArgument for another word.
 mscomplex::SegmentKind parse_segment_kind(const std::string& word);
@@ -30,9 +30,9 @@ struct MadeSegments {
   mscomplex::PersistenceHierarchy hierarchy;
   mscomplex::Segments segments = {};
   core::Index unmerged = 0;         ///< segments before merging
-  std::size_t cancelled_pairs = 0;  ///< of the extrema that the kind has segments of
+  std::size_t cancelled_pairs = 0;  ///< of the extrema whose segments the kind has
   double largest_persistence = 0;   ///< of those; 0 if there is none
-  std::string note = {};            ///< why there are more than were asked for; empty if there are not
+  std::string note = {};            ///< why there are more than requested; empty if there are not
 
   /// Smallest, middle (of two the lower) and largest area.
   struct Areas {
@@ -45,8 +45,8 @@ struct MadeSegments {
 /// field.
 void check(const SegmentRequest& request);
 
-/// Builds complex, hierarchy and segments. Of all levels of the hierarchy the first is taken that has what is
-/// asked for.
+/// Builds complex, hierarchy and segments. The level is the first one of the hierarchy that meets the
+/// request.
 MadeSegments make_segments(const core::ScalarField& field, const SegmentRequest& request,
                            const core::Progress& progress = {});
 

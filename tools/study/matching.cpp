@@ -13,9 +13,9 @@ namespace {
 using core::Index;
 using morse::CriticalPoint;
 
-/// Matches what is left of one type: the nearest pair first. Each reference point has one candidate in the
-/// queue, its nearest free counterpart; where that was taken meanwhile, the next one is looked up. So memory
-/// stays linear.
+/// Matches the remaining points of one type: the nearest pair first. Each reference point has one candidate
+/// in the queue, its nearest free counterpart; where that was taken meanwhile, the next one is looked up. So
+/// memory stays linear.
 class NearestFirst {
  public:
   NearestFirst(const core::TriangleMesh& mesh, const std::vector<CriticalPoint>& reference,

@@ -1,5 +1,5 @@
 #pragma once
-/// What became of one method's critical points in another's.
+/// Matching of the critical points of two fields.
 
 #include <cstddef>
 #include <vector>

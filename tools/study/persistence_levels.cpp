@@ -76,10 +76,10 @@ LevelSeed seed_of(const FieldHierarchy& from, Index level, bool is_finest, Level
   return seed;
 }
 
-/// Why another number of critical cells than the wanted one is left.
+/// The reason why another number of critical cells than the wanted one is left.
 std::string note_on(std::size_t wanted, std::size_t left, Index level, Index levels) {
   if (left == wanted) return "";
-  const std::string which = std::to_string(wanted) + " critical cells cannot be had: ";
+  const std::string which = std::to_string(wanted) + " critical cells cannot be reached: ";
   if (level == 0) return which + "there are no more than " + std::to_string(left);
   if (level == levels && left > wanted)
     return which + std::to_string(left) + " are left by all cancellations";

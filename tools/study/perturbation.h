@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces that are nearly the same: with noise, with fewer vertices, with more.
+/// Perturbed surfaces: with noise, with fewer vertices, with more.
 
 #include <cstdint>
 #include <string>
@@ -21,10 +21,9 @@ enum class NoiseKind : std::uint8_t {
 /// "normal", "isotropic".
 std::string_view to_string(NoiseKind kind);
 
-/// What is done to a surface, and how much of it:
+/// A perturbation of a surface, and its amount:
 /// - noise: each vertex is moved by Gaussian noise whose standard deviation (isotropic: of each coordinate)
-/// is
-///   `amount` mean edge lengths, the mean taken over the edges;
+///   is `amount` mean edge lengths, the mean taken over the edges;
 /// - decimation: edges are collapsed, the vertices that stay where they were, until the share `amount` of the
 ///   vertices is left (decimation.h);
 /// - subdivision: each edge is cut into `amount` equal pieces; the surface stays the same.
@@ -33,7 +32,7 @@ struct Perturbation {
   double amount = 0;
   NoiseKind direction = NoiseKind::normal;  ///< of noise
 
-  /// Whether trials differ.
+  /// Whether trials differ from each other.
   bool is_random() const { return kind != PerturbationKind::subdivision; }
 };
 /// "noise 0.05".
@@ -43,7 +42,7 @@ std::string to_string(const Perturbation& perturbation);
 /// and in 1 … 16.
 void check(const Perturbation& perturbation);
 
-/// A perturbed surface. `source` numbers vertices as the file does, as far as they are the file's.
+/// A perturbed surface. `source` has the file's vertex numbers, as far as vertices are the file's.
 struct PerturbedMesh {
   core::LoadedMesh loaded;
   std::vector<core::Point> places;  ///< where each vertex lies on the surface that was not perturbed

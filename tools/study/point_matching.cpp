@@ -30,7 +30,8 @@ struct Reach {
 /// The assignment problem: each row (an `other` point) takes a column (a reference point) in its reach, or
 /// none at a cost above all distances together. Rows come one after the other, each along the cheapest path
 /// that takes columns from rows before it. The potentials keep all reduced costs ≥ 0, so that Dijkstra's
-/// algorithm finds it. A row that has lost its column never gets one again: columns only become dearer.
+/// algorithm finds it. A row that has lost its column never gets one again, since costs of columns only
+/// increase.
 class Assignment {
  public:
   Assignment(const std::vector<std::vector<Reach>>& rows, std::size_t columns)
@@ -51,7 +52,7 @@ class Assignment {
  private:
   void place(Index start) {
     Cost best = kUnreached;
-    Index last_row = core::kNone;     // the path ends there if a row is best left alone
+    Index last_row = core::kNone;     // the path ends there if a row is best left without a column
     Index last_column = core::kNone;  // or here
     const auto leave = [&](Index row, Cost so_far) {
       const Cost cost = so_far + alone_ - row_price_[row];
@@ -74,7 +75,7 @@ class Assignment {
       core::throw_if_stopped();
       const auto [cost, column] = queue_.top();
       queue_.pop();
-      if (cost > distance_[column]) continue;  // was reached more cheaply
+      if (cost > distance_[column]) continue;  // was reached at a lower cost
       if (row_of_[column] == core::kNone) {
         best = cost;
         last_column = column;
@@ -98,7 +99,7 @@ class Assignment {
     }
   }
 
-  /// Hands the columns on along the path.
+  /// Reassigns the columns along the path.
   void follow_back(Index start, Index last_row, Index last_column) {
     Index column = last_column;
     if (column == core::kNone) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Which points of two sets are the same ones.
+/// Matching of two sets of points.
 
 #include <cstddef>
 #include <span>
@@ -18,8 +18,8 @@ struct PointPair {
 };
 
 /// Matches sets of points with one reference set, one to one, within a radius (inclusive, Euclidean): as many
-/// pairs as can be had and, among all ways to have so many, one whose distances have the least sum. So it
-/// does not depend on an order in which pairs are made, and gives up no pair for a nearer one.
+/// pairs as possible and, among all such matchings, one with the least sum of distances. So it does not
+/// depend on an order in which pairs are made, and gives up no pair for a nearer one.
 /// (match_critical_points() of a report takes the nearest pair first.)
 class PointMatcher {
  public:

@@ -90,8 +90,9 @@ std::string described(const Quadrangulation& result, double diagonal) {
             plural(complex.cap_count(), "boundary loop", "boundary loops") + ", of five sides";
   text += "\n";
   if (result.layout.missed > 0)
-    text += "        " + plural(result.layout.missed, "arc takes", "arcs take") +
-            " the way through the fewest triangles, a straight line being too fine for double precision\n";
+    text +=
+        "        " + plural(result.layout.missed, "arc follows", "arcs follow") +
+        " the path through the fewest triangles, as double precision does not suffice for a straight line\n";
   text += "quads: " + core::grouped(result.mesh.quads.size()) + " on " +
           core::grouped(result.mesh.positions.size()) + " vertices, of which " +
           core::grouped(q.extraordinary) + " extraordinary; by valence";

@@ -1,5 +1,5 @@
 #pragma once
-/// From a field to a quad mesh: simplification, repair, layout, sampling and measurement in one go.
+/// Quadrangulation of a surface by a field: simplification, repair, layout, sampling and measurement.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace morsel::tools {
 
-/// In the words of the command line.
+/// A quadrangulation in the syntax of the command line.
 struct QuadRequest {
   std::string
       persistence;  ///< "1%" or a number in the field's unit; empty: nothing is cancelled before the layout
@@ -40,7 +40,7 @@ struct Quadrangulation {
 };
 
 /// The quads are checked to be a manifold of the surface's Euler characteristic and boundary loops before
-/// they are handed out. Throws BadInput where the field gives no layout, and InvalidArgument for an odd
+/// they are returned. Throws BadInput where the field gives no layout, and InvalidArgument for an odd
 /// resolution on a bounded surface.
 Quadrangulation quadrangulate(const core::ScalarField& field, const QuadPlan& plan,
                               const core::Progress& progress = {});
@@ -48,7 +48,7 @@ Quadrangulation quadrangulate(const core::ScalarField& field, const QuadPlan& pl
 /// Patches at boundary loops, which have five sides.
 core::Index boundary_patches(const mscomplex::MorseSmaleComplex& complex);
 
-/// For people: what was cancelled, what the layout is, and how good the quads are.
+/// A summary as text: the cancelled pairs, the layout and the quality of the quads.
 std::string described(const Quadrangulation& result, double diagonal);
 
 }  // namespace morsel::tools

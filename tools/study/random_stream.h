@@ -1,17 +1,17 @@
 #pragma once
-/// Random numbers by place: the same ones on every machine, in any order, on any number of threads.
+/// Random numbers by seed and place: the same ones on every machine, in any order, on any number of threads.
 
 #include <cstdint>
 #include <initializer_list>
 
 namespace morsel::tools {
 
-/// What random numbers are drawn for.
+/// The use that random numbers are drawn for.
 enum class RandomUse : std::uint8_t { normal_noise, isotropic_noise, decimation, placement };
 
 /// A sequence of random numbers that is named by a seed, a use and a place (which trial, which vertex …), so
-/// that each place has its own whatever else is drawn. SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable
-/// pseudorandom number generators") started at a hash of the three. A value type of 8 bytes.
+/// that each place has its own numbers whatever else is drawn. SplitMix64 (Steele, Lea, Flood 2014, "Fast
+/// splittable pseudorandom number generators") started at a hash of the three. A value type of 8 bytes.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, RandomUse use, std::initializer_list<std::uint64_t> place);

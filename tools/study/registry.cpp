@@ -63,7 +63,7 @@ std::vector<MethodEntry> standard_methods() {
       MethodEntry{"conventional", "the field as it is: PL critical points (Banchoff 1970)",
                   morse::make_conventional},
       MethodEntry{"denoise",
-                  "smoothing of the surface before the field is taken again (Fleishman et al. 2003)",
+                  "smoothing of the surface before the function is evaluated again (Fleishman et al. 2003)",
                   morse::make_denoise},
       MethodEntry{"fair", "harmonic but for chosen extrema (Ni, Garland, Hart 2004)", morse::make_fair},
       MethodEntry{"gaussian", "Gaussian averages, the paper's equation (1)", morse::make_gaussian},
@@ -102,7 +102,7 @@ void check_new(const Entries& entries, const std::string& name, const std::strin
     throw core::InvalidArgument("there is a " + kind + " of the name " + name + " already");
 }
 
-/// Makes the entry and refuses keys that it did not ask for.
+/// Makes the entry and throws on keys that it does not declare.
 template <class Entry>
 auto make_entry(const Entry& entry, core::Specification specification) {
   core::ParameterReader reader(std::move(specification));
@@ -172,8 +172,9 @@ MethodChain Registry::make_method(std::string_view specification) const {
     const MethodEntry& entry = find_entry(methods_, link.name, "method");
     const std::string text = core::to_string(link);
     MethodStep step{entry.name, make_entry(entry, std::move(link))};
-    if (step.method->traits().retakes_field && !chain.steps.empty())
-      throw core::InvalidArgument(text + " takes the Morse function again and does not use the field of " +
+    if (step.method->traits().reevaluates_function && !chain.steps.empty())
+      throw core::InvalidArgument(text +
+                                  " evaluates the Morse function again and does not use the field of " +
                                   chain.name + ", so it can only be the first step of a chain");
     chain.name += (chain.name.empty() ? "" : "+") + step.name;
     chain.steps.push_back(std::move(step));

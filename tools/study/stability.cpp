@@ -42,7 +42,7 @@ PointsByType by_type(const morse::CriticalPoints& points, PointChoice choice, st
   return result;
 }
 
-/// The clean points of one outcome, to be matched with others.
+/// The clean points of one outcome, to match others with.
 class CleanPoints {
  public:
   CleanPoints(const PointsByType& points, double radius)
@@ -66,7 +66,7 @@ class CleanPoints {
   std::array<PointMatcher, kTypes.size()> matchers_;
 };
 
-/// How many of as many points of each type as were found match, on average over random vertices of their
+/// The mean number of matches if as many points of each type as were found were at random vertices of their
 /// surface.
 double matches_by_chance(const CleanPoints& clean, const PointsByType& found, std::span<const Point> places,
                          RandomStream random) {
@@ -90,7 +90,7 @@ double ratio(std::size_t part, std::size_t whole) {
   return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// The trials of one run, all perturbations' in a row.
+/// The trials of one run, those of all perturbations one after the other.
 class Trials {
  public:
   Trials(const core::LoadedMesh& clean, const StabilityPlan& plan, StabilityResult& result,
@@ -103,10 +103,10 @@ class Trials {
         outcome.perturbations.push_back({perturbation, std::vector<Trial>(plan.trials_of(perturbation))});
   }
 
-  /// Of several errors the first trial's is thrown: trials before one that failed are always run.
+  /// Of several errors that of the first trial is thrown: trials before a failed one are always run.
   void run(const core::Progress& progress) {
     const std::thread::id caller = std::this_thread::get_id();
-    // What runs in a trial stops with the others, but only the caller's thread may report.
+    // A trial can be cancelled with the others, but only the caller's thread may report progress.
     const core::Progress silent = progress.unreported();
     std::vector<std::exception_ptr> errors(trials_.size());
     std::atomic<std::size_t> first_error = trials_.size();
@@ -193,7 +193,7 @@ class Trials {
   const StabilityPlan& plan_;
   StabilityResult& result_;
   std::vector<CleanPoints> points_;  // by outcome
-  TrialStore* store_;                // or null
+  TrialStore* store_;                // may be null
   std::vector<std::pair<std::size_t, std::size_t>> trials_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How well critical points repeat on surfaces that are nearly the same.
+/// Stability of critical points: how well they repeat on perturbed surfaces.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace morsel::tools {
 
-/// Which critical points are held against each other.
+/// Which critical points are compared with each other.
 enum class PointChoice : std::uint8_t { all, extrema };
 /// "all", "extrema".
 std::string_view to_string(PointChoice points);
 
-/// In the words of the command line.
+/// A stability study in the syntax of the command line.
 struct StabilityRequest {
   std::vector<std::string> fields = {"mean-curvature"};
   std::vector<std::string> methods = {"conventional", "salient", "tps"};
@@ -36,8 +36,8 @@ struct StabilityRequest {
   std::string reference = "conventional";
 };
 
-/// Puts in the perturbations that a request leaves to us: if there are none, noise of 0.05, 0.15, 0.3 and
-/// 0.5; and the reference field.
+/// Fills in what a request leaves out: if it has no perturbations, noise of 0.05, 0.15, 0.3 and 0.5; and the
+/// reference field.
 StabilityRequest with_defaults(StabilityRequest request);
 
 /// A length or a share of the bounding box's diagonal.
@@ -62,16 +62,17 @@ struct StabilityPlan {
   NamedFunction reference_function;
   MethodChain reference;
 
-  /// Those of a perturbation: one where nothing is random.
+  /// The number of trials of a perturbation: one if nothing is random.
   std::size_t trials_of(const Perturbation& perturbation) const {
     return perturbation.is_random() ? trials : 1;
   }
 };
 
-/// Throws InvalidArgument on unknown names and keys, bad values and what cannot go together. Touches no file.
+/// Throws InvalidArgument on unknown names and keys, bad values and options that exclude each other. Touches
+/// no file.
 StabilityPlan prepare(const StabilityRequest& request, const Registry& registry = Registry::standard());
 
-/// What the clean surface's points (the reference) and those found on another one have in common.
+/// The agreement of the clean surface's points (the reference) with those found on another one.
 struct Agreement {
   std::size_t reference = 0;
   std::size_t found = 0;
@@ -95,7 +96,7 @@ struct PerturbationOutcome {
   Perturbation perturbation;
   std::vector<Trial> trials;
 
-  /// Of a quantity over the trials that have it.
+  /// The estimate of a quantity over the trials that have it.
   template <class Quantity>
   Estimate over_trials(const Quantity& quantity) const {
     std::vector<double> values;
@@ -108,12 +109,12 @@ struct PerturbationOutcome {
   Estimate f_score() const;
   Estimate chance() const;
   Estimate drift() const;
-  Estimate found() const;  ///< points that are held against the clean ones
+  Estimate found() const;  ///< points that are compared with the clean ones
 };
 
-/// What a method did with a field, at its own count or at the wanted one.
+/// The outcome of a method on a field, at its own count or at the wanted one.
 struct StabilityOutcome {
-  std::size_t field = 0;  ///< which of the request's
+  std::size_t field = 0;  ///< its number in the request
   std::size_t method = 0;
   std::optional<std::size_t> target;
   ChainOutcome clean;
@@ -135,14 +136,14 @@ struct StabilityResult {
   double trial_seconds = 0;
 };
 
-/// Random placements that each chance level is the mean of.
+/// Number of random placements whose mean is a chance level.
 inline constexpr std::size_t kPlacements = 10;
 
-/// Trials that are known, and who hears of those that are made: what an interrupted run goes on from.
+/// Trials that are known, and a callback for new trials: an interrupted run continues from them.
 class TrialStore {
  public:
   virtual ~TrialStore() = default;
-  /// A trial for each outcome, in their order, or nothing if it is not known. May be called from several
+  /// A trial for each outcome, in their order, or nothing if they are not known. May be called from several
   /// threads at once, as add().
   virtual std::optional<std::vector<Trial>> find(const Perturbation& perturbation,
                                                  std::size_t number) const = 0;
@@ -153,7 +154,7 @@ class TrialStore {
 /// Makes all fields with all methods on the clean surface and on every perturbed one, and matches their
 /// critical points with the clean ones (PointMatcher, type by type) by where they lie on the clean surface
 /// (PerturbedMesh::places): a point that stays at its vertex has not moved. Points of a subdivided surface
-/// lie where they lie.
+/// keep their positions.
 ///
 /// The chance level is the mean F-score of kPlacements sets of as many points of each type at vertices of the
 /// perturbed surface, all equally likely and no two of a set the same.
@@ -161,7 +162,7 @@ class TrialStore {
 /// Trials run in parallel; a trial's result depends on its perturbation, the seed and its number alone, so it
 /// is the same whatever else runs and at any number of threads. Throws what functions and methods throw; an
 /// error in a trial names the perturbation, trial, field and method, and of several it is that of the first.
-/// What the `store`, if there is one, has of trials is taken from it.
+/// Trials that the `store`, if there is one, has are taken from it.
 StabilityResult run_stability(const core::LoadedMesh& clean, const StabilityPlan& plan,
                               const core::Progress& progress = {}, TrialStore* store = nullptr);
 

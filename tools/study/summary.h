@@ -1,5 +1,5 @@
 #pragma once
-/// What is kept of fields and diagrams where many results are: numbers alone.
+/// Summaries of fields and diagrams, for many results: numbers alone.
 
 #include <array>
 #include <cstddef>
@@ -25,7 +25,7 @@ FieldSummary summary_of(const FieldOutcome& outcome);
 
 /// How many pairs a diagram has, and how many of them are large.
 struct PersistenceSummary {
-  /// Of the field's extent.
+  /// Of the field's range.
   static constexpr std::array kPercents = {0.1, 1.0, 5.0};
 
   std::size_t pairs = 0;           ///< extremum-saddle pairs, infinite ones included

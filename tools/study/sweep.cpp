@@ -54,7 +54,7 @@ std::optional<int> iterations_run(const StepOutcome& step) {
   return std::nullopt;
 }
 
-/// A stopwatch that can be held.
+/// A stopwatch that can be paused.
 class HeldWatch {
  public:
   double seconds() const { return watch_.seconds() - held_; }
@@ -101,7 +101,7 @@ class SweepRun {
   }
 
  private:
-  /// What is known of a combination before its row is whole.
+  /// The parts of a row before it is complete.
   struct Draft {
     SweepRow row;
     std::vector<double> seconds;  // of each step
@@ -118,7 +118,7 @@ class SweepRun {
     };
     const auto readable = [&](std::size_t i) {
       return iterations_of(specification(i)) &&
-             make_step(specification(i)).steps.front().method->traits().tells_results;
+             make_step(specification(i)).steps.front().method->traits().iterates_are_results;
     };
     const auto text = [&](std::size_t i) {
       return to_string(readable(i) ? without_iterations(specification(i)) : specification(i));
@@ -170,7 +170,7 @@ class SweepRun {
     StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
     const int run = iterations_run(outcome).value_or(0);
     for (const auto& [iterations, group] : by_iterations) {
-      // Of the input a method tells only if it is not the one it was given; and it may have ended by itself.
+      // A method reports iteration 0 only if it is not its own input; and it may have ended by itself.
       if (!seconds.contains(iterations)) read(iterations, iterations == 0 && run > 0 ? input : result.field);
       set(outcome.parameters, "iterations", iterations);
       set(outcome.details, "iterations_run", std::min(iterations, run));
@@ -185,7 +185,7 @@ class SweepRun {
       if (name == key) held = std::int64_t{value};
   }
 
-  /// Steps are finished in any order: those inside a run that is read out come first.
+  /// Steps are finished in any order: within an open run, later steps before the run's own.
   void finish_step(std::size_t i, std::size_t step, const StepOutcome& outcome, double seconds) {
     Draft& draft = drafts_[i];
     draft.row.steps.resize(plan_.combinations[i].steps.size());
@@ -206,7 +206,7 @@ class SweepRun {
     emit();
   }
 
-  /// The rows that are whole, unless a run is open that has yet to tell its parameters.
+  /// Emits the complete rows, unless a run is open whose parameters are not known yet.
   void emit() {
     if (open_runs_ > 0) return;
     for (auto& [i, draft] : drafts_) {
@@ -223,7 +223,7 @@ class SweepRun {
     drafts_.clear();
   }
 
-  /// Does the work; an error of it names the combination, unless work within it has named its own.
+  /// Calls `work`; its errors name the combination, unless work nested in it has named its own.
   template <class Work>
   std::invoke_result_t<const Work&> named(std::size_t i, const Work& work) {
     const Combination& combination = plan_.combinations[i];
@@ -243,7 +243,7 @@ class SweepRun {
   const SweepPlan& plan_;
   const SweepOptions& options_;
   const core::Progress& progress_;
-  core::Progress silent_;  // of a combination: the sweep reports itself
+  core::Progress silent_;  // for a combination: progress is reported by the sweep
   std::vector<SweepRow> rows_;
   std::map<std::size_t, Draft> drafts_;
   int open_runs_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// A field and a method with every combination of some of their parameters' values.
+/// The parameter sweep: a field and a method with every combination of some of their parameters' values.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace morsel::tools {
 
-/// Seconds that a combination would have taken by itself.
+/// The seconds that a combination would have taken alone.
 struct SweepSeconds {
   double field = 0;
   double method = 0;
@@ -25,7 +25,7 @@ struct SweepSeconds {
   double sum() const { return field + method + measuring; }
 };
 
-/// What came of a combination.
+/// The result of a combination.
 struct SweepRow {
   FieldSummary field;              ///< before the method
   std::vector<StepOutcome> steps;  ///< without records of their iterations
@@ -43,20 +43,20 @@ struct SweepRow {
 struct SweepOptions {
   /// Rows that are known: for each combination, or empty if none is.
   std::vector<std::optional<SweepRow>> known = {};
-  /// Told each row that is made, with its combination's number, by the calling thread.
+  /// Called with each row that is made and its combination's number, on the calling thread.
   std::function<void(std::size_t combination, const SweepRow& row)> on_row = {};
 };
 
 /// A row for each combination, in their order.
 ///
-/// Work that combinations have in common is done once: a field is taken once for all methods, the first steps
-/// of a chain are applied once for all that follows, and what differs in the iterations of a step alone is
-/// read out of one run of it, if the method lets itself be read (core::MethodTraits). Rows are the
-/// same bits as those of a sweep with one combination. No more fields are in memory at a time than a chain
-/// has steps, and two more.
+/// Work that combinations have in common is done once: a function is evaluated once for all methods, the
+/// first steps of a chain are applied once for all continuations, and combinations that differ only in the
+/// iterations of a step are taken from one run of it, if core::MethodTraits allow it. Rows are the same bits
+/// as those of a sweep with one combination. No more fields are in memory at a time than a chain has steps,
+/// and two more.
 ///
-/// Seconds of a row that was read out are those up to its iteration. Throws what functions and methods throw;
-/// an error names its combination.
+/// The seconds of a row that was taken from a longer run are those up to its iteration. Throws what functions
+/// and methods throw; an error names its combination.
 std::vector<SweepRow> run_sweep(const core::LoadedMesh& loaded, const SweepPlan& plan,
                                 const SweepOptions& options = {}, const core::Progress& progress = {});
 

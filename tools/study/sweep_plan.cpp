@@ -13,7 +13,7 @@ namespace {
 
 using core::InvalidArgument;
 
-/// Where a varied key stands: in the field (0) or in a step of the method (from 1 on).
+/// The place of a varied key: in the field (0) or in a step of the method (from 1 on).
 struct Place {
   std::size_t link = 0;
   std::string key;
@@ -64,7 +64,7 @@ class Links {
     return names.empty() ? "none" : core::listed(names);
   }
 
-  /// As a key's prefix names it: its name where that is its own, else its number.
+  /// The prefix of a key of this step: its name if that is unique, else its number.
   std::string prefix(std::size_t link) const {
     if (link == 0) return "field";
     const bool alone = std::count_if(links_.begin() + 1, links_.end(),

@@ -1,5 +1,5 @@
 #pragma once
-/// A field and a method with every combination of some of their parameters' values: the combinations.
+/// The combinations of a parameter sweep: requests, and plans.
 
 #include <cstddef>
 #include <string>
@@ -11,22 +11,22 @@
 
 namespace morsel::tools {
 
-/// In the words of the command line.
+/// A parameter sweep in the syntax of the command line.
 struct SweepRequest {
   std::string field = "mean-curvature";
   std::string method = "salient";  ///< or a chain
   std::vector<std::string> vary;   ///< see parse_variation()
 };
 
-/// One value of each variation, and what field and method are with them.
+/// One value of each variation, and the field and method with these values.
 struct Combination {
   std::vector<std::size_t> choices;  ///< for each variation, which of its values
   core::Specification field;
   std::vector<core::Specification> steps;
 };
 
-/// A request whose names and values have been looked up: all combinations, those next to each other that
-/// differ in the last variation alone.
+/// A request whose names and values have been looked up: all combinations; those that differ in the
+/// last variation alone are consecutive.
 struct SweepPlan {
   std::vector<Variation> variations;
   std::vector<Combination> combinations;
@@ -36,12 +36,12 @@ struct SweepPlan {
 /// The most combinations of one sweep.
 inline constexpr std::size_t kMostCombinations = 1'000'000;
 
-/// A key is looked for in the field and in all steps of the method; where several have it, it is written
+/// A key is looked for in the field and in all steps of the method; if several have it, it is written
 /// "field.KEY", "NAME.KEY" or, with the number of the step from 1 on, "2.KEY".
 ///
-/// Throws InvalidArgument if nothing varies, on keys that nothing or more than one thing has, that vary twice
-/// or are given a value besides, on what make_function() and make_method() refuse of any combination, and on
-/// more than kMostCombinations. Touches no file.
+/// Throws InvalidArgument if nothing varies, on keys that neither the field nor a step has or that are
+/// ambiguous, that vary twice or also have a fixed value, on any combination for which make_function() or
+/// make_method() throws, and on more than kMostCombinations. Touches no file.
 SweepPlan prepare(const SweepRequest& request, const Registry& registry = Registry::standard());
 
 }  // namespace morsel::tools

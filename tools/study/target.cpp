@@ -26,7 +26,7 @@ core::ScalarField blended(const core::ScalarField& from, const core::ScalarField
   return morse::keep_order(from, std::move(values));
 }
 
-/// Takes multiple saddles of `field` apart until the wanted number is reached or none is left.
+/// Unfolds multiple saddles of `field` until the wanted number is reached or none is left.
 void unfold(core::ScalarField& field, TargetOutcome& outcome) {
   std::vector<std::pair<double, core::Index>> saddles;  // by the change they need
   if (outcome.reached < outcome.wanted)
@@ -81,7 +81,8 @@ bool TargetSearch::offer(const core::ScalarField& field) {
 
 /// The largest share found that leaves enough critical points.
 double TargetSearch::furthest_blend() const {
-  // Of what remains of the field before, the logarithm is halved: a little noise makes many critical points.
+  // The logarithm of the remaining share of the field before is halved: a little noise makes many critical
+  // points.
   double enough = 0;
   double too_few = kLeastRemainder;
   for (int i = 0; i < kHalvings; ++i) {

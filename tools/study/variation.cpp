@@ -12,7 +12,7 @@
 namespace morsel::tools {
 namespace {
 
-constexpr double kMet = 1e-9;  // of a step: as near as that the end of a range is met
+constexpr double kMet = 1e-9;  // share of a step within which the end of a range counts as met
 
 struct Quantity {
   double number = 0;
@@ -35,7 +35,7 @@ std::string written(double number, const std::string& unit) {
   return core::to_digits(number, 12) + unit;  // hides that 0.1 + 0.2 is not 0.3
 }
 
-/// Where each ".." is.
+/// The parts of a text between "..".
 std::vector<std::string_view> split_range(std::string_view text) {
   std::vector<std::string_view> parts;
   for (std::size_t dots; (dots = text.find("..")) != std::string_view::npos; text.remove_prefix(dots + 2))

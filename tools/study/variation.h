@@ -1,5 +1,5 @@
 #pragma once
-/// A parameter and the values that a sweep gives it, in the words of the command line.
+/// A parameter and its values in a parameter sweep, in the syntax of the command line.
 
 #include <cstddef>
 #include <string>
@@ -9,25 +9,23 @@
 namespace morsel::tools {
 
 struct Variation {
-  std::string key;  ///< as given: "sigma", "salient.sigma", "2.sigma", "field.scale"
-  std::vector<std::string>
-      values;  ///< one or more, all different, as they would stand in --field or --method
+  std::string key;                  ///< as given: "sigma", "salient.sigma", "2.sigma", "field.scale"
+  std::vector<std::string> values;  ///< one or more, all different, in the syntax of --field or --method
 };
 
 /// The most values of one variation.
 inline constexpr std::size_t kMostValues = 100'000;
 
 /// Reads "KEY=VALUE,VALUE…". A value is a text, or stands for several: A..B from A to B by 1 (down, if B is
-/// less), A..B..S by S, A..B..xF by the factor F; B is one of them if it is met but for rounding. Numbers may
+/// less), A..B..S by S, A..B..xF by the factor F; B is one of them if it is met up to rounding. Numbers may
 /// have a unit ("2eps..16eps..x2"), each the same or none; they are written with up to 12 digits. A backslash
 /// keeps a comma in a value.
 ///
-/// Throws InvalidArgument, quoting the text, on an empty key or value, a range that is none, a value given
+/// Throws InvalidArgument, quoting the text, on an empty key or value, an invalid range, a value given
 /// twice and more than kMostValues.
 Variation parse_variation(std::string_view text);
 
-/// The values as numbers, where all are and have the same unit, which is then written to `unit`; else
-/// nothing.
+/// The values as numbers, if all are numbers with the same unit, which is written to `unit`; else empty.
 std::vector<double> numbers_of(const std::vector<std::string>& values, std::string& unit);
 
 }  // namespace morsel::tools

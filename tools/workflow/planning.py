@@ -51,18 +51,23 @@ class Settings:
         values.update(given)
         for name in ("collection", "out"):
             if values[name] is None:
-                raise WorkflowError(f"the setting \"{name}\" is missing: --config collection=FOLDER out=FOLDER, or a --configfile")
+                raise WorkflowError(
+                    f"the setting \"{name}\" is missing: --config collection=FOLDER out=FOLDER, or a "
+                    "--configfile")
         for name in NUMBERS:
             if not isinstance(values[name], int) or isinstance(values[name], bool) or values[name] < 1:
-                raise WorkflowError(f"the setting \"{name}\" must be a whole number from 1 on, not {values[name]!r}")
+                raise WorkflowError(
+                    f"the setting \"{name}\" must be a whole number from 1 on, not {values[name]!r}")
         retry = str(values["retry"]).lower()  # --config knows True and False only
         if retry not in ("true", "false"):
             raise WorkflowError(f"the setting \"retry\" must be true or false, not {values['retry']!r}")
         if values["time_limit"] >= 60 * values["job_minutes"]:
-            raise WorkflowError(f"a mesh's time_limit of {values['time_limit']} s must be shorter than a job's job_minutes,"
-                                f" {values['job_minutes']} min, or it would never be known to have failed")
+            raise WorkflowError(f"a mesh's time_limit of {values['time_limit']} s must be shorter than a "
+                                f"job's job_minutes, {values['job_minutes']} min, or it would never be known "
+                                "to have failed")
         if values["cpus"] % values["threads"] != 0:
-            raise WorkflowError(f"cpus ({values['cpus']}) must be a multiple of threads ({values['threads']})")
+            raise WorkflowError(
+                f"cpus ({values['cpus']}) must be a multiple of threads ({values['threads']})")
         self.program = str(values["morsel"])
         self.collection = str(values["collection"])
         self.out = str(values["out"])
@@ -82,7 +87,9 @@ class Settings:
         try:
             return shlex.split(options or "")
         except (AttributeError, ValueError) as error:
-            raise WorkflowError(f"the setting \"options\" must be words as they are typed, or a list of them, not {options!r}: {error}") from None
+            raise WorkflowError(
+                f"the setting \"options\" must be words as they are typed, or a list of them, not "
+                f"{options!r}: {error}") from None
 
     def command(self, *more):
         """The words that run the whole collection in one call, and `more`."""
@@ -98,7 +105,8 @@ class Settings:
         """From here on its whole path; nodes are not asked for it again."""
         found = shutil.which(self.program)
         if found is None:
-            raise WorkflowError(f"there is no program \"{self.program}\"; name it with its path: --config morsel=PATH/morsel")
+            raise WorkflowError(
+                f"there is no program \"{self.program}\"; name it with its path: --config morsel=PATH/morsel")
         self.program = os.path.abspath(found)
 
     def open_meshes(self):
@@ -188,4 +196,5 @@ class Plan:
     def tell(self):
         """Not all done is a failure of the whole, as it is of `morsel batch`."""
         if lines(self.summary.read_bytes()) != ["0"]:
-            raise WorkflowError(f"not all meshes are done: {self.settings.out}/summary.csv and index.html tell which and why")
+            raise WorkflowError(
+                f"not all meshes are done: {self.settings.out}/summary.csv and index.html tell which and why")

@@ -1,4 +1,4 @@
-// study MESH: a Morse function and a method of one's own, compared with those that ship. Prints their
+// study MESH: a user's Morse function and method, compared with those that ship. Prints their
 // critical points.
 
 #include <cstdio>

@@ -1,0 +1,68 @@
+#include "morsel/tools/commands/steps.h"
+
+#include <utility>
+
+#include "morsel/core/io/file_writer.h"
+#include "morsel/tools/report/hashed_mesh.h"
+
+namespace morsel::tools {
+
+void check_writable(const std::string& path) {
+  if (!path.empty()) const core::FileWriter probe(path);
+}
+
+std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFiles& files, const Run& run) {
+  if (path.empty()) return nullptr;
+  return std::make_unique<ResultFolder>(path,
+                                        ResultFolder::Options{files.outputs(), run.console.stop_token()});
+}
+
+MeshInput read_input(const std::string& path, const Run& run, bool items) {
+  const Stopwatch watch;
+  HashedMesh mesh = read_hashed_mesh(path, {.repair = run.common.repair}, run.console.progress());
+  return {std::move(mesh.loaded), {path, std::move(mesh.sha256), run.common.repair, items, watch.seconds()}};
+}
+
+void tell_target(const MadeField& made, Console& console) {
+  if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
+}
+
+FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
+    : request_(request), run_(run), plan_(prepare(request)), file_{mesh, {}} {}
+
+RunFiles FieldRun::files() const {
+  return RunFiles().reads("MESH", file_.path).reads_of_field(request_.field);
+}
+
+void FieldRun::read() {
+  MeshInput input = read_input(file_.path, run_);
+  file_ = input.file();
+  load_seconds_ = input.about.load_seconds;
+  mesh_.emplace(core::WholeMesh{std::move(input.loaded), {}});
+}
+
+void FieldRun::read_whole() {
+  const Stopwatch watch;
+  HashedWholeMesh mesh =
+      read_hashed_whole_mesh(file_.path, {.repair = run_.common.repair}, run_.console.progress());
+  file_.sha256 = std::move(mesh.sha256);
+  mesh_.emplace(std::move(mesh.input));
+  load_seconds_ = watch.seconds();
+}
+
+void FieldRun::make() {
+  made_.emplace(make_field(plan_, loaded(), run_.console.progress()));
+  tell_target(*made_, run_.console);
+}
+
+Provenance FieldRun::provenance(const Json& request) const {
+  return {run_.common.command, request, source()};
+}
+
+Timings FieldRun::timings(const Timings& more) const {
+  Timings all = {{"load", load_seconds_}, {"field", made_->input.seconds}, {"method", made_->method_seconds}};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace morsel::tools

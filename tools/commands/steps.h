@@ -1,0 +1,83 @@
+#pragma once
+/// The steps that commands on a mesh share, in their order: names are looked up, files checked and targets
+/// opened, so that what is wrong with them is told before the work; the mesh is read and its field made;
+/// results are written with their provenance and told.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/report/field_document.h"
+#include "morsel/tools/report/provenance.h"
+#include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/results/result_folder.h"
+#include "morsel/tools/study/made_field.h"
+
+namespace morsel::tools {
+
+/// Throws WriteFailed unless a file could be written there. An empty path stands for none.
+void check_writable(const std::string& path);
+
+/// The folder of results at `path`, which knows the run's other outputs; null if the path is empty. Throws as
+/// ResultFolder.
+std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFiles& files, const Run& run);
+
+/// MESH, and what documents say of it.
+struct MeshInput {
+  core::LoadedMesh loaded;
+  ReportInput about;
+
+  HashedFile file() const { return {about.mesh_path, about.mesh_sha256}; }
+};
+/// `items`: whether documents list what grows with the mesh.
+MeshInput read_input(const std::string& path, const Run& run, bool items = true);
+
+/// Says why a wanted number of critical points was not reached.
+void tell_target(const MadeField& made, Console& console);
+
+/// What commands on one field begin with: MESH, and what --field, --method and --target make on it.
+class FieldRun {
+ public:
+  /// Looks the names up. Throws as prepare(). Refers to all three, which must outlive it.
+  FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run);
+  FieldRun(const FieldRun&) = delete;
+  FieldRun& operator=(const FieldRun&) = delete;
+
+  /// What is read: MESH and the files that keys of the field name.
+  RunFiles files() const;
+
+  /// Reads MESH. Throws as core::read_mesh().
+  void read();
+  /// The same, for commands that write in the input's vertex numbers.
+  void read_whole();
+  const core::LoadedMesh& loaded() const { return mesh_->loaded; }
+  /// Of all vertices of the file, after read_whole().
+  const std::vector<core::Point>& input_positions() const { return mesh_->input_positions; }
+
+  /// Makes the field on the mesh and tells what is to be told of it.
+  void make();
+  const core::ScalarField& field() const { return made_->field(); }
+  const MadeField& made() const { return *made_; }
+  const FieldPlan& plan() const { return plan_; }
+
+  /// What documents and other files say of all that. `request`: all options that shape the result.
+  FieldSource source() const { return {file_, loaded(), plan_, *made_}; }
+  Provenance provenance(const Json& request) const;
+  /// "load", "field" and "method", then `more`.
+  Timings timings(const Timings& more) const;
+
+ private:
+  const FieldRequest& request_;
+  const Run& run_;
+  FieldPlan plan_;
+  HashedFile file_;
+  std::optional<core::WholeMesh> mesh_;
+  double load_seconds_ = 0;
+  std::optional<MadeField> made_;
+};
+
+}  // namespace morsel::tools
