@@ -70,8 +70,8 @@ class Points(ProgramTest):
     def test_exactly_as_many_as_asked_for_and_apart(self):
         for mesh in ("lion-head.off", "bunny00.off"):
             for rank in ("persistence", "salience"):
-                document = self.document(SAMPLES / mesh, "--field", "mean-curvature", "--points", 50, "--rank",
-                                         rank)
+                document = self.document(SAMPLES / mesh, "--field", "mean-curvature", "--points", 50,
+                                         "--rank", rank)
                 self.assertEqual((document["count"], document["note"]), (50, ""))
                 self.assertAlmostEqual(document["spacing"], 0.05 * document["mesh"]["bbox_diagonal"])
                 self.assertEqual(len({p["vertex"] for p in document["points"]}), 50)
@@ -132,7 +132,8 @@ class Points(ProgramTest):
 
     def test_vertices_have_the_numbers_of_the_file(self):
         mesh = self.file("damaged.off", DAMAGED)
-        document = self.document(mesh, "--repair", "--field", "height:axis=x", "--spacing", 0, "--kind", "all")
+        document = self.document(mesh, "--repair", "--field", "height:axis=x", "--spacing", 0, "--kind",
+                                 "all")
         for point in document["points"]:
             lines = DAMAGED.splitlines()
             self.assertEqual(point["position"], [float(x) for x in lines[2 + point["vertex"]].split()])
