@@ -41,7 +41,7 @@ METHODS = {
 }
 FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature", "curvedness",
           "shape-index", "eigenfunction", "gaussian-curvature:estimator=diffused",
-          "heat-kernel-signature", "wave-kernel-signature:modes=40",
+          "heat-kernel-signature:modes=40", "wave-kernel-signature:modes=40",
           "geodesic:source=max-z")
 
 
