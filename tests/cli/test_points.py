@@ -41,7 +41,8 @@ class Points(ProgramTest):
 
     def values(self, *numbers):
         self.file("values.txt", "".join(f"{number}\n" for number in numbers))
-        return [self.file("octahedron.off", OCTAHEDRON), "--field", "vertex-scalar:file=values.txt"]
+        return [self.file("octahedron.off", OCTAHEDRON), "--field", "vertex-scalar:file=values.txt", "--fill",
+                "none"]
 
     def test_a_drawn_field(self):
         """The tips of an octahedron, whose distance runs across two triangles."""
@@ -82,6 +83,13 @@ class Points(ProgramTest):
                 mean = sum(p["percentile"] for p in document["points"]) / 50
                 self.assertAlmostEqual(document["mean_percentile"], mean)
                 self.assertEqual("salience_scale" in document, rank == "salience")
+
+    def test_fifty_points_of_the_default_field(self):
+        """One command, whatever the mesh: the second field fills up."""
+        for mesh in ("lion-head.off", "bunny00.off", "elephant.off"):
+            document = self.document(SAMPLES / mesh, "--points", 50)
+            self.assertEqual((document["count"], document["note"]), (50, ""))
+            self.assertEqual(document["points"][0]["field"], "gaussian-curvature")
 
     def test_a_second_field_fills_up(self):
         document = self.document(SAMPLES / "lion-head.off", "--field", "height", "--method",
@@ -145,7 +153,7 @@ class Points(ProgramTest):
                               (("--points", "0"), "--points"),
                               (("--spacing", "wide"), "--spacing"),
                               (("--spacing=-1%",), "spacing"),
-                              (("--fill", "curvature"), "curvature"),
+                              (("--fill", "curvature"), "curvature"), (("--fill", ""), "function"),
                               (("--salience-scale", "8eps"), "rank=salience"),
                               (("--salience-scale", "0", "--rank", "salience"), "above 0")):
             with self.subTest(words):

@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/text/numbers.h"
@@ -15,6 +16,9 @@
 namespace morsel::tools {
 namespace {
 
+/// As a Morse function that fills up.
+constexpr std::string_view kNone = "none";
+
 struct Options {
   std::string mesh;
   FieldRequest request = {"gaussian-curvature:estimator=diffused", "conventional", {}};
@@ -22,7 +26,7 @@ struct Options {
   std::string kind{to_string(PointsRequest().kind)};
   std::string rank{to_string(PointsRequest().rank)};
   std::string spacing = core::to_string(PointsRequest().spacing);
-  std::string fill;
+  std::string fill = "mean-curvature";
   std::string scale;
   std::string output;
 };
@@ -33,7 +37,7 @@ PointsRequest points_request(const Options& options) {
   request.kind = parse_point_kind(options.kind);
   request.rank = parse_point_rank(options.rank);
   request.spacing = core::parse_length(options.spacing, "--spacing");
-  if (!options.fill.empty()) request.fill = options.fill;
+  if (options.fill != kNone) request.fill = options.fill;
   if (!options.scale.empty()) request.scale = core::parse_length(options.scale, "--salience-scale");
   return request;
 }
@@ -114,9 +118,8 @@ void add_points(Program& program) {
           "at "
           "one vertex. Distances are those of paths along edges and straight across two triangles: not "
           "shorter than geodesic ones, a few percent longer");
-  command.text("--fill", options->fill, "A Morse function that fills up where there are too few points")
+  command.text("--fill", options->fill, "A Morse function that fills up where points are too few, or none")
       .value("F")
-      .shows_default("none")
       .in_detail("Its points come after all of the field's, by their own rank and apart from those");
   command.text("--salience-scale", options->scale, "How far salience is smoothed, with --rank salience")
       .value("LENGTH")
