@@ -153,7 +153,7 @@ class Points(ProgramTest):
                               (("--points", "0"), "--points"),
                               (("--spacing", "wide"), "--spacing"),
                               (("--spacing=-1%",), "spacing"),
-                              (("--fill", "curvature"), "curvature"), (("--fill", ""), "function"),
+                              (("--fill", "curvature"), "curvature"),
                               (("--salience-scale", "8eps"), "rank=salience"),
                               (("--salience-scale", "0", "--rank", "salience"), "above 0")):
             with self.subTest(words):
