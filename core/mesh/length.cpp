@@ -33,6 +33,8 @@ double Length::on(const TriangleMesh& mesh) const {
       return value * mesh.epsilon();
     case LengthUnit::edge:
       return value * mean_edge_length(mesh);
+    case LengthUnit::percent:
+      return value / 100 * mesh.bounding_box().diagonal();
     default:
       return value;
   }

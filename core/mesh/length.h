@@ -1,5 +1,5 @@
 #pragma once
-/// Lengths as users give them: in the unit of the mesh, in ε, or in edges.
+/// Lengths as users give them: in the unit of the mesh, in ε, in edges or as a share of its size.
 
 #include <cstdint>
 #include <string>
@@ -15,7 +15,8 @@ double mean_edge_length(const TriangleMesh& mesh);
 enum class LengthUnit : std::uint8_t {
   mesh,     ///< the mesh's own
   epsilon,  ///< ε = 0.3 % of the bounding box's diagonal (the paper's "Parameters")
-  edge      ///< the mesh's mean_edge_length()
+  edge,     ///< the mesh's mean_edge_length()
+  percent   ///< 1 % of the bounding box's diagonal
 };
 
 /// A length in one of these units.
@@ -26,12 +27,13 @@ struct Length {
   static constexpr Length absolute(double length) { return {length, LengthUnit::mesh}; }
   static constexpr Length epsilons(double count) { return {count, LengthUnit::epsilon}; }
   static constexpr Length edges(double count) { return {count, LengthUnit::edge}; }
+  static constexpr Length percent(double count) { return {count, LengthUnit::percent}; }
 
   /// The length in the unit of `mesh`. O(1), or O(edges) in edges.
   double on(const TriangleMesh& mesh) const;
 };
 
-/// "8eps", "3edges" or "0.25"; parse_length() reads it back exactly.
+/// "8eps", "3edges", "5%" or "0.25"; parse_length() reads it back exactly.
 std::string to_string(const Length& length);
 
 }  // namespace morsel::core

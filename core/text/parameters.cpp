@@ -34,9 +34,10 @@ bool parse_whole(std::string_view text, Number& value) {
 }  // namespace
 
 std::string to_string(const Length& length) {
-  const char* unit = length.unit == LengthUnit::epsilon ? "eps"
-                     : length.unit == LengthUnit::edge  ? "edges"
-                                                        : "";
+  const char* unit = length.unit == LengthUnit::epsilon   ? "eps"
+                     : length.unit == LengthUnit::edge    ? "edges"
+                     : length.unit == LengthUnit::percent ? "%"
+                                                          : "";
   return shortest(length.value) + unit;
 }
 
@@ -59,7 +60,8 @@ Length parse_length(std::string_view text, std::string_view what) {
   LengthUnit unit = LengthUnit::mesh;
   for (const auto& [name, named] : {std::pair<std::string_view, LengthUnit>("eps", LengthUnit::epsilon),
                                     {"edges", LengthUnit::edge},
-                                    {"edge", LengthUnit::edge}})
+                                    {"edge", LengthUnit::edge},
+                                    {"%", LengthUnit::percent}})
     if (unit == LengthUnit::mesh && text.ends_with(name)) {
       text.remove_suffix(name.size());
       unit = named;
@@ -67,7 +69,7 @@ Length parse_length(std::string_view text, std::string_view what) {
   double value = 0;
   if (!parse_whole(text, value) || !std::isfinite(value))
     throw InvalidArgument(std::string(what) +
-                          " must be a length such as 0.25 (in the mesh's unit), 8eps or 3edges, not " +
+                          " must be a length such as 0.25 (in the mesh's unit), 8eps, 3edges or 5%, not " +
                           in_quotes(given));
   return {value, unit};
 }

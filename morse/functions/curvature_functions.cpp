@@ -42,19 +42,21 @@ std::vector<double> product(const PrincipalCurvatures& k) {
   return combine(k, [](double k1, double k2) { return k1 * k2; });
 }
 
-enum class Way : std::uint8_t { one_ring, quadric, diffused };
+enum class Way : std::uint8_t { one_ring, quadric, diffused, spread };
 
 /// From one-rings (directly or by Taubin's tensor), from fitted quadrics or diffused.
 class Curvature final : public core::MorseFunction {
  public:
-  /// Without `direct`, one-rings are Taubin's. `reach`: the quadrics' radius, or the scale of diffusion.
+  /// Without `direct`, one-rings are Taubin's. `reach`: the quadrics' radius, or the scale of diffusion, or
+  /// the spread, with which `fairing` goes.
   Curvature(Combination combination, Direct direct, Way way, core::Length scale, core::Length reach,
-            core::Parameters parameters)
+            core::Length fairing, core::Parameters parameters)
       : combination_(combination),
         direct_(direct),
         way_(way),
         scale_(scale),
         reach_(reach),
+        fairing_(fairing),
         parameters_(std::move(parameters)) {}
 
   core::FunctionResult evaluate(const TriangleMesh& mesh,
@@ -88,6 +90,14 @@ class Curvature final : public core::MorseFunction {
         parameters.emplace_back("diffusion", diffusion);
         return diffused_mean_curvature(surface, diffusion, context.progress);
       }
+      case Way::spread: {
+        const double spread = reach_on(mesh, "spread");
+        const double fairing = fairing_.on(mesh);
+        check_extent(mesh, "fairing", fairing_, fairing);
+        parameters.emplace_back("fairing", fairing);
+        parameters.emplace_back("spread", spread);
+        return diffused_gaussian_curvature(surface, fairing, spread, context.progress);
+      }
       case Way::one_ring:
         break;
     }
@@ -97,15 +107,23 @@ class Curvature final : public core::MorseFunction {
 
   double reach_on(const TriangleMesh& mesh, const char* key) const {
     const double reach = reach_.on(mesh);
-    const auto comes_to = [&] {
-      return key + (" = " + core::to_string(reach_)) + " comes to " + core::shortest(reach);
-    };
-    if (!(reach > 0)) throw core::BadInput(comes_to() + " on this mesh, whose vertices all coincide");
-    const double diagonal = mesh.bounding_box().diagonal();
-    if (way_ == Way::diffused && reach > diagonal)
-      throw core::BadInput(comes_to() + " on this mesh, more than the diagonal of its bounding box, " +
-                           core::shortest(diagonal) + ": nothing would be left of it");
+    if (!(reach > 0))
+      throw core::BadInput(comes_to(key, reach_, reach) + " on this mesh, whose vertices all coincide");
+    if (way_ == Way::diffused || way_ == Way::spread) check_extent(mesh, key, reach_, reach);
     return reach;
+  }
+
+  /// Throws if a length is more than the surface is wide.
+  static void check_extent(const TriangleMesh& mesh, const char* key, const core::Length& given,
+                           double length) {
+    const double diagonal = mesh.bounding_box().diagonal();
+    if (length > diagonal)
+      throw core::BadInput(comes_to(key, given, length) + " on this mesh, more than the diagonal of its " +
+                           "bounding box, " + core::shortest(diagonal) + ": nothing would be left of it");
+  }
+
+  static std::string comes_to(const char* key, const core::Length& given, double length) {
+    return key + (" = " + core::to_string(given)) + " comes to " + core::shortest(length);
   }
 
   Combination combination_;
@@ -113,6 +131,7 @@ class Curvature final : public core::MorseFunction {
   Way way_;
   core::Length scale_;
   core::Length reach_;
+  core::Length fairing_;
   core::Parameters parameters_;
 };
 
@@ -132,14 +151,19 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
   estimators.push_back({"quadric", nullptr, Way::quadric});
   std::vector<std::string_view> names;
   bool can_diffuse = false;
+  bool can_spread = false;
   for (const Estimator& estimator : estimators) {
     names.push_back(estimator.name);
     if (estimator.way == Way::diffused) can_diffuse = true;
+    if (estimator.way == Way::spread) can_spread = true;
   }
   std::string about = "how it is measured; quadric: fitted within a radius, for noisy surfaces";
   if (can_diffuse)
     about += "; diffused: along the surface, for surfaces that are noisy or sampled otherwise, with scale=" +
              core::to_string(kScaleOfDiffused) + " unless given";
+  if (can_spread)
+    about +=
+        "; diffused: of the surface faired, then spread along it, highest at tips that people would mark";
   const std::string chosen = reader.choice("estimator", names.front(), names, about);
   const Estimator& estimator =
       *std::ranges::find_if(estimators, [&](const Estimator& e) { return e.name == chosen; });
@@ -160,8 +184,18 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
   if (can_diffuse)
     read_reach(Way::diffused, "diffusion", core::Length::epsilons(12),
                "with estimator=diffused: waves of 2 pi times this keep nearly half their height");
+  core::Length fairing;
+  if (can_spread) {
+    read_reach(Way::spread, "spread", core::Length::percent(20),
+               "with estimator=diffused: how far one step of heat spreads the curvature");
+    fairing = reader.length("fairing", core::Length::percent(0.8), core::kNonNegative,
+                            "with estimator=diffused: waves of 2 pi times this keep half their height first");
+    if (estimator.way != Way::spread && reader.given("fairing"))
+      throw core::InvalidArgument(reader.owner() +
+                                  ":fairing is for estimator=diffused, not for estimator=" + chosen);
+  }
   parameters.emplace_back("estimator", chosen);
-  return std::make_unique<Curvature>(combination, estimator.direct, estimator.way, scale, reach,
+  return std::make_unique<Curvature>(combination, estimator.direct, estimator.way, scale, reach, fairing,
                                      std::move(parameters));
 }
 
@@ -184,7 +218,7 @@ std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& 
 }
 
 std::unique_ptr<core::MorseFunction> make_gaussian_curvature(core::ParameterReader& reader) {
-  return make(reader, product, {{"defect", gaussian_curvature}});
+  return make(reader, product, {{"defect", gaussian_curvature}, {"diffused", nullptr, Way::spread}});
 }
 
 std::unique_ptr<core::MorseFunction> make_principal_curvature(core::ParameterReader& reader) {

@@ -25,12 +25,13 @@ std::vector<double> shape_index(const PrincipalCurvatures& curvatures);
 // many vertices took rings in place of too small a ball (widened_vertices), and how many could not be fitted
 // (unfitted_vertices).
 //
-// With estimator=diffused the scale is 0.6edges unless given, and diffusion=12eps or diffusion=0.25 is the
-// scale of diffused_mean_curvature().
+// With estimator=diffused the scale of mean-curvature is 0.6edges unless given, and diffusion=12eps or
+// diffusion=0.25 is the scale of diffused_mean_curvature(); gaussian-curvature then is
+// diffused_gaussian_curvature() with the lengths fairing (0.8%) and spread (20%).
 
 /// Keys: estimator=taubin|cotangent|diffused|quadric, scale, radius, diffusion.
 std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& reader);
-/// Keys: estimator=defect|quadric, scale, radius.
+/// Keys: estimator=defect|diffused|quadric, scale, radius, fairing, spread.
 std::unique_ptr<core::MorseFunction> make_gaussian_curvature(core::ParameterReader& reader);
 /// Keys: which=max|min, estimator=taubin|quadric, scale, radius.
 std::unique_ptr<core::MorseFunction> make_principal_curvature(core::ParameterReader& reader);

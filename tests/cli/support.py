@@ -49,6 +49,7 @@ DAMAGED = """OFF
 ON_MESH = {
     "compare": (("compare", "{}", "--method", "conventional"), {"-o": ".json", "--html": ".html"}),
     "field": (("field", "{}"), {"-o": ".txt"}),
+    "points": (("points", "{}"), {"-o": ".csv"}),
     "hierarchy": (("hierarchy", "{}", "--levels", "0"), {"-o": ".json"}),
     "segment": (("segment", "{}"), {"-o": ".ply", "--json": ".json"}),
     "cut": (("cut", "{}"), {"-o": ".off", "--json": ".json", "--graph": ".vtp"}),

@@ -40,7 +40,8 @@ METHODS = {
     "tps-count": "tps:count=100",
 }
 FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature", "curvedness",
-          "shape-index", "eigenfunction",
+          "shape-index", "eigenfunction", "gaussian-curvature:estimator=diffused",
+          "heat-kernel-signature:modes=40", "wave-kernel-signature:modes=40",
           "geodesic:source=max-z")
 
 
@@ -72,6 +73,8 @@ def commands(mesh, small, report):
         "batch": ("batch", "collection", "--out", "out", "--figures", "--export", "--html"),
         "check": ("check", report),
         "info": ("info", mesh, "--json"),
+        "points": ("points", mesh, "-o", "p.csv"),
+        "points-salience": ("points", small, "--rank", "salience", "--fill", "mean-curvature", "-o", "p.vtp"),
         "field-write": ("field", mesh, "--field", "height", "-o", "f.vtp"),
     }
     for name, method in METHODS.items():

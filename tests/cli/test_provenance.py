@@ -193,6 +193,22 @@ class Provenance(ProgramTest):
             self.check(files, "segment", [self.mesh], ["conventional"])
             shutil.rmtree(self.folder / "out1")
 
+    def test_points(self):
+        for kind in ("csv", "json", "ply", "vtp"):
+            files = self.written_twice("points", self.mesh, "--field", "mean-curvature", "--method",
+                                       "salient:iterations=2", "--rank", "salience", "-o",
+                                       f"{{out}}/p.{kind}", expected={f"p.{kind}"})
+            self.check(files, "points", [self.mesh], ["salient"])
+            shutil.rmtree(self.folder / "out1")
+        files = self.written_twice("points", self.octahedron, "--field", "height", "--fill",
+                                   f"vertex-scalar:file={self.values}", "--points", "6", "--kind", "all",
+                                   "-o", "{out}/p.ply", expected={"p.ply"})
+        document = READERS[".ply"](files["p.ply"])
+        self.check_document(document, files["p.ply"])
+        self.assertEqual([file["path"] for file in document["inputs"]], [self.octahedron, self.values])
+        self.assertEqual(document["fill"]["name"], "vertex-scalar")
+        self.assertEqual(document["fill"]["parameters"]["file_sha256"], self.sha256(self.values))
+
     def test_cut(self):
         for kind in ("off", "ply"):
             files = self.written_twice("cut", self.mesh, "--field", "mean-curvature", "--method",

@@ -31,6 +31,10 @@ TEST_CASE("parameters are read by kind and default where not given") {
   const Length c = r.length("c", Length::absolute(1), core::kPositive, "");
   CHECK(c.value == 8);
   CHECK(c.unit == core::LengthUnit::epsilon);
+  const Length share = core::parse_length("2.5%", "");
+  CHECK(share.value == 2.5);
+  CHECK(share.unit == core::LengthUnit::percent);
+  CHECK(core::to_string(share) == "2.5%");
   CHECK(r.length("c2", Length::absolute(1), core::kPositive, "").unit == core::LengthUnit::mesh);
   CHECK_FALSE(r.flag("d", true, ""));
   CHECK(r.flag("d2", true, ""));

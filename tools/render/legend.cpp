@@ -14,12 +14,14 @@ struct Unit {
   std::string_view function;
   std::string_view unit;
 };
-constexpr std::array<Unit, 6> kUnits = {{{"curvedness", "1/length"},
+constexpr std::array<Unit, 8> kUnits = {{{"curvedness", "1/length"},
                                          {"gaussian-curvature", "1/length²"},
                                          {"geodesic", "length"},
+                                         {"heat-kernel-signature", "1/length²"},
                                          {"height", "length"},
                                          {"mean-curvature", "1/length"},
-                                         {"principal-curvature", "1/length"}}};
+                                         {"principal-curvature", "1/length"},
+                                         {"wave-kernel-signature", "1/length²"}}};
 
 double step_of(const std::vector<double>& at) { return at.size() > 1 ? at[1] - at[0] : 0; }
 

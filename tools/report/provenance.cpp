@@ -116,6 +116,15 @@ Provenance::Provenance(std::string_view command, Json request, const FieldSource
 
 void Provenance::set_field(const FieldOutcome& field) {
   document_["field"] = {{"name", field.name}, {"parameters", field_parameters(summary_of(field))}};
+  add_files(field);
+}
+
+void Provenance::set_fill(const FieldOutcome& field) {
+  document_["fill"] = {{"name", field.name}, {"parameters", field_parameters(summary_of(field))}};
+  add_files(field);
+}
+
+void Provenance::add_files(const FieldOutcome& field) {
   for (Json& file : files_section(hashed_files(field))) document_["inputs"].push_back(std::move(file));
 }
 

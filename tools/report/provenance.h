@@ -36,6 +36,8 @@ class Provenance {
 
   /// Also adds the files that the field was read from to the inputs.
   void set_field(const FieldOutcome& field);
+  /// The field that fills up where a first one has too few points: as "fill", and its files.
+  void set_fill(const FieldOutcome& field);
   void add_method(const std::vector<StepOutcome>& steps);
   void set(std::string_view key, Json value) { document_[std::string(key)] = std::move(value); }
   /// A copy with one more method.
@@ -52,6 +54,8 @@ class Provenance {
   std::string html_comment() const;
 
  private:
+  void add_files(const FieldOutcome& field);
+
   Json document_;
 };
 

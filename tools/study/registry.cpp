@@ -11,6 +11,7 @@
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/functions/geodesic.h"
 #include "morsel/morse/functions/height.h"
+#include "morsel/morse/functions/spectral_signatures.h"
 #include "morsel/morse/functions/vertex_scalar.h"
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/morse/smoothing/denoise.h"
@@ -36,10 +37,14 @@ std::vector<FunctionEntry> standard_functions() {
       FunctionEntry{"eigenfunction",
                     "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
                     morse::make_eigenfunction},
-      FunctionEntry{"gaussian-curvature", "Gaussian curvature, the angle defect (Meyer et al. 2003)",
+      FunctionEntry{"gaussian-curvature",
+                    "Gaussian curvature, the angle defect (Meyer et al. 2003), or diffused",
                     morse::make_gaussian_curvature},
       FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
                     morse::make_geodesic},
+      FunctionEntry{"heat-kernel-signature",
+                    "the heat that is left at its source after a time (Sun et al. 2009)",
+                    morse::make_heat_kernel_signature},
       FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
       FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
       FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
@@ -48,6 +53,8 @@ std::vector<FunctionEntry> standard_functions() {
                     morse::make_shape_index},
       FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
                     morse::make_vertex_scalar, "file"},
+      FunctionEntry{"wave-kernel-signature", "how likely a particle of an energy is met (Aubry et al. 2011)",
+                    morse::make_wave_kernel_signature},
   };
 }
 

@@ -1,0 +1,66 @@
+#pragma once
+/// Distances along a surface between near vertices.
+
+#include <functional>
+#include <queue>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/mesh/mesh.h"
+
+namespace morsel::morse {
+
+/// The length of the shortest path between vertices of those that run along edges and straight across two
+/// neighbouring triangles, from the corner of one to that of the other (Dijkstra 1959). Each is a path on the
+/// surface, so distances are never shorter than geodesic ones. Where triangles are equilateral they are at
+/// most 3.6 % longer (paths along edges alone: 15.5 %); where they are long and thin, more, up to what paths
+/// along edges have. Symmetric up to rounding; infinite between components; scales exactly by powers of two.
+///
+/// Immutable; keeps a number an edge. May be read from any number of threads, each of which needs a Search.
+class SurfaceDistances {
+ public:
+  /// O(edges), parallel.
+  explicit SurfaceDistances(const core::TriangleMesh& mesh);
+
+  /// The distance of each of some vertices, all different, to the nearest other one of them; infinite where
+  /// its component has no other. O(n log n).
+  std::vector<double> to_nearest_other(std::span<const core::Index> vertices) const;
+
+  struct Reached {
+    core::Index vertex;
+    double distance;
+  };
+
+  /// A search and its buffers, 8 bytes a vertex: make one for many sources. Not thread-safe.
+  class Search {
+   public:
+    explicit Search(const SurfaceDistances& distances);
+
+    /// The vertices nearer to v than `radius`, v first, by ascending distance; valid until the next call.
+    /// O(k log k) for k found.
+    const std::vector<Reached>& within(core::Index v, double radius);
+
+   private:
+    void lower(core::Index v, double distance);
+
+    using Entry = std::pair<double, core::Index>;
+    const SurfaceDistances& distances_;
+    double radius_ = 0;
+    std::vector<double> distance_;      // infinite but during a search
+    std::vector<core::Index> touched_;  // where it is not
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+    std::vector<Reached> reached_;
+  };
+
+ private:
+  /// Calls visit(u, length) for each straight path that leaves v.
+  template <class Visit>
+  void for_each_path(core::Index v, const Visit& visit) const;
+
+  core::TriangleMesh mesh_;     // of unit size
+  int exponent_;                // lengths are divided by 2^exponent
+  std::vector<double> across_;  // per edge: from apex to apex; infinite if that does not cross the edge
+};
+
+}  // namespace morsel::morse

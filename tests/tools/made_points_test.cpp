@@ -1,0 +1,131 @@
+#include "morsel/tools/study/made_points.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "morsel/core/error.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/morse/functions/curvature.h"
+#include "support/shapes.h"
+
+using namespace morsel;
+using namespace morsel::test;
+using tools::MadePoints;
+using tools::PointsRequest;
+
+namespace {
+
+MadePoints run(const core::LoadedMesh& loaded, const tools::FieldRequest& field,
+               const PointsRequest& request) {
+  return make_points(prepare(request), loaded, make_field(tools::prepare(field), loaded));
+}
+
+core::LoadedMesh noisy_sphere() { return {jittered(sphere(3).mesh(), 0.03, 4), {}}; }
+
+}  // namespace
+
+TEST_CASE("points of a field are as many as asked for, or the reason why fewer is told") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  PointsRequest request;
+  request.count = 10;
+  const MadePoints ten = run(loaded, {}, request);
+  CHECK(ten.chosen.points.size() == 10);
+  CHECK(ten.note.empty());
+  CHECK(ten.percentiles.size() == 10);
+  CHECK(ten.chosen.spacing == 0.05 * loaded.mesh.bounding_box().diagonal());
+  request.count = 10000;
+  const MadePoints all = run(loaded, {}, request);
+  CHECK(all.chosen.points.size() < 10000);
+  CHECK(all.chosen.points.size() + all.chosen.too_near[0] == all.candidates[0]);
+  CHECK_THAT(all.note, Catch::StartsWith(std::to_string(all.chosen.points.size()) +
+                                         " of 10,000 points: mean-curvature has") &&
+                           Catch::Contains("nearer than"));
+  request.kind = morse::PointKind::saddles;
+  const MadePoints none = run(loaded, {"height", "tps:threshold=90%", {}}, request);
+  CHECK(none.note == "0 of 10,000 points: height has no saddle that stands out at all");
+  CHECK_FALSE(none.mean_percentile());
+}
+
+TEST_CASE("a second field fills up only where the first has too few points") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  PointsRequest request;
+  request.fill = "mean-curvature";
+  request.count = 2;
+  const MadePoints two = run(loaded, {"height", "tps:threshold=50%", {}}, request);
+  CHECK_FALSE(two.fill);
+  CHECK(two.chosen.points.size() == 2);
+  request.count = 12;
+  const MadePoints twelve = run(loaded, {"height", "tps:threshold=50%", {}}, request);
+  REQUIRE(twelve.fill);
+  CHECK(twelve.fill->name == "mean-curvature");
+  CHECK(twelve.chosen.points.size() == 12);
+  CHECK(twelve.candidates[0] == 2);
+  CHECK(std::count_if(twelve.chosen.points.begin(), twelve.chosen.points.end(),
+                      [](const morse::ChosenPoint& p) { return p.source == 1; }) == 10);
+  request.count = 10000;
+  CHECK_THAT(run(loaded, {"height", "tps:threshold=50%", {}}, request).note,
+             Catch::Contains("height has 2 extrema") && Catch::Contains("; mean-curvature has"));
+}
+
+TEST_CASE("salience has the method's scale unless it is given") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  PointsRequest request;
+  request.count = 5;
+  CHECK_FALSE(run(loaded, {}, request).scale);
+  request.rank = morse::PointRank::salience;
+  CHECK(run(loaded, {}, request).scale == 8 * loaded.mesh.epsilon());
+  CHECK(run(loaded, {"mean-curvature", "gaussian:sigma=0.25", {}}, request).scale == 0.25);
+  request.scale = core::Length::percent(4);
+  CHECK(run(loaded, {"mean-curvature", "gaussian:sigma=0.25", {}}, request).scale ==
+        0.04 * loaded.mesh.bounding_box().diagonal());
+}
+
+TEST_CASE("saliency percentiles are half on average") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  const std::vector<double> percentiles = tools::saliency_percentiles(loaded.mesh);
+  CHECK(std::accumulate(percentiles.begin(), percentiles.end(), 0.0) /
+            static_cast<double>(percentiles.size()) ==
+        Approx(0.5));
+  for (const double share : tools::saliency_percentiles(grid(9, 7).mesh())) CHECK(share == 0.5);
+  const TriangleMesh point =
+      loaded.mesh.with_positions(std::vector<Point>(loaded.mesh.vertex_count(), Point(1, 2, 3)));
+  CHECK(tools::saliency_percentiles(point)[7] == 0.5);
+}
+
+TEST_CASE("points of a request are the same for every number of threads") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  PointsRequest request;
+  request.rank = morse::PointRank::salience;
+  const auto vertices = [&](int threads) {
+    const core::ThreadLimit limit(threads);
+    std::vector<Index> result;
+    for (const auto& point : run(loaded, {}, request).chosen.points)
+      result.push_back(point.candidate.point.vertex);
+    return result;
+  };
+  CHECK(vertices(1) == vertices(4));
+}
+
+TEST_CASE("bad requests for points are refused") {
+  const auto refuse = [](const auto& change, const char* naming) {
+    PointsRequest request;
+    change(request);
+    CHECK_THROWS_WITH(prepare(request), Catch::Contains(naming));
+  };
+  refuse([](PointsRequest& r) { r.count = 0; }, "at least 1");
+  refuse([](PointsRequest& r) { r.spacing = core::Length::percent(-1); }, "-1%");
+  refuse([](PointsRequest& r) { r.fill = "curvature"; }, "curvature");
+  refuse([](PointsRequest& r) { r.scale = core::Length::epsilons(8); }, "rank=salience");
+  refuse(
+      [](PointsRequest& r) {
+        r.rank = morse::PointRank::salience;
+        r.scale = core::Length::epsilons(0);
+      },
+      "above 0");
+  CHECK_THROWS_WITH(tools::parse_point_kind("tips"),
+                    Catch::Contains("extrema, maxima, minima, saddles, all"));
+  CHECK_THROWS_WITH(tools::parse_point_rank("height"), Catch::Contains("persistence, salience"));
+  CHECK(tools::parse_point_kind("saddles") == morse::PointKind::saddles);
+}

@@ -1,0 +1,108 @@
+#include "morsel/tools/export/points_file.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/io/mesh_writer.h"
+#include "morsel/tools/formats/csv.h"
+#include "morsel/tools/formats/vtp_writer.h"
+
+namespace morsel::tools {
+namespace {
+
+/// 1, 2, 3: as the surface files of compare --export have them.
+std::int32_t code_of(morse::CriticalType type) { return static_cast<std::int32_t>(type); }
+
+void write_table(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
+                 const std::string& field_name, const Provenance& provenance) {
+  core::FileWriter file(path);
+  file.write("vertex,x,y,z,type,multiplicity,value,persistence,rank,distance,percentile,field,provenance\n");
+  for (std::size_t i = 0; i < made.chosen.points.size(); ++i) {
+    const auto& [candidate, source, distance] = made.chosen.points[i];
+    const morse::CriticalPoint& point = candidate.point;
+    CsvLine line;
+    line.add(std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)});
+    for (const double x : loaded.mesh.position(point.vertex)) line.add(x);
+    line.add(to_string(point.type));
+    line.add(std::uint64_t{point.multiplicity});
+    for (const double number :
+         {candidate.value, candidate.persistence, candidate.rank, distance, made.percentiles[i]})
+      line.add(number);
+    line.add(source == 0 ? field_name : made.fill->name);
+    line.add(i == 0 ? provenance.json() : "");
+    file.write(line.text());
+    file.write("\n");
+  }
+  file.commit();
+}
+
+/// The points by their numbers, each of them in a list of its own.
+struct Columns {
+  std::vector<core::Point> positions;
+  std::vector<std::pair<const char*, std::vector<std::int32_t>>> whole = {
+      {"vertex", {}}, {"type", {}}, {"multiplicity", {}}, {"field", {}}};
+  std::vector<std::pair<const char*, std::vector<double>>> real = {
+      {"value", {}}, {"persistence", {}}, {"rank", {}}, {"distance", {}}, {"percentile", {}}};
+};
+
+Columns columns_of(const MadePoints& made, const core::LoadedMesh& loaded) {
+  Columns columns;
+  for (std::size_t i = 0; i < made.chosen.points.size(); ++i) {
+    const auto& [candidate, source, distance] = made.chosen.points[i];
+    const morse::CriticalPoint& point = candidate.point;
+    columns.positions.push_back(loaded.mesh.position(point.vertex));
+    const std::array whole = {static_cast<std::int32_t>(loaded.source.numbering.input_vertex(point.vertex)),
+                              code_of(point.type), static_cast<std::int32_t>(point.multiplicity),
+                              static_cast<std::int32_t>(source)};
+    const std::array real = {candidate.value, candidate.persistence, candidate.rank, distance,
+                             made.percentiles[i]};
+    for (std::size_t k = 0; k < whole.size(); ++k) columns.whole[k].second.push_back(whole[k]);
+    for (std::size_t k = 0; k < real.size(); ++k) columns.real[k].second.push_back(real[k]);
+  }
+  return columns;
+}
+
+}  // namespace
+
+void check_points_path(const std::filesystem::path& path) {
+  const std::string extension = core::file_extension(path);
+  if (extension != ".csv" && extension != ".ply" && extension != ".vtp")
+    throw core::InvalidArgument("points are written as .csv, .json, .ply or .vtp, not as \"" + path.string() +
+                                "\"");
+}
+
+void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
+                  const std::string& field_name, const Provenance& provenance) {
+  check_points_path(path);
+  const std::string extension = core::file_extension(path);
+  if (extension == ".csv") {
+    write_table(path, made, loaded, field_name, provenance);
+    return;
+  }
+  const Columns columns = columns_of(made, loaded);
+  if (extension == ".ply") {
+    std::vector<core::PropertyView> properties;
+    for (const auto& [name, values] : columns.whole)
+      properties.emplace_back(name, std::span<const std::int32_t>(values));
+    for (const auto& [name, values] : columns.real)
+      properties.emplace_back(name, std::span<const double>(values));
+    core::write_ply(path, columns.positions, {}, properties, {}, provenance.lines());
+    return;
+  }
+  VtpDocument document;
+  document.points = {columns.positions};
+  document.vertices = {columns.positions.size(), 0,
+                       [](std::size_t i) { return static_cast<std::int64_t>(i + 1); }};
+  for (const auto& [name, values] : columns.whole)
+    document.point_arrays.emplace_back(name, std::span<const std::int32_t>(values));
+  for (const auto& [name, values] : columns.real)
+    document.point_arrays.emplace_back(name, std::span<const double>(values));
+  document.provenance = provenance.json();
+  write_vtp(path, document);
+}
+
+}  // namespace morsel::tools

@@ -1,0 +1,25 @@
+#pragma once
+/// Chosen points as files: a table, a cloud of points for other programs.
+
+#include <filesystem>
+#include <string>
+
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/tools/report/provenance.h"
+#include "morsel/tools/study/made_points.h"
+
+namespace morsel::tools {
+
+/// Writes the points in the order in which they were chosen, with the vertex numbers of the input file:
+///   .csv  a row for each: vertex, x, y, z, type, multiplicity, value, persistence, rank, distance,
+///   percentile, field
+///   .ply, .vtp  a point for each, with the numbers among these as properties or arrays: `type` is 1 for
+///   minima, 2 for saddles, 3 for maxima, `field` 0, or 1 where the field that fills up has the point
+/// Infinite numbers are "inf". Throws InvalidArgument on another ending, WriteFailed where writing fails.
+void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
+                  const std::string& field_name, const Provenance& provenance);
+
+/// Throws InvalidArgument unless write_points() knows the path's ending; to be called before long work.
+void check_points_path(const std::filesystem::path& path);
+
+}  // namespace morsel::tools

@@ -1,0 +1,54 @@
+#include "morsel/tools/report/points_writer.h"
+
+#include <optional>
+#include <span>
+
+#include "morsel/tools/report/outcome_sections.h"
+
+namespace morsel::tools {
+
+Json request_section(const FieldRequest& field, const PointsRequest& points, bool repair) {
+  Json asked = request_section(field, repair);
+  asked["points"] = points.count;
+  asked["kind"] = to_string(points.kind);
+  asked["rank"] = to_string(points.rank);
+  asked["spacing"] = core::to_string(points.spacing);
+  if (points.fill) asked["fill"] = *points.fill;
+  if (points.scale) asked["scale"] = core::to_string(*points.scale);
+  return asked;
+}
+
+void write_points_document(JsonSink& json, const Json& request, const FieldSource& source,
+                           const MadePoints& made, const Timings& timings) {
+  begin_field_document(json, "morsel.points/1", request, source);
+  json.member("spacing", made.chosen.spacing);
+  if (made.scale) json.member("salience_scale", *made.scale);
+  json.member("candidates", made.candidates);
+  json.member("too_near", made.chosen.too_near);
+  if (made.fill) json.member("fill", field_section(*made.fill));
+  json.member("count", made.chosen.points.size());
+  json.member("note", made.note);
+  const std::optional<double> mean = made.mean_percentile();
+  json.member("mean_percentile", mean ? Json(*mean) : Json());
+  json.begin_array("points");
+  json.rows(made.chosen.points.size(), [&](std::size_t i, const TakeRow& take) {
+    const auto& [candidate, list, distance] = made.chosen.points[i];
+    const morse::CriticalPoint& point = candidate.point;
+    const core::Point& at = source.loaded.mesh.position(point.vertex);
+    take({{"vertex", std::uint64_t{source.loaded.source.numbering.input_vertex(point.vertex)}},
+          {"position", std::span<const double, 3>(at.data(), 3)},
+          {"type", to_string(point.type)},
+          {"multiplicity", std::uint64_t{point.multiplicity}},
+          {"value", candidate.value},
+          {"persistence", candidate.persistence},
+          {"rank", candidate.rank},
+          {"distance", distance},
+          {"percentile", made.percentiles[i]},
+          {"field", std::string_view(list == 0 ? source.made.input.name : made.fill->name)}});
+  });
+  json.end_array();
+  json.member("timings", timings_section(timings));
+  json.end_object();
+}
+
+}  // namespace morsel::tools
