@@ -33,6 +33,8 @@ class Tps final : public core::Method {
     return {std::move(result.field), std::move(parameters), std::move(details)};
   }
 
+  core::MethodTraits traits() const override { return {.cancels_pairs = true}; }
+
  private:
   CancellationOptions options_;
 };

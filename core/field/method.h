@@ -105,13 +105,15 @@ struct MethodContext {
 
 /// What is peculiar about a method, for whoever composes methods.
 struct MethodTraits {
-  /// It takes critical points away pair by pair: fields between its input and its output have no use.
+  /// It takes critical points away pair by pair: what cancels fewer of them is this method as well.
   bool cancels_pairs = false;
   /// It takes the Morse function again whatever field it is given: nothing can come before it.
   bool retakes_field = false;
   /// The field that MethodContext::on_iteration is told after i iterations is, bit for bit, what this method
   /// with `iterations=i` returns: then one run gives the results of all smaller numbers.
   bool tells_results = false;
+  /// What it returns is not the field of its last iteration but something else that was made on the way.
+  bool returns_other = false;
 };
 
 /// A method: a function from a scalar field to a scalar field on the same mesh. It never measures, and what

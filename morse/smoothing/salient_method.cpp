@@ -61,7 +61,9 @@ class Salient final : public core::Method {
 
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
-    return {.retakes_field = retakes(), .tells_results = !options_.return_saliency && options_.accuracy == 0};
+    return {.retakes_field = retakes(),
+            .tells_results = !options_.return_saliency && options_.accuracy == 0,
+            .returns_other = options_.return_saliency};
   }
 
  private:

@@ -131,7 +131,7 @@ Json target_section(const TargetOutcome& target, const core::VertexNumbering& nu
   return {{"wanted", target.wanted},
           {"reached", target.reached},
           {"iterations", target.iterations},
-          {"blend", target.blend},
+          {"left_by_next", target.left_by_next ? Json(*target.left_by_next) : Json()},
           {"before_cancelling", target.before_cancelling},
           {"cancelled_pairs", target.cancelled.size()},
           {"largest_cancelled", target.largest_cancelled},
