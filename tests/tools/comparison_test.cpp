@@ -1,9 +1,14 @@
 #include "morsel/tools/study/comparison.h"
 
 #include <catch2/catch.hpp>
+#include <memory>
 #include <set>
 
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/mscomplex/hierarchy.h"
+#include "morsel/mscomplex/segments.h"
+#include "morsel/tools/study/level_builder.h"
+#include "morsel/tools/study/persistence_levels.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -90,6 +95,51 @@ TEST_CASE("invariants hold for every field that a method returns") {
         INFO(entry.name << ", " << f.name << ", " << chain.specification);
         check_invariants(apply(chain, f.field));
       }
+}
+
+TEST_CASE("regression: compare, hierarchy and segment counted cells in three ways") {
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const NamedField& f : field_zoo(entry.mesh, 29)) {
+      INFO(entry.name << ", " << f.name);
+      const auto field = std::make_shared<core::ScalarField>(f.field);
+      const auto hierarchy = std::make_shared<mscomplex::PersistenceHierarchy>(*field);
+      const mscomplex::Segmenter segmenter(*field, *hierarchy, mscomplex::SegmentKind::morse_smale);
+      tools::Timings timings;
+      const tools::Measurement m = tools::measure(*field, timings);
+      CHECK(m.cells <= m.complex.quad_count() + entry.mesh.component_count());
+      // At a boundary a cell may be several connected segments.
+      const auto agree = [&](Index cells, Index segments) {
+        return entry.mesh.is_closed() ? cells == segments : cells <= segments;
+      };
+      CHECK(agree(m.cells, segmenter.count(0)));
+      std::vector<std::size_t> counts;
+      for (const std::size_t share : {1u, 2u, 4u}) counts.push_back(m.critical_points.total() / share + 1);
+      tools::build_levels(
+          tools::levels_by_count({field, hierarchy}, counts),
+          [&](const tools::Level& level) {
+            CHECK(agree(level.quad_cells, segmenter.count(level.name.cancelled->cancellations)));
+          },
+          {});
+    }
+}
+
+TEST_CASE("regression: shares of the extent were each method's own") {
+  const TriangleMesh mesh = sphere(3).mesh();
+  const core::LoadedMesh loaded{mesh, {}};
+  struct Sink : tools::ComparisonSink {
+    void field(const tools::FieldOutcome& outcome) override { extent = outcome.field.extent(); }
+    void method(const tools::MethodOutcome& outcome) override {
+      CHECK(outcome.input_extent == extent);
+      ++methods;
+    }
+    double extent = 0;
+    int methods = 0;
+  } sink;
+  tools::ComparisonRequest request;
+  request.field = "height";
+  request.methods = {"conventional", "spectral:modes=2", "saliency"};
+  tools::run_comparison(loaded, tools::prepare(request), {&sink});
+  CHECK(sink.methods == 3);
 }
 
 TEST_CASE("every method gives the same bits at any number of threads") {

@@ -22,14 +22,13 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
   double seconds = 0;
   for (const auto& [step, time] : outcome.timings) seconds += time;
   const Matching& matching = outcome.compared_to_first;
-  rows_.push_back(
-      {outcome.specification, grouped(m.critical_points.minima), grouped(m.critical_points.saddles),
-       grouped(m.critical_points.saddle_multiplicity), grouped(m.critical_points.maxima),
-       grouped(m.critical_points.total()), grouped(m.diagram.pairs.size()),
-       grouped(m.diagram.count_above(0.01 * outcome.field.extent()) + m.diagram.cap_pairs().size()),
-       grouped(m.complex.arc_count()), grouped(m.segmentation.morse_smale.count),
-       grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
-       core::to_decimals(seconds, 2)});
+  rows_.push_back({outcome.specification, grouped(m.critical_points.minima),
+                   grouped(m.critical_points.saddles), grouped(m.critical_points.saddle_multiplicity),
+                   grouped(m.critical_points.maxima), grouped(m.critical_points.total()),
+                   grouped(m.diagram.pairs.size()),
+                   grouped(m.diagram.count_above(0.01 * outcome.input_extent) + m.diagram.cap_pairs().size()),
+                   grouped(m.complex.arc_count()), grouped(m.cells), grouped(matching.kept.size()),
+                   grouped(matching.moved.size()), grouped(matching.added), core::to_decimals(seconds, 2)});
   if (outcome.target && !outcome.target->note.empty())
     notes_ += core::printable(outcome.specification + ": " + outcome.target->note) + "\n";
 }

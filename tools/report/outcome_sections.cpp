@@ -95,14 +95,15 @@ Json persistence_section(const persistence::Diagram& diagram, double extent) {
   return persistence_section(summary_of(diagram, extent));
 }
 
-Json complex_section(const mscomplex::MorseSmaleComplex& complex,
-                     const mscomplex::Segmentation& segmentation) {
+Json complex_section(const mscomplex::MorseSmaleComplex& complex, const mscomplex::Segmentation& segmentation,
+                     core::Index cells) {
   return {{"minima", complex.minimum_count()},
           {"saddles", complex.saddle_count()},
           {"maxima", complex.maximum_count()},
           {"caps", complex.cap_count()},
           {"arcs", complex.arc_count()},
           {"quads", complex.quad_count()},
+          {"cells", cells},
           {"segments",
            {{"descending", segmentation.descending.count},
             {"ascending", segmentation.ascending.count},

@@ -30,14 +30,14 @@ Json field_section(const FieldSummary& field, std::span<const HashedFile> known 
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);
-/// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the field's
-/// extent is what the percentages are of.
+/// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the
+/// extent of the input field is what the percentages are of.
 Json persistence_section(const PersistenceSummary& summary);
 Json persistence_section(const persistence::Diagram& diagram, double extent);
-/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending",
-/// "morse_smale"}}
-Json complex_section(const mscomplex::MorseSmaleComplex& complex,
-                     const mscomplex::Segmentation& segmentation);
+/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "cells", "segments" {"descending", "ascending",
+/// "morse_smale"}}; `cells` are the quads that have area.
+Json complex_section(const mscomplex::MorseSmaleComplex& complex, const mscomplex::Segmentation& segmentation,
+                     core::Index cells);
 /// Steps with their seconds.
 Json timings_section(const Timings& timings);
 /// The resolved parameters of one step as they are, a chain's by step.

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "morsel/core/error.h"
+#include "morsel/mscomplex/quad_regions.h"
 
 namespace morsel::tools {
 namespace {
@@ -39,9 +40,12 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
   auto gradient = timed("gradient", [&] { return mscomplex::DiscreteGradient(field, progress); });
   auto complex =
       timed("complex", [&] { return mscomplex::MorseSmaleComplex(field, std::move(gradient), progress); });
-  auto segments =
-      timed("segmentation", [&] { return mscomplex::segment(field, complex.gradient(), progress); });
-  return {std::move(points), std::move(diagram), std::move(complex), std::move(segments)};
+  core::Index cells = 0;
+  auto segments = timed("segmentation", [&] {
+    cells = mscomplex::cell_count(field, complex);
+    return mscomplex::segment(field, complex.gradient(), progress);
+  });
+  return {std::move(points), std::move(diagram), std::move(complex), std::move(segments), cells};
 }
 
 ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry) {
@@ -76,10 +80,9 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
     for (std::size_t i = 0; i < places.size(); ++i)
       places[i] =
           plan.snap && origins[i] != core::kNone ? origins[i] : measurement.critical_points.points[i].vertex;
-    const MethodOutcome outcome{chain.specification,    chain.name,
-                                std::move(made.steps),  std::move(made.field),
-                                std::move(made.target), std::move(measurement),
-                                std::move(origins),     std::move(places),
+    const MethodOutcome outcome{chain.specification,    chain.name,           std::move(made.steps),
+                                std::move(made.field),  input.field.extent(), std::move(made.target),
+                                std::move(measurement), std::move(origins),   std::move(places),
                                 std::move(matching),    std::move(timings)};
     for (ComparisonSink* sink : sinks) sink->method(outcome);
   }

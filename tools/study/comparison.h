@@ -38,6 +38,7 @@ struct Measurement {
   persistence::Diagram diagram;
   mscomplex::MorseSmaleComplex complex;
   mscomplex::Segmentation segmentation;
+  core::Index cells = 0;  ///< quads of the complex that have area
 };
 
 /// A method's field and its measurement.
@@ -46,6 +47,7 @@ struct MethodOutcome {
   std::string name;
   std::vector<StepOutcome> steps;
   core::ScalarField field;
+  double input_extent = 0;  ///< of the field before any method: what shares of the extent are of
   std::optional<TargetOutcome> target;
   Measurement measurement;
   /// For each critical point, the vertex of the one of the input field that it came from; kNone if the way

@@ -25,7 +25,7 @@ FieldSummary summary_of(const FieldOutcome& outcome);
 
 /// How many pairs a diagram has, and how many of them are large.
 struct PersistenceSummary {
-  /// Of the field's extent.
+  /// Of the input field's extent, so that methods can be compared.
   static constexpr std::array kPercents = {0.1, 1.0, 5.0};
 
   std::size_t pairs = 0;           ///< extremum-saddle pairs, infinite ones included
