@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "morsel/core/mesh/nesting.h"
 #include "morsel/core/parallel/parallel.h"
 
 namespace morsel::morse {
@@ -12,9 +13,11 @@ using core::Index;
 using core::Point;
 using core::TriangleMesh;
 
-std::vector<double> outward_signs(const TriangleMesh& mesh) {
+namespace {
+
+/// Per component: −1, 1, or 0 for a bounded one and for a volume that is rounding alone (flat or folded).
+std::vector<int> volume_signs(const TriangleMesh& mesh) {
   const Index components = mesh.component_count();
-  std::vector<double> sign(components, 1.0);
   std::vector<Index> origin(components, core::kNone);
   for (Index v = mesh.vertex_count(); v-- > 0;) origin[mesh.component_of_vertex(v)] = v;
   // A power of two changes no digit, and keeps the products of three lengths in range.
@@ -32,10 +35,66 @@ std::vector<double> outward_signs(const TriangleMesh& mesh) {
     volume[c] += term;
     magnitude[c] += std::abs(term);
   }
-  // A surface whose volume is rounding alone (flat or folded) has no inside.
+  std::vector<int> sign(components, 0);
   for (Index c = 0; c < components; ++c)
-    if (mesh.boundary_loop_count(c) == 0 && volume[c] < -1e-12 * magnitude[c]) sign[c] = -1.0;
+    if (mesh.boundary_loop_count(c) == 0 && std::abs(volume[c]) > 1e-12 * magnitude[c])
+      sign[c] = volume[c] < 0 ? -1 : 1;
   return sign;
+}
+
+/// Of the closed components.
+struct Orientation {
+  bool is_turned = false;      ///< the outermost ones are all inside out
+  std::size_t inside_out = 0;  ///< of the outermost ones, if not all are
+};
+
+Orientation orientation_of(const TriangleMesh& mesh, const std::vector<int>& sign) {
+  const auto inward = static_cast<std::size_t>(std::ranges::count(sign, -1));
+  if (inward == 0) return {};
+  if (std::ranges::count(sign, 1) == 0) return {true, 0};
+  std::vector<Index> component;  // of each shell
+  std::vector<Index> shell_of(sign.size(), core::kNone);
+  for (Index c = 0; c < sign.size(); ++c)
+    if (sign[c] != 0) {
+      shell_of[c] = static_cast<Index>(component.size());
+      component.push_back(c);
+    }
+  std::vector<Index> shell(mesh.triangle_count());
+  for (Index t = 0; t < shell.size(); ++t) shell[t] = shell_of[mesh.component_of_vertex(mesh.triangle(t)[0])];
+  const auto shells = static_cast<Index>(component.size());
+  const core::Nesting nesting(mesh.positions(), mesh.triangles(), shell, shells);
+  Orientation found{sign[component[nesting.largest()]] < 0, 0};
+  for (Index s = 0; s < shells; ++s) {
+    const bool is_inward = sign[component[s]] < 0;
+    if (!is_inward && !found.is_turned) continue;
+    if (nesting.is_enclosed(s)) continue;
+    if (is_inward)
+      ++found.inside_out;
+    else
+      found.is_turned = false;
+  }
+  if (found.is_turned) found.inside_out = 0;
+  return found;
+}
+
+}  // namespace
+
+std::vector<double> outward_signs(const TriangleMesh& mesh) {
+  const std::vector<int> volume = volume_signs(mesh);
+  const bool turned = orientation_of(mesh, volume).is_turned;
+  std::vector<double> sign(volume.size(), 1.0);
+  for (std::size_t c = 0; c < sign.size(); ++c)
+    if (turned && volume[c] != 0) sign[c] = -1.0;
+  return sign;
+}
+
+std::vector<std::string> orientation_warnings(const TriangleMesh& mesh) {
+  const Orientation found = orientation_of(mesh, volume_signs(mesh));
+  if (found.is_turned) return {"the mesh's faces are inside out: normals are turned outward"};
+  if (found.inside_out == 0) return {};
+  return {"of the mesh's outermost closed components " + std::to_string(found.inside_out) +
+          (found.inside_out == 1 ? " is" : " are") +
+          " inside out and others are not: normals are as its faces have them"};
 }
 
 std::vector<Point> vertex_normals(const TriangleMesh& mesh) {

@@ -1,0 +1,84 @@
+#include "morsel/core/mesh/nesting.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "morsel/core/parallel/stop.h"
+
+namespace morsel::core {
+namespace {
+
+/// The vector's direction; zero if it has none.
+Point direction(const Point& from, const Point& to) {
+  const Point d = to - from;
+  const double length = d.stableNorm();
+  return length > 0 ? Point(d / length) : Point::Zero();
+}
+
+/// The solid angle of a triangle seen from `from` (van Oosterom and Strackee 1983), signed.
+double solid_angle(const Point& from, const Point& p, const Point& q, const Point& r) {
+  const Point a = direction(from, p);
+  const Point b = direction(from, q);
+  const Point c = direction(from, r);
+  if (a.isZero(0) || b.isZero(0) || c.isZero(0)) return 0;
+  return 2 * std::atan2(a.dot(b.cross(c)), 1 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+}  // namespace
+
+Nesting::Nesting(std::span<const Point> positions, std::span<const Triangle> triangles,
+                 std::span<const Index> shell, Index count)
+    : positions_(positions), triangles_(triangles), first_(count + 1, 0), boxes_(count), by_size_(count) {
+  for (const Index s : shell)
+    if (s != kNone) ++first_[s + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  members_.resize(first_.back());
+  std::vector<Index> next(first_.begin(), first_.end() - 1);
+  for (Index t = 0; t < shell.size(); ++t)
+    if (shell[t] != kNone) members_[next[shell[t]]++] = t;
+  std::vector<double> size(count);
+  for (Index s = 0; s < count; ++s) {
+    BoundingBox& box = boxes_[s];
+    box.min = box.max = positions_[triangles_[members_[first_[s]]][0]];
+    for (Index i = first_[s]; i < first_[s + 1]; ++i)
+      for (const Index v : triangles_[members_[i]]) {
+        box.min = box.min.cwiseMin(positions_[v]);
+        box.max = box.max.cwiseMax(positions_[v]);
+      }
+    const double diagonal = (box.max - box.min).stableNorm();
+    size[s] = std::isnan(diagonal) ? 0 : diagonal;  // before a repair positions may be no numbers
+  }
+  std::iota(by_size_.begin(), by_size_.end(), Index{0});
+  std::ranges::stable_sort(by_size_, [&](Index a, Index b) { return size[a] > size[b]; });
+}
+
+bool Nesting::encloses(Index outer, Index inner) const {
+  const BoundingBox& around = boxes_[outer];
+  const BoundingBox& within = boxes_[inner];
+  if ((within.min.array() < around.min.array()).any() || (within.max.array() > around.max.array()).any())
+    return false;
+  throw_if_stopped();
+  const Point& witness = positions_[triangles_[members_[first_[inner]]][0]];
+  double angle = 0;
+  for (Index i = first_[outer]; i < first_[outer + 1]; ++i) {
+    const Triangle& t = triangles_[members_[i]];
+    angle += solid_angle(witness, positions_[t[0]], positions_[t[1]], positions_[t[2]]);
+  }
+  // Inside it is 4 pi, on the shell itself up to half of that.
+  return std::abs(angle) > 3 * M_PI;
+}
+
+Index Nesting::depth(Index shell) const {
+  Index found = 0;
+  for (const Index other : by_size_)
+    if (other != shell && encloses(other, shell)) ++found;
+  return found;
+}
+
+bool Nesting::is_enclosed(Index shell) const {
+  return std::ranges::any_of(by_size_, [&](Index other) { return other != shell && encloses(other, shell); });
+}
+
+}  // namespace morsel::core
