@@ -22,6 +22,7 @@ struct MeshSource;  // mesh_io.h: what the mesh's file said besides the mesh
 struct FunctionResult {
   ScalarField field;
   Parameters parameters;
+  std::vector<std::string> warnings = {};  ///< what the values do not mean on this mesh, a sentence each
 };
 
 /// Where a Morse function is evaluated.
@@ -60,6 +61,7 @@ struct MethodResult {
   Parameters parameters;
   Parameters details;
   std::vector<IterationRecord> iterations = {};  ///< from the input on, where they were counted
+  std::vector<std::string> warnings = {};        ///< what the method could not do here, a sentence each
 };
 
 /// Whom an iterative method tells of its iterations, and of which ones.

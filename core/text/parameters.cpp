@@ -34,9 +34,10 @@ bool parse_whole(std::string_view text, Number& value) {
 }  // namespace
 
 std::string to_string(const Length& length) {
-  const char* unit = length.unit == LengthUnit::epsilon ? "eps"
-                     : length.unit == LengthUnit::edge  ? "edges"
-                                                        : "";
+  const char* unit = length.unit == LengthUnit::epsilon     ? "eps"
+                     : length.unit == LengthUnit::edge      ? "edges"
+                     : length.unit == LengthUnit::root_area ? "rootarea"
+                                                            : "";
   return shortest(length.value) + unit;
 }
 
@@ -59,16 +60,18 @@ Length parse_length(std::string_view text, std::string_view what) {
   LengthUnit unit = LengthUnit::mesh;
   for (const auto& [name, named] : {std::pair<std::string_view, LengthUnit>("eps", LengthUnit::epsilon),
                                     {"edges", LengthUnit::edge},
-                                    {"edge", LengthUnit::edge}})
+                                    {"edge", LengthUnit::edge},
+                                    {"rootarea", LengthUnit::root_area}})
     if (unit == LengthUnit::mesh && text.ends_with(name)) {
       text.remove_suffix(name.size());
       unit = named;
     }
   double value = 0;
   if (!parse_whole(text, value) || !std::isfinite(value))
-    throw InvalidArgument(std::string(what) +
-                          " must be a length such as 0.25 (in the mesh's unit), 8eps or 3edges, not " +
-                          in_quotes(given));
+    throw InvalidArgument(
+        std::string(what) +
+        " must be a length such as 0.25 (in the mesh's unit), 8eps, 3edges or 0.02rootarea, not " +
+        in_quotes(given));
   return {value, unit};
 }
 

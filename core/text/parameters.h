@@ -88,7 +88,7 @@ double parse_number(std::string_view text, std::string_view what);
 /// The whole text as an integer; throws InvalidArgument naming `what` otherwise.
 std::int64_t parse_integer(std::string_view text, std::string_view what);
 
-/// "0.25" (unit of the mesh), "8eps" or "3edges" (or "3edge").
+/// "0.25" (unit of the mesh), "8eps", "3edges" (or "3edge") or "0.02rootarea".
 Length parse_length(std::string_view text, std::string_view what);
 
 }  // namespace morsel::core

@@ -142,6 +142,52 @@ TEST_CASE("regression: shares of the extent were each method's own") {
   CHECK(sink.methods == 3);
 }
 
+TEST_CASE("regression: points that come from vertex numbers alone were not told from others") {
+  const TriangleMesh mesh = sphere(2).mesh();
+  const core::LoadedMesh loaded{mesh, {}};
+  const auto warnings = [&](std::vector<double> values) {
+    tools::Registry registry = tools::Registry::standard();
+    struct Given final : core::MorseFunction {
+      explicit Given(std::vector<double> v) : values(std::move(v)) {}
+      core::FunctionResult evaluate(const TriangleMesh& on, const core::FunctionContext&) const override {
+        return {{on, values}, {}};
+      }
+      std::vector<double> values;
+    };
+    registry.add(tools::FunctionEntry{
+        "given", "values", [&](core::ParameterReader&) { return std::make_unique<Given>(values); }});
+    return tools::evaluate_field(loaded, registry.make_function("given")).warnings;
+  };
+  const Index n = mesh.vertex_count();
+  REQUIRE(warnings(std::vector<double>(n, 3)).size() == 1);
+  CHECK_THAT(warnings(std::vector<double>(n, 3)).front(),
+             Catch::Contains("constant") && Catch::Contains("vertex numbers alone"));
+  REQUIRE(warnings(plateau_values(mesh, 2, 5)).size() == 1);
+  CHECK_THAT(warnings(plateau_values(mesh, 2, 5)).front(), Catch::Contains("neighbour of the same value"));
+  CHECK(warnings(random_values(n, 3)).empty());
+  std::vector<double> one_tie = random_values(n, 3);
+  one_tie[mesh.triangle(0)[0]] = one_tie[mesh.triangle(0)[1]];
+  CHECK(warnings(std::move(one_tie)).empty());
+}
+
+TEST_CASE("regression: salient on a coarse mesh did nothing, silently") {
+  const core::ScalarField coarse(sphere(1).mesh(), random_values(42, 3));
+  const auto warnings = [](const char* method, const core::ScalarField& input) {
+    return tools::apply_chain(tools::Registry::standard().make_method(method), {input.mesh(), {}},
+                              tools::Registry::standard().make_function("height"), input)
+        .steps.front()
+        .warnings;
+  };
+  for (const char* method : {"salient", "gaussian"}) {
+    REQUIRE(warnings(method, coarse).size() == 1);
+    CHECK_THAT(warnings(method, coarse).front(),
+               Catch::Contains("of 42 vertices 42 have no other") && Catch::Contains("1edges"));
+  }
+  CHECK(warnings("salient:sigma=1edges", coarse).empty());
+  const TriangleMesh fine = sphere(4).mesh();
+  CHECK(warnings("salient", core::ScalarField(fine, random_values(fine.vertex_count(), 3))).empty());
+}
+
 TEST_CASE("every method gives the same bits at any number of threads") {
   const TriangleMesh mesh = torus(90, 80).mesh();
   const core::ScalarField input(mesh, smooth_values(mesh, 1, 3));

@@ -64,8 +64,11 @@ void add_methods_option(Command& command, std::vector<std::string>& methods);
 void add_comparison_options(Command& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures.
 void add_figure_options(Command& command, render::FigureText& figure);
-/// Says why a wanted number of critical points was not reached.
-void tell_target(const MadeField& made, Console& console);
+/// Warnings of a Morse function, and of methods.
+void tell_warnings(const FieldOutcome& field, Console& console);
+void tell_warnings(const std::vector<StepOutcome>& steps, Console& console);
+/// Warnings, and why a wanted number of critical points was not reached.
+void tell_made(const MadeField& made, Console& console);
 
 void add_batch(Program& program);
 void add_catalogue(Program& program);

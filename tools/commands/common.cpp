@@ -91,7 +91,18 @@ void add_figure_options(Command& command, render::FigureText& figure) {
   add_camera_options(command, figure.camera);
 }
 
-void tell_target(const MadeField& made, Console& console) {
+void tell_warnings(const FieldOutcome& field, Console& console) {
+  for (const std::string& warning : field.warnings) console.warning(field.name + ": " + warning);
+}
+
+void tell_warnings(const std::vector<StepOutcome>& steps, Console& console) {
+  for (const StepOutcome& step : steps)
+    for (const std::string& warning : step.warnings) console.warning(step.name + ": " + warning);
+}
+
+void tell_made(const MadeField& made, Console& console) {
+  tell_warnings(made.input, console);
+  tell_warnings(made.outcome.steps, console);
   if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
 }
 
@@ -99,9 +110,9 @@ std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
 
 const char* const kSpecificationNotes =
     "F and M are written name or name:key=value,key=value; methods chain as M+M; a backslash keeps , : + = / "
-    "literal. Lengths are in the mesh's unit, in eps (0.3 % of the bounding box's diagonal) or in mean "
-    "edges: "
-    "8eps, 3edges. `morsel fields` and `morsel methods` list all names, `morsel methods salient` the keys of "
+    "literal. Lengths are in the mesh's unit, in eps (0.3 % of the bounding box's diagonal), in mean edges "
+    "or in roots of the surface's area: 8eps, 3edges, 0.02rootarea. `morsel fields` and `morsel methods` "
+    "list all names, `morsel methods salient` the keys of "
     "one.";
 
 }  // namespace morsel::tools

@@ -52,8 +52,8 @@ class Announcer : public ComparisonSink {
   void begin_method(const std::string& name) override {
     console_.enter(name + " (" + std::to_string(++begun_) + " of " + std::to_string(methods_) + ")");
   }
-  void field(const FieldOutcome&) override {}
-  void method(const MethodOutcome&) override {}
+  void field(const FieldOutcome& outcome) override { tell_warnings(outcome, console_); }
+  void method(const MethodOutcome& outcome) override { tell_warnings(outcome.steps, console_); }
 
  private:
   Console& console_;

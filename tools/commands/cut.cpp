@@ -74,7 +74,7 @@ int cut(const Options& options, const CommonOptions& common, Console& console) {
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, console.progress());
   const double load_seconds = load_watch.seconds();
   const MadeField made = make_field(recipe, input.loaded, console.progress());
-  tell_target(made, console);
+  tell_made(made, console);
   const CutOutcome outcome = cut_surface(made.field(), !options.no_shorten, console.progress());
 
   const Stopwatch write_watch;

@@ -32,7 +32,7 @@ int write(const Options& options, const CommonOptions& common, Console& console)
   const HashedWholeMesh mesh = read_hashed_whole_mesh(options.mesh, {.repair = common.repair}, progress);
   const core::LoadedMesh& loaded = mesh.input.loaded;
   const MadeField made = make_field(recipe, loaded, progress);
-  tell_target(made, console);
+  tell_made(made, console);
   const HashedFile file{options.mesh, mesh.sha256};
   write_field(
       options.output, made.field(), loaded.source.numbering, mesh.input.input_positions, made.input.name,

@@ -45,7 +45,7 @@ int make(const Options& options, const CommonOptions& common, Console& console) 
   const HashedMesh input = read_hashed_mesh(options.mesh, {.repair = common.repair}, progress);
   const double load_seconds = load_watch.seconds();
   const MadeField made = make_field(recipe, input.loaded, progress);
-  tell_target(made, console);
+  tell_made(made, console);
   const Quadrangulation result = quadrangulate(made.field(), quads, progress);
   const QuadsRequest request{options.field, options.quads, common.repair};
   const HashedFile file{options.mesh, input.sha256};

@@ -73,7 +73,7 @@ int draw(const Options& options, const CommonOptions& common, Console& console) 
   request.frame = region(options.frame);
   request.close_up = region(options.close_up);
   const MadeField made = make_field(recipe, loaded, progress);
-  tell_target(made, console);
+  tell_made(made, console);
   Timings timings;
   const Measurement measurement = measure(made.field(), timings, progress);
 

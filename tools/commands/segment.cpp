@@ -70,7 +70,7 @@ int segment(const Options& options, const CommonOptions& common, Console& consol
   const MadeField field = make_field(recipe, loaded, progress);
   timings.emplace_back("field", field.input.seconds);
   timings.emplace_back("method", field.method_seconds);
-  tell_target(field, console);
+  tell_made(field, console);
   const Stopwatch segment_watch;
   const MadeSegments made = make_segments(field.field(), request, progress);
   timings.emplace_back("segments", segment_watch.seconds());

@@ -114,7 +114,7 @@ void add_stability(Program& program) {
       .value("M");
   command
       .text("--reference-field", request.reference_field,
-            "Morse function of the reference (default: the first --field)")
+            "Morse function of the reference (default: that of the method, unsmoothed)")
       .value("F");
   command
       .path("-o,--output", options->output,

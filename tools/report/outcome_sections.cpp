@@ -64,10 +64,12 @@ Json field_parameters(const FieldSummary& field, std::span<const HashedFile> kno
 }
 
 Json field_section(const FieldSummary& field, std::span<const HashedFile> known) {
-  return {{"name", field.name},
-          {"parameters", field_parameters(field, known)},
-          {"min", field.min},
-          {"max", field.max}};
+  Json section = {{"name", field.name},
+                  {"parameters", field_parameters(field, known)},
+                  {"min", field.min},
+                  {"max", field.max}};
+  if (!field.warnings.empty()) section["warnings"] = field.warnings;
+  return section;
 }
 
 Json field_section(const FieldOutcome& outcome) { return field_section(summary_of(outcome)); }
@@ -121,9 +123,12 @@ Json parameters_section(const std::vector<StepOutcome>& steps) {
 }
 
 Json steps_section(const std::vector<StepOutcome>& steps) {
-  return {{"parameters", parameters_section(steps)},
-          {"details", by_step(steps, &StepOutcome::details)},
-          {"iterations", by_step(steps, &StepOutcome::iterations)}};
+  Json section = {{"parameters", parameters_section(steps)},
+                  {"details", by_step(steps, &StepOutcome::details)},
+                  {"iterations", by_step(steps, &StepOutcome::iterations)}};
+  for (const StepOutcome& step : steps)
+    for (const std::string& warning : step.warnings) section["warnings"].push_back(warning);
+  return section;
 }
 
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering) {

@@ -25,7 +25,7 @@ Json tool_section();
 /// A field's resolved parameters, and KEY_sha256 for a KEY that names a file. The hash is that of `known`, or
 /// else the file is read here. Throws BadInput if it cannot be read.
 Json field_parameters(const FieldSummary& field, std::span<const HashedFile> known = {});
-/// {"name", "parameters", "min", "max"}
+/// {"name", "parameters", "min", "max", "warnings" (if there are any)}
 Json field_section(const FieldSummary& field, std::span<const HashedFile> known = {});
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
@@ -42,7 +42,8 @@ Json complex_section(const mscomplex::MorseSmaleComplex& complex, const mscomple
 Json timings_section(const Timings& timings);
 /// The resolved parameters of one step as they are, a chain's by step.
 Json parameters_section(const std::vector<StepOutcome>& steps);
-/// {"parameters", "details", "iterations"}: one step's as they are, a chain's by step.
+/// {"parameters", "details", "iterations"}: one step's as they are, a chain's by step; and "warnings" of all
+/// steps, if there are any.
 Json steps_section(const std::vector<StepOutcome>& steps);
 /// How a wanted number came about, without the list of the cancelled pairs; vertices in the input's numbers.
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering);

@@ -72,6 +72,7 @@ struct FieldOutcome {
   core::Parameters parameters;
   double seconds = 0;
   std::vector<FieldFile> files = {};
+  std::vector<std::string> warnings = {};  ///< the function's, and of critical points that mean nothing
 };
 
 /// Takes a Morse function on a loaded mesh.

@@ -20,6 +20,7 @@ struct FieldSummary {
   double min = 0;
   double max = 0;
   std::vector<FieldFile> files = {};
+  std::vector<std::string> warnings = {};
 };
 FieldSummary summary_of(const FieldOutcome& outcome);
 

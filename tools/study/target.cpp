@@ -70,8 +70,8 @@ bool TargetSearch::offer(const core::ScalarField& field) {
 }
 
 std::string TargetSearch::too_few() const {
-  std::string text = "the method's own field has " + std::to_string(total_) + " critical points, fewer than " +
-                     std::to_string(wanted_);
+  std::string text = "the method's own field has " + std::to_string(total_) +
+                     " critical points, fewer than " + std::to_string(wanted_);
   if (most_ > total_) text += "; its iterations leave " + std::to_string(most_) + " at most";
   return text;
 }
