@@ -2,16 +2,22 @@
 
 #include <catch2/catch.hpp>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/segments.h"
 #include "morsel/tools/study/level_builder.h"
 #include "morsel/tools/study/persistence_levels.h"
+#include "morsel/tools/study/presets.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -140,6 +146,82 @@ TEST_CASE("regression: shares of the extent were each method's own") {
   request.methods = {"conventional", "spectral:modes=2", "saliency"};
   tools::run_comparison(loaded, tools::prepare(request), {&sink});
   CHECK(sink.methods == 3);
+}
+
+namespace {
+
+/// Rows by specification: their critical points and the `count` of their last step, if it has one.
+class Rows : public tools::ComparisonSink {
+ public:
+  struct Row {
+    std::string specification;
+    std::size_t total;
+    std::optional<std::int64_t> count;
+  };
+  void field(const tools::FieldOutcome&) override {}
+  void method(const tools::MethodOutcome& outcome) override {
+    rows.push_back({outcome.specification, outcome.measurement.critical_points.total(), {}});
+    for (const auto& [name, value] : outcome.steps.back().parameters)
+      if (name == "count") rows.back().count = std::get<std::int64_t>(value);
+  }
+  std::vector<Row> rows;
+};
+
+std::vector<Rows::Row> rows_of(const tools::ComparisonRequest& request) {
+  Rows sink;
+  tools::run_comparison({jittered(sphere(3).mesh(), 0.02, 5), {}}, tools::prepare(request), {&sink});
+  return sink.rows;
+}
+
+}  // namespace
+
+TEST_CASE("by default tps is held to the number of points that salient leaves") {
+  const std::vector<Rows::Row> rows = rows_of({});
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[2].specification == "tps:count=salient");
+  CHECK(rows[1].total < rows[0].total);
+  REQUIRE(rows[2].count);
+  CHECK(static_cast<std::size_t>(*rows[2].count) == rows[1].total);
+  CHECK(rows[2].total <= rows[1].total);
+  CHECK(rows[2].total + 1 >= rows[1].total);
+}
+
+TEST_CASE("a count is that of an earlier row, by its methods' names or by all of it") {
+  const std::vector<Rows::Row> rows =
+      rows_of({.field = "mean-curvature",
+               .methods = {"laplacian:iterations=2", "laplacian:iterations=5",
+                           "gaussian:sigma=1edges+tps:count=30", R"(tps:count=laplacian\:iterations\=5)",
+                           R"(tps:count=gaussian\+tps+laplacian:iterations=0)"},
+               .target = {}});
+  REQUIRE(rows.size() == 5);
+  CHECK(static_cast<std::size_t>(*rows[3].count) == rows[1].total);
+  CHECK(rows[4].total + 1 >= rows[2].total);
+  CHECK(rows[4].total <= rows[2].total);
+  const auto refused = [](std::vector<std::string> methods, const char* why) {
+    tools::ComparisonRequest request;
+    request.methods = std::move(methods);
+    CHECK_THROWS_AS(tools::prepare(request), core::InvalidArgument);
+    CHECK_THROWS_WITH(tools::prepare(request), Catch::Contains(why));
+  };
+  refused({"tps:count=salient", "salient"}, "no method before it");
+  refused({"conventional", "tps:count=salient"}, "before it there are conventional");
+  refused({"salient:iterations=1", "salient:iterations=2", "tps:count=salient"}, "it could be");
+  refused({"salient", "tps:count=salient,threshold=1%"}, "not both");
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("tps:count=salient"),
+                    Catch::Contains("in a comparison alone"));
+}
+
+TEST_CASE("presets are comparisons") {
+  for (const tools::Preset& preset : tools::presets()) {
+    INFO(preset.name);
+    tools::ComparisonRequest request;
+    tools::apply_preset(preset.name, request);
+    CHECK(request.field == preset.field);
+    CHECK(tools::prepare(request).chains.size() == preset.methods.size());
+    CHECK(rows_of(request).size() == preset.methods.size());
+  }
+  tools::ComparisonRequest request;
+  CHECK_THROWS_WITH(tools::apply_preset("papper", request), Catch::Contains("did you mean paper?"));
 }
 
 TEST_CASE("regression: points that come from vertex numbers alone were not told from others") {

@@ -5,6 +5,7 @@
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/study/presets.h"
 
 namespace morsel::tools {
 
@@ -77,9 +78,28 @@ void add_methods_option(Command& command, std::vector<std::string>& methods) {
   command.texts("--method", methods, "A method or chain of methods; may be given several times").value("M");
 }
 
+namespace {
+
+void add_preset_option(Command& command, ComparisonRequest& request) {
+  Option row{"--preset", "Field and methods at once"};
+  row.value_name = "WHICH";
+  for (const Preset& preset : presets()) {
+    row.choices.emplace_back(preset.name);
+    row.help += (row.choices.size() == 1 ? ": " : "; ") + std::string(preset.name) + ", " +
+                std::string(preset.purpose);
+  }
+  row.take = [&request](const Option&, const std::vector<std::string>& words) {
+    apply_preset(words.back(), request);
+  };
+  command.add(std::move(row)).excludes("--field").excludes("--method");
+}
+
+}  // namespace
+
 void add_comparison_options(Command& command, ComparisonRequest& request) {
   command.text("--field", request.field, "Morse function").value("F");
   add_methods_option(command, request.methods);
+  add_preset_option(command, request);
   add_target_option(command, request.target);
   command.flag("--snap", request.snap,
                "Report each critical point at the position of the one of the input field that it came "

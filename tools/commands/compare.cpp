@@ -259,7 +259,10 @@ void add_compare(Program& program) {
       .value("PATH");
   add_common_options(command, program.common);
   command.examples = {
-      {"compare scan.off", "a table: conventional, salient and tps on the mean curvature"},
+      {"compare scan.off",
+       "a table: conventional, salient, and tps held to as many points as salient leaves, on the mean "
+       "curvature"},
+      {"compare scan.off --preset noise", "a field and methods for noisy surfaces"},
       {"compare scan.off --method conventional --method salient:iterations=20,sigma=4eps --figures out",
        "two methods, with pictures and plots"},
       {"compare scan.off --field height:axis=z --target 40 -o report.json --html report.html",

@@ -16,12 +16,13 @@ class ComparisonTable : public ComparisonSink {
  public:
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
-  /// The table, with a line on the field above it and what methods have to tell below.
+  /// The table, with a line on the field above it, what the columns mean and what methods have to tell below.
   std::string text() const;
 
  private:
   std::string headline_;
   std::vector<std::vector<std::string>> rows_;
+  std::string foot_;
   std::string notes_;
 };
 

@@ -24,7 +24,10 @@ namespace morsel::tools {
 /// What is to be compared, in the words of the command line.
 struct ComparisonRequest {
   std::string field = "mean-curvature";
-  std::vector<std::string> methods = {"conventional", "salient", "tps"};
+  /// A row of the comparison each. `tps:count=NAME` takes the number of critical points of an earlier row, by
+  /// what it is as a whole or by its methods' names: by default persistence simplification is held to the
+  /// number that salient smoothing leaves.
+  std::vector<std::string> methods = {"conventional", "salient", "tps:count=salient"};
   std::optional<std::size_t> target;  ///< every method is to end with so many critical points
   bool snap = false;                  ///< critical points are reported where they came from
 };
@@ -92,15 +95,24 @@ class ComparisonSink {
   virtual void method(const MethodOutcome& outcome) = 0;
 };
 
+/// A `count` of a step that is the number of critical points of an earlier row.
+struct RowCount {
+  std::size_t step = 0;
+  std::size_t row = 0;
+};
+
 /// A comparison whose names have been looked up.
 struct ComparisonPlan {
   NamedFunction function;
-  std::vector<MethodChain> chains;
+  std::vector<MethodChain> chains;  ///< by row; a count that is another row's is not in it yet
   std::optional<std::size_t> target;
   bool snap = false;
+  std::vector<std::vector<RowCount>> counts;  ///< by row
+  Registry registry;                          ///< a copy of the one that it was made with
 };
 
-/// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
+/// Throws InvalidArgument on unknown names and keys, bad values, a target of 0, and the name of no earlier row
+/// or of several. Touches no file.
 ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
 
 /// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods
