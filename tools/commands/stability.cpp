@@ -49,6 +49,9 @@ int measure_stability(const Options& options, const CommonOptions& common, Conso
                     " perturbed surfaces done: " + options.output + ".journal");
   const StabilityResult result =
       run_stability(input.loaded, prepared, console.progress(), trials ? &*trials : nullptr);
+  for (const FieldOutcome& field : result.fields) tell_warnings(field, console);
+  for (std::size_t i = 0; i < result.outcomes.size() / prepared.targets.size(); ++i)  // the first target's
+    tell_warnings(result.outcomes[i].clean.steps, console);
   const StabilityReport report{input.loaded, about, request, prepared, result};
   target.write([&](JsonSink& json) { write_stability(json, report); },
                [&](std::ostream& out) { write_stability_csv(out, report); });

@@ -73,6 +73,11 @@ int sweep(const Options& options, const CommonOptions& common, Console& console)
   const std::vector<SweepRow> rows =
       run_sweep(input.loaded, prepared, done ? done->options() : SweepOptions(), console.progress());
 
+  std::set<std::string> warnings;  // a field is in many rows
+  for (const SweepRow& row : rows)
+    for (const std::string& warning : row.field.warnings) warnings.insert(row.field.name + ": " + warning);
+  for (const std::string& warning : warnings) console.warning(warning);
+
   const SweepReport report{input.loaded, about, options.request, prepared, rows, files};
   target.write([&](JsonSink& json) { write_sweep(json, report); },
                [&](std::ostream& out) { write_sweep_csv(out, report); });
