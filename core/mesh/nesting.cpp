@@ -30,7 +30,12 @@ double solid_angle(const Point& from, const Point& p, const Point& q, const Poin
 
 Nesting::Nesting(std::span<const Point> positions, std::span<const Triangle> triangles,
                  std::span<const Index> shell, Index count)
-    : positions_(positions), triangles_(triangles), first_(count + 1, 0), boxes_(count), by_size_(count) {
+    : positions_(positions),
+      triangles_(triangles),
+      first_(count + 1, 0),
+      boxes_(count),
+      sizes_(count),
+      by_size_(count) {
   for (const Index s : shell)
     if (s != kNone) ++first_[s + 1];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -38,7 +43,6 @@ Nesting::Nesting(std::span<const Point> positions, std::span<const Triangle> tri
   std::vector<Index> next(first_.begin(), first_.end() - 1);
   for (Index t = 0; t < shell.size(); ++t)
     if (shell[t] != kNone) members_[next[shell[t]]++] = t;
-  std::vector<double> size(count);
   for (Index s = 0; s < count; ++s) {
     BoundingBox& box = boxes_[s];
     box.min = box.max = positions_[triangles_[members_[first_[s]]][0]];
@@ -48,17 +52,20 @@ Nesting::Nesting(std::span<const Point> positions, std::span<const Triangle> tri
         box.max = box.max.cwiseMax(positions_[v]);
       }
     const double diagonal = (box.max - box.min).stableNorm();
-    size[s] = std::isnan(diagonal) ? 0 : diagonal;  // before a repair positions may be no numbers
+    sizes_[s] = std::isnan(diagonal) ? 0 : diagonal;  // before a repair positions may be no numbers
   }
   std::iota(by_size_.begin(), by_size_.end(), Index{0});
-  std::ranges::stable_sort(by_size_, [&](Index a, Index b) { return size[a] > size[b]; });
+  std::ranges::stable_sort(by_size_, [&](Index a, Index b) { return sizes_[a] > sizes_[b]; });
+}
+
+bool Nesting::holds_box(Index outer, Index inner) const {
+  const BoundingBox& around = boxes_[outer];
+  const BoundingBox& within = boxes_[inner];
+  return (within.min.array() >= around.min.array()).all() && (within.max.array() <= around.max.array()).all();
 }
 
 bool Nesting::encloses(Index outer, Index inner) const {
-  const BoundingBox& around = boxes_[outer];
-  const BoundingBox& within = boxes_[inner];
-  if ((within.min.array() < around.min.array()).any() || (within.max.array() > around.max.array()).any())
-    return false;
+  if (!holds_box(outer, inner)) return false;
   throw_if_stopped();
   const Point& witness = positions_[triangles_[members_[first_[inner]]][0]];
   double angle = 0;
@@ -70,15 +77,26 @@ bool Nesting::encloses(Index outer, Index inner) const {
   return std::abs(angle) > 3 * M_PI;
 }
 
+template <class IsSuch>
+bool Nesting::any_larger(Index shell, const IsSuch& is_such) const {
+  for (const Index other : by_size_) {
+    if (sizes_[other] < sizes_[shell]) break;
+    if (other != shell && is_such(other)) return true;
+  }
+  return false;
+}
+
 Index Nesting::depth(Index shell) const {
   Index found = 0;
-  for (const Index other : by_size_)
-    if (other != shell && encloses(other, shell)) ++found;
+  any_larger(shell, [&](Index other) {
+    found += encloses(other, shell) ? 1 : 0;
+    return false;
+  });
   return found;
 }
 
-bool Nesting::is_enclosed(Index shell) const {
-  return std::ranges::any_of(by_size_, [&](Index other) { return other != shell && encloses(other, shell); });
+bool Nesting::is_boxed(Index shell) const {
+  return any_larger(shell, [&](Index other) { return holds_box(other, shell); });
 }
 
 }  // namespace morsel::core

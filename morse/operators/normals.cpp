@@ -44,37 +44,31 @@ std::vector<int> volume_signs(const TriangleMesh& mesh) {
 
 /// Of the closed components.
 struct Orientation {
-  bool is_turned = false;      ///< the outermost ones are all inside out
-  std::size_t inside_out = 0;  ///< of the outermost ones, if not all are
+  bool is_turned = false;  ///< the outermost ones are all inside out
+  bool is_mixed = false;   ///< some of the outermost ones are, and others are not
 };
 
 Orientation orientation_of(const TriangleMesh& mesh, const std::vector<int>& sign) {
-  const auto inward = static_cast<std::size_t>(std::ranges::count(sign, -1));
-  if (inward == 0) return {};
-  if (std::ranges::count(sign, 1) == 0) return {true, 0};
-  std::vector<Index> component;  // of each shell
+  if (std::ranges::count(sign, -1) == 0) return {};
+  if (std::ranges::count(sign, 1) == 0) return {true, false};
+  std::vector<int> shell_sign;
   std::vector<Index> shell_of(sign.size(), core::kNone);
-  for (Index c = 0; c < sign.size(); ++c)
+  for (std::size_t c = 0; c < sign.size(); ++c)
     if (sign[c] != 0) {
-      shell_of[c] = static_cast<Index>(component.size());
-      component.push_back(c);
+      shell_of[c] = static_cast<Index>(shell_sign.size());
+      shell_sign.push_back(sign[c]);
     }
   std::vector<Index> shell(mesh.triangle_count());
   for (Index t = 0; t < shell.size(); ++t) shell[t] = shell_of[mesh.component_of_vertex(mesh.triangle(t)[0])];
-  const auto shells = static_cast<Index>(component.size());
+  const auto shells = static_cast<Index>(shell_sign.size());
   const core::Nesting nesting(mesh.positions(), mesh.triangles(), shell, shells);
-  Orientation found{sign[component[nesting.largest()]] < 0, 0};
-  for (Index s = 0; s < shells; ++s) {
-    const bool is_inward = sign[component[s]] < 0;
-    if (!is_inward && !found.is_turned) continue;
-    if (nesting.is_enclosed(s)) continue;
-    if (is_inward)
-      ++found.inside_out;
-    else
-      found.is_turned = false;
-  }
-  if (found.is_turned) found.inside_out = 0;
-  return found;
+  const auto any_outermost = [&](int wanted) {
+    for (Index s = 0; s < shells; ++s)
+      if (shell_sign[s] == wanted && !nesting.is_boxed(s)) return true;
+    return false;
+  };
+  if (!any_outermost(1)) return {true, false};
+  return {false, any_outermost(-1)};
 }
 
 }  // namespace
@@ -91,10 +85,10 @@ std::vector<double> outward_signs(const TriangleMesh& mesh) {
 std::vector<std::string> orientation_warnings(const TriangleMesh& mesh) {
   const Orientation found = orientation_of(mesh, volume_signs(mesh));
   if (found.is_turned) return {"the mesh's faces are inside out: normals are turned outward"};
-  if (found.inside_out == 0) return {};
-  return {"of the mesh's outermost closed components " + std::to_string(found.inside_out) +
-          (found.inside_out == 1 ? " is" : " are") +
-          " inside out and others are not: normals are as its faces have them"};
+  if (!found.is_mixed) return {};
+  return {
+      "some of the mesh's outermost closed components are inside out and others are not: normals are as its "
+      "faces have them"};
 }
 
 std::vector<Point> vertex_normals(const TriangleMesh& mesh) {

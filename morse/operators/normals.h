@@ -11,8 +11,9 @@ namespace morsel::morse {
 /// Per component, the factor that makes the triangles' normals point out of the solid: the orientation of the
 /// triangles is the file's own, so that the wall of a cavity has the sign of a wall, and it is turned, −1 for
 /// all closed components, where the outermost of them are all inside out (of negative volume). Bounded
-/// components keep the orientation of their triangles. O(triangles), but for components of both orientations,
-/// which are told apart by which lies in which (core/mesh/nesting.h).
+/// components keep the orientation of their triangles. Where closed components of both orientations occur, an
+/// outermost one is one whose box lies in that of no other (core/mesh/nesting.h). O(triangles), and then
+/// O(components²) at worst.
 std::vector<double> outward_signs(const core::TriangleMesh& mesh);
 
 /// What outward_signs() turned, or found inside out and did not turn, in a sentence each.
