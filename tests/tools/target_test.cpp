@@ -79,7 +79,8 @@ TEST_CASE("a method's own field with too few points says so, and is not blended 
 TEST_CASE("regression: a target returned the input where that had no more points, whatever the method") {
   const tools::Registry& registry = tools::Registry::standard();
   const tools::NamedFunction function = registry.make_function("mean-curvature");
-  for (const TriangleMesh& mesh : {jittered(sphere(3).mesh(), 0.03, 5), jittered(torus(16, 12).mesh(), 0.03, 7)})
+  for (const TriangleMesh& mesh :
+       {jittered(sphere(3).mesh(), 0.03, 5), jittered(torus(16, 12).mesh(), 0.03, 7)})
     for (const char* text :
          {"conventional", "denoise:iterations=2", "fair:extrema=5", "gaussian:sigma=0.4,iterations=2",
           "laplacian:iterations=4", "laplacian:scheme=implicit,iterations=2,time=0.3,weights=cotangent",
@@ -121,17 +122,17 @@ TEST_CASE("regression: a target returned the input where that had no more points
               most_apart = std::max(most_apart, std::abs(field.value(v) - outcome.field.value(v)));
             return most_apart;
           };
-          const double allowed = (target.largest_cancelled + target.largest_unfolding *
-                                                                 static_cast<double>(target.unfolded.size())) *
+          const double allowed = (target.largest_cancelled +
+                                  target.largest_unfolding * static_cast<double>(target.unfolded.size())) *
                                  (1 + 1e-12);
-          CHECK(std::ranges::any_of(
-              fields, [&](const ScalarField& field) { return differs_by(field) <= allowed; }));
+          CHECK(std::ranges::any_of(fields,
+                                    [&](const ScalarField& field) { return differs_by(field) <= allowed; }));
           CHECK((target.before_cancelling >= k) == (most >= k));
           if (most < k) CHECK(target.before_cancelling == total(alone));
           if (most < k && target.reached != k)
-            CHECK_THAT(target.note, Catch::StartsWith("the method's own field has " +
-                                                      std::to_string(total(alone)) +
-                                                      " critical points, fewer than " + std::to_string(k)));
+            CHECK_THAT(target.note,
+                       Catch::StartsWith("the method's own field has " + std::to_string(total(alone)) +
+                                         " critical points, fewer than " + std::to_string(k)));
           if (most >= k && target.reached != k) CHECK_THAT(target.note, Catch::StartsWith("no number of"));
         }
       }
@@ -155,6 +156,9 @@ TEST_CASE("the iterations before the target are run and the ones after are not")
   while (curve[first].total() >= wanted) ++first;
   CHECK(outcome.steps[0].iterations.size() == first + 1);  // the last of them went too far
   CHECK(outcome.target->iterations == static_cast<int>(first) - 1);
+  CHECK(outcome.target->left_by_next == curve[first].total());
+  CHECK_THAT(tools::early_end(*outcome.target),
+             Catch::EndsWith("the next iteration leaves " + std::to_string(curve[first].total())));
   CHECK(outcome.target->reached == wanted - wanted % 2);
 }
 

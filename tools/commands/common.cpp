@@ -123,7 +123,9 @@ void tell_warnings(const std::vector<StepOutcome>& steps, Console& console) {
 void tell_made(const MadeField& made, Console& console) {
   tell_warnings(made.input, console);
   tell_warnings(made.outcome.steps, console);
-  if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
+  if (!made.outcome.target) return;
+  for (const std::string& text : {made.outcome.target->note, early_end(*made.outcome.target)})
+    if (!text.empty()) console.message(text);
 }
 
 std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }

@@ -52,12 +52,8 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
     for (const auto& [name, value] : step.details)
       if (name == "note") note(std::get<std::string>(value));
   if (!outcome.target) return;
-  const TargetOutcome& target = *outcome.target;
-  if (!target.note.empty()) note(target.note);
-  if (target.left_by_next && target.iterations > 0)
-    note("ended after iteration " + std::to_string(target.iterations) + ", which leaves " +
-         grouped(target.before_cancelling) + " critical points; the next one leaves " +
-         grouped(*target.left_by_next));
+  for (const std::string& text : {outcome.target->note, early_end(*outcome.target)})
+    if (!text.empty()) note(text);
 }
 
 std::string ComparisonTable::text() const {

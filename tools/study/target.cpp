@@ -33,6 +33,12 @@ void unfold(core::ScalarField& field, TargetOutcome& outcome) {
 
 }  // namespace
 
+std::string early_end(const TargetOutcome& outcome) {
+  if (!outcome.left_by_next || outcome.iterations == 0) return {};
+  return "ended early, with a field of " + std::to_string(outcome.before_cancelling) +
+         " critical points; the next iteration leaves " + std::to_string(*outcome.left_by_next);
+}
+
 void check_target(std::optional<std::size_t> target) {
   if (target && *target == 0)
     throw core::InvalidArgument("a target of 0 critical points cannot be reached: every field has a minimum");

@@ -31,6 +31,9 @@ struct TargetOutcome {
   friend bool operator==(const TargetOutcome&, const TargetOutcome&) = default;
 };
 
+/// What an iterative method's next iteration would have left, in a sentence; empty if it was run to its end.
+std::string early_end(const TargetOutcome& outcome);
+
 /// Throws InvalidArgument if a wanted number is given that no field can have.
 void check_target(std::optional<std::size_t> target);
 
