@@ -67,7 +67,8 @@ void add_figure_options(Command& command, render::FigureText& figure);
 /// Warnings of a Morse function, and of methods.
 void tell_warnings(const FieldOutcome& field, Console& console);
 void tell_warnings(const std::vector<StepOutcome>& steps, Console& console);
-/// Warnings, why a wanted number of critical points was not reached, and whether iterations were left out for it.
+/// Warnings, why a wanted number of critical points was not reached, and whether iterations were left out for
+/// it.
 void tell_made(const MadeField& made, Console& console);
 
 void add_batch(Program& program);

@@ -111,8 +111,8 @@ struct ComparisonPlan {
   Registry registry;                          ///< a copy of the one that it was made with
 };
 
-/// Throws InvalidArgument on unknown names and keys, bad values, a target of 0, and the name of no earlier row
-/// or of several. Touches no file.
+/// Throws InvalidArgument on unknown names and keys, bad values, a target of 0, and the name of no earlier
+/// row or of several. Touches no file.
 ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
 
 /// Takes the function and then applies each chain in turn, telling every sink. Throws what functions, methods

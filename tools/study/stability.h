@@ -119,7 +119,7 @@ struct StabilityOutcome {
   ChainOutcome clean;
   morse::CriticalPoints points;  ///< on the clean surface
   Agreement with_reference;      ///< `found`: the method's clean points; those of the reference method at the
-                             ///< same count, by default on the row's own field
+                                 ///< same count, by default on the row's own field
   double chance = 0;  ///< expected agreement of as many points of the same types at random vertices
   std::vector<PerturbationOutcome> perturbations;
 
