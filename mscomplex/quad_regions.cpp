@@ -1,5 +1,8 @@
 #include "morsel/mscomplex/quad_regions.h"
 
+#include <algorithm>
+#include <cstdint>
+
 #include "morsel/core/parallel/parallel.h"
 
 namespace morsel::mscomplex {
@@ -98,6 +101,17 @@ std::vector<Index> quad_of_triangles(const core::ScalarField& field, const Morse
     }
   });
   return quad;
+}
+
+Index cell_count(const core::ScalarField& field, const MorseSmaleComplex& complex) {
+  const TriangleMesh& mesh = complex.mesh();
+  const std::vector<Index> quad = quad_of_triangles(field, complex);
+  std::vector<std::uint8_t> occurs(complex.quad_count() + mesh.component_count(), 0);
+  for (Index t = 0; t < mesh.triangle_count(); ++t) {
+    const Index without_quad = complex.quad_count() + mesh.component_of_vertex(mesh.triangle(t)[0]);
+    occurs[quad[t] != kNone ? quad[t] : without_quad] = 1;
+  }
+  return static_cast<Index>(std::ranges::count(occurs, 1));
 }
 
 }  // namespace morsel::mscomplex

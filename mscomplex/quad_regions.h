@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "morsel/core/field/scalar_field.h"
+#include "morsel/core/types.h"
 #include "morsel/mscomplex/complex.h"
 
 namespace morsel::mscomplex {
@@ -25,5 +26,9 @@ namespace morsel::mscomplex {
 ///
 /// O(n), parallel over the saddles; the same for every number of threads.
 std::vector<core::Index> quad_of_triangles(const core::ScalarField& field, const MorseSmaleComplex& complex);
+
+/// The number of cells: the quads that have a triangle, and the components that have no quad. Of a complex by
+/// lower stars or of any level of a hierarchy, for whose gradient the above holds as well. O(n).
+core::Index cell_count(const core::ScalarField& field, const MorseSmaleComplex& complex);
 
 }  // namespace morsel::mscomplex

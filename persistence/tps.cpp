@@ -33,9 +33,21 @@ class Tps final : public core::Method {
     return {std::move(result.field), std::move(parameters), std::move(details)};
   }
 
+  core::MethodTraits traits() const override { return {.cancels_pairs = true}; }
+
  private:
   CancellationOptions options_;
 };
+
+std::size_t read_count(const std::string& text, const std::string& what) {
+  const bool is_name = text.find_first_not_of("0123456789+-.") != std::string::npos;
+  if (is_name)
+    throw core::InvalidArgument(what + " must be a whole number, not \"" + text +
+                                "\": a method's name stands for a number in a comparison alone");
+  const std::int64_t number = core::parse_integer(text, what);
+  if (number < 1) throw core::InvalidArgument(what + " must be at least 1, not " + std::to_string(number));
+  return static_cast<std::size_t>(number);
+}
 
 }  // namespace
 
@@ -45,16 +57,15 @@ std::unique_ptr<core::Method> make_tps(core::ParameterReader& reader) {
       "threshold", "0.1%",
       "cancel pairs up to this persistence: a percentage of the field's range, or a number in the "
       "field's unit");
-  const std::string count =
-      reader.text("count", "none", "cancel down to this number of critical points, instead of a threshold");
+  const std::string count = reader.text(
+      "count", "none",
+      "cancel down to this number of critical points, instead of a threshold; in a comparison the "
+      "name of an earlier method stands for the number that it leaves");
   const std::string& owner = reader.owner();
   options.threshold = parse_threshold(threshold, owner + ":threshold");
   if (count != "none") {
     if (reader.given("threshold")) throw core::InvalidArgument(owner + " takes threshold or count, not both");
-    const std::int64_t number = core::parse_integer(count, owner + ":count");
-    if (number < 1)
-      throw core::InvalidArgument(owner + ":count must be at least 1, not " + std::to_string(number));
-    options.count = static_cast<std::size_t>(number);
+    options.count = read_count(count, owner + ":count");
   }
   return std::make_unique<Tps>(options);
 }

@@ -22,6 +22,7 @@ struct MeshSource;  // mesh_io.h: the data in the mesh's file besides the mesh
 struct FunctionResult {
   ScalarField field;
   Parameters parameters;
+  std::vector<std::string> warnings = {};  ///< what the values do not mean on this mesh, a sentence each
 };
 
 /// Where a Morse function is evaluated.
@@ -60,6 +61,7 @@ struct MethodResult {
   Parameters parameters;
   Parameters details;
   std::vector<IterationRecord> iterations = {};  ///< from the input on, where they were counted
+  std::vector<std::string> warnings = {};        ///< what the method could not do here, a sentence each
 };
 
 /// A callback for the iterations of an iterative method, and the choice of those for which it is called.
@@ -105,13 +107,15 @@ struct MethodContext {
 
 /// Traits of a method, for composing methods.
 struct MethodTraits {
-  /// It removes critical points pair by pair: fields between its input and its output have no use.
+  /// It removes critical points pair by pair: a run that cancels fewer of them is the same method.
   bool cancels_pairs = false;
   /// It evaluates the Morse function again whatever its input: no method can come before it in a chain.
   bool reevaluates_function = false;
   /// The field that MethodContext::on_iteration receives for iteration i is, bit for bit, what this method
   /// returns with `iterations=i`: so one run gives the results for all smaller numbers.
   bool iterates_are_results = false;
+  /// It does not return the field of its last iteration but another one, computed during the iterations.
+  bool returns_other = false;
 };
 
 /// A method: a function from a scalar field to a scalar field on the same mesh. It never measures, and what

@@ -80,9 +80,9 @@ struct BuildOptions {
 ///
 /// Where a vertex is split, the fan of the first face keeps its number and the others get new vertices at the
 /// same position after all others. Faces that meet in a split edge stay joined where both its ends got the
-/// same new vertices. A component that has to be reoriented ends up with outward normals if it is closed,
-/// else with the orientation of most of its faces (of the first, in a tie); one that is consistent is left
-/// alone.
+/// same new vertices. A component that has to be reoriented ends up with normals out of the solid if it is
+/// closed (by nesting: those of a cavity's wall point into the cavity), else with the orientation of most of
+/// its faces (of the first, in a tie); one that is consistent is left alone.
 ///
 /// O(n log n), deterministic.
 BuiltMesh build_mesh(PolygonSoup soup, const BuildOptions& options = {}, const Progress& progress = {});

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morsel/core/mesh/edge_sides.h"
+#include "morsel/core/mesh/nesting.h"
 #include "morsel/core/parallel/interruptible.h"
 #include "morsel/core/parallel/union_find.h"
 
@@ -159,6 +160,10 @@ class Repairer {
       bool is_closed = true;
       bool is_orientable = true;
       double volume = 0, terms = 0;  // as the first face is oriented
+      bool is_wall = false;          // of a cavity: lies within an odd number of closed components
+
+      bool to_turn() const { return opposite > 0 && is_orientable; }
+      bool outward_known() const { return is_closed && std::abs(volume) > 1e-9 * terms; }
     };
     std::vector<Component> of_root(count);
     for (const Index t : contradictions) of_root[components.find(t)].is_orientable = false;
@@ -174,19 +179,40 @@ class Repairer {
       c.volume += odd ? -term : term;
       c.terms += std::abs(term);
     }
+    find_walls(components, of_root);
     FaceCounter faces(soup_);
     for (Index t = 0; t < count; ++t) {
       const Index root = components.find(t);
       const Component& c = of_root[root];
-      if (c.opposite == 0 || !c.is_orientable) continue;
-      const bool outward_known = c.is_closed && std::abs(c.volume) > 1e-9 * c.terms;
-      const bool keep_first = outward_known ? c.volume > 0 : c.same >= c.opposite;
+      if (!c.to_turn()) continue;
+      const bool keep_first = c.outward_known() ? (c.volume > 0) != c.is_wall : c.same >= c.opposite;
       const bool odd = parity.find(t).second != parity.find(root).second;
       if (odd != keep_first) continue;
       std::swap(soup_.triangles[t][1], soup_.triangles[t][2]);
       faces.add(t);
     }
     counts_.reoriented_faces += faces.count();
+  }
+
+  /// Marks the components that are to be turned and are walls of cavities.
+  template <class Component>
+  void find_walls(UnionFind& components, std::vector<Component>& of_root) const {
+    std::vector<Index> number(of_root.size(), kNone);
+    std::vector<Index> closed;  // their roots
+    bool needed = false;
+    for (Index root = 0; root < of_root.size(); ++root) {
+      const Component& c = of_root[root];
+      if (components.find(root) != root || !c.is_closed || !c.is_orientable) continue;
+      number[root] = static_cast<Index>(closed.size());
+      closed.push_back(root);
+      needed |= c.to_turn();
+    }
+    if (!needed || closed.size() < 2) return;
+    std::vector<Index> shell(of_root.size());
+    for (Index t = 0; t < shell.size(); ++t) shell[t] = number[components.find(t)];
+    const Nesting nesting(soup_.positions, soup_.triangles, shell, static_cast<Index>(closed.size()));
+    for (const Index root : closed)
+      if (of_root[root].to_turn()) of_root[root].is_wall = nesting.depth(number[root]) % 2 != 0;
   }
 
   VertexNumbering remove_unreferenced() {

@@ -34,10 +34,11 @@ bool parse_whole(std::string_view text, Number& value) {
 }  // namespace
 
 std::string to_string(const Length& length) {
-  const char* unit = length.unit == LengthUnit::epsilon   ? "eps"
-                     : length.unit == LengthUnit::edge    ? "edges"
-                     : length.unit == LengthUnit::percent ? "%"
-                                                          : "";
+  const char* unit = length.unit == LengthUnit::epsilon     ? "eps"
+                     : length.unit == LengthUnit::edge      ? "edges"
+                     : length.unit == LengthUnit::percent   ? "%"
+                     : length.unit == LengthUnit::root_area ? "rootarea"
+                                                            : "";
   return shortest(length.value) + unit;
 }
 
@@ -61,16 +62,18 @@ Length parse_length(std::string_view text, std::string_view what) {
   for (const auto& [name, named] : {std::pair<std::string_view, LengthUnit>("eps", LengthUnit::epsilon),
                                     {"edges", LengthUnit::edge},
                                     {"edge", LengthUnit::edge},
-                                    {"%", LengthUnit::percent}})
+                                    {"%", LengthUnit::percent},
+                                    {"rootarea", LengthUnit::root_area}})
     if (unit == LengthUnit::mesh && text.ends_with(name)) {
       text.remove_suffix(name.size());
       unit = named;
     }
   double value = 0;
   if (!parse_whole(text, value) || !std::isfinite(value))
-    throw InvalidArgument(std::string(what) +
-                          " must be a length such as 0.25 (in the mesh's unit), 8eps, 3edges or 5%, not " +
-                          in_quotes(given));
+    throw InvalidArgument(
+        std::string(what) +
+        " must be a length such as 0.25 (in the mesh's unit), 8eps, 3edges, 5% or 0.02rootarea, not " +
+        in_quotes(given));
   return {value, unit};
 }
 

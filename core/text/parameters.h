@@ -86,7 +86,8 @@ double parse_number(std::string_view text, std::string_view what);
 /// The whole text as an integer; throws InvalidArgument naming `what` otherwise.
 std::int64_t parse_integer(std::string_view text, std::string_view what);
 
-/// "0.25" (unit of the mesh), "8eps", "3edges" (or "3edge") or "5%" (of the bounding box's diagonal).
+/// "0.25" (unit of the mesh), "8eps", "3edges" (or "3edge"), "5%" (of the bounding box's diagonal) or
+/// "0.02rootarea".
 Length parse_length(std::string_view text, std::string_view what);
 
 }  // namespace morsel::core

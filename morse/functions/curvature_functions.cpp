@@ -14,6 +14,7 @@
 #include "morsel/morse/functions/discrete_curvature.h"
 #include "morsel/morse/functions/quadric_curvature.h"
 #include "morsel/morse/operators/low_pass.h"
+#include "morsel/morse/operators/normals.h"
 
 namespace morsel::morse {
 namespace {
@@ -42,6 +43,17 @@ std::vector<double> product(const PrincipalCurvatures& k) {
   return combine(k, [](double k1, double k2) { return k1 * k2; });
 }
 
+/// Of the angle defect.
+std::vector<std::string> rim_warnings(const TriangleMesh& mesh) {
+  std::size_t rim = 0;
+  for (core::Index v = 0; v < mesh.vertex_count(); ++v) rim += mesh.is_boundary_vertex(v) ? 1 : 0;
+  if (rim == 0) return {};
+  return {
+      "at " + std::to_string(rim) +
+      " boundary vertices the angle defect is the turning of the boundary over an area, not a curvature of "
+      "the surface; estimator=quadric measures that"};
+}
+
 enum class Way : std::uint8_t { one_ring, quadric, diffused, spread };
 
 /// From one-rings (directly or by Taubin's tensor), from fitted quadrics or diffused.
@@ -64,15 +76,21 @@ class Curvature final : public core::MorseFunction {
     core::Parameters parameters = parameters_;
     if (!(scale_.value > 0)) {
       ScalarField field = on_surface(mesh, mesh, context, parameters);
-      return {std::move(field), std::move(parameters)};
+      return {std::move(field), std::move(parameters), warnings(mesh)};
     }
     parameters.emplace_back("scale", scale_.on(mesh));
     const TriangleMesh smoothed = low_pass(mesh, scale_, context.progress);
     const ScalarField field = on_surface(smoothed, mesh, context, parameters);
-    return {{mesh, {field.values().begin(), field.values().end()}}, std::move(parameters)};
+    return {{mesh, {field.values().begin(), field.values().end()}}, std::move(parameters), warnings(mesh)};
   }
 
  private:
+  std::vector<std::string> warnings(const TriangleMesh& mesh) const {
+    if (direct_ == gaussian_curvature && way_ == Way::one_ring) return rim_warnings(mesh);
+    if (combination_ == product || combination_ == curvedness) return {};  // the same from either side
+    return orientation_warnings(mesh);
+  }
+
   /// Of `surface`; a length in other units is that on `mesh`. Adds to the parameters.
   ScalarField on_surface(const TriangleMesh& surface, const TriangleMesh& mesh,
                          const core::FunctionContext& context, core::Parameters& parameters) const {
@@ -144,11 +162,12 @@ struct Estimator {
   Way way = Way::one_ring;
 };
 
-/// The first estimator is the default; quadric is one besides these.
+constexpr Estimator kQuadric = {"quadric", nullptr, Way::quadric};
+
+/// The first estimator is the default.
 std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combination combination,
-                                          std::vector<Estimator> estimators,
+                                          const std::vector<Estimator>& estimators,
                                           core::Parameters parameters = {}) {
-  estimators.push_back({"quadric", nullptr, Way::quadric});
   std::vector<std::string_view> names;
   bool can_diffuse = false;
   bool can_spread = false;
@@ -214,25 +233,27 @@ std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& 
   return make(reader, mean,
               {{"taubin", mean_curvature},
                {"cotangent", cotangent_mean_curvature},
-               {"diffused", nullptr, Way::diffused}});
+               {"diffused", nullptr, Way::diffused},
+               kQuadric});
 }
 
 std::unique_ptr<core::MorseFunction> make_gaussian_curvature(core::ParameterReader& reader) {
-  return make(reader, product, {{"defect", gaussian_curvature}, {"diffused", nullptr, Way::spread}});
+  return make(reader, product,
+              {{"defect", gaussian_curvature}, {"diffused", nullptr, Way::spread}, kQuadric});
 }
 
 std::unique_ptr<core::MorseFunction> make_principal_curvature(core::ParameterReader& reader) {
   const std::string which =
       reader.choice("which", "max", {"max", "min"}, "the larger or the smaller one, signs counted");
-  return make(reader, which == "max" ? largest : least, {{"taubin", nullptr}}, {{"which", which}});
+  return make(reader, which == "max" ? largest : least, {kQuadric, {"taubin", nullptr}}, {{"which", which}});
 }
 
 std::unique_ptr<core::MorseFunction> make_curvedness(core::ParameterReader& reader) {
-  return make(reader, curvedness, {{"taubin", nullptr}});
+  return make(reader, curvedness, {kQuadric, {"taubin", nullptr}});
 }
 
 std::unique_ptr<core::MorseFunction> make_shape_index(core::ParameterReader& reader) {
-  return make(reader, shape_index, {{"taubin", nullptr}});
+  return make(reader, shape_index, {kQuadric, {"taubin", nullptr}});
 }
 
 }  // namespace morsel::morse

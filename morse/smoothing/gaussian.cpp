@@ -25,11 +25,14 @@ class Gaussian final : public core::Method {
                            const core::MethodContext& context) const override {
     IterationControl control(input, criteria_, context);
     const SalientResult result = run_salient(input, options_, criteria_, control, context.progress);
-    return control.result({{"sigma", result.sigma},
-                           {"support", options_.support},
-                           {"weights", std::string(to_string(options_.weights))},
-                           {"ball", std::string(to_string(options_.ball))}},
-                          {{"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)}});
+    core::MethodResult made =
+        control.result({{"sigma", result.sigma},
+                        {"support", options_.support},
+                        {"weights", std::string(to_string(options_.weights))},
+                        {"ball", std::string(to_string(options_.ball))}},
+                       {{"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)}});
+    made.warnings = empty_ball_warnings(input.mesh(), options_.support * result.sigma);
+    return made;
   }
 
   core::MethodTraits traits() const override { return {.iterates_are_results = true}; }

@@ -1,11 +1,15 @@
 #include "morsel/morse/smoothing/salient_method.h"
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/mesh/neighbors.h"
+#include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/morse/operators/low_pass.h"
 #include "morsel/morse/smoothing/keep_order.h"
 
@@ -56,13 +60,15 @@ class Salient final : public core::Method {
     if (!salient.reason.empty()) details.emplace_back("exact_because", salient.reason);
     core::MethodResult result = control.result(std::move(parameters), std::move(details));
     result.field = std::move(salient.field);
+    result.warnings = empty_ball_warnings(given.mesh(), options_.support * salient.sigma);
     return result;
   }
 
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
     return {.reevaluates_function = retakes(),
-            .iterates_are_results = !options_.return_saliency && options_.accuracy == 0};
+            .iterates_are_results = !options_.return_saliency && options_.accuracy == 0,
+            .returns_other = options_.return_saliency};
   }
 
  private:
@@ -109,6 +115,41 @@ void read_neighbors(core::ParameterReader& reader, SalientOptions& options) {
   if (reader.choice("ball", "euclidean", {"euclidean", "connected"},
                     "connected: only neighbours that edges within the neighbourhood connect") == "connected")
     options.ball = Ball::connected;
+}
+
+std::vector<std::string> empty_ball_warnings(const core::TriangleMesh& mesh, double radius) {
+  const auto count_empty = [&](const auto& is_empty) {
+    return core::parallel_reduce(
+        0, mesh.vertex_count(), core::kGrain, std::size_t{0},
+        [&](std::size_t first, std::size_t last) {
+          std::size_t found = 0;
+          for (std::size_t v = first; v < last; ++v) found += is_empty(static_cast<core::Index>(v)) ? 1 : 0;
+          return found;
+        },
+        std::plus<>());
+  };
+  const auto is_most = [&](std::size_t empty) { return 2 * empty > mesh.vertex_count(); };
+  // Neighbours along edges are quick to see; only where they are out of reach others are searched.
+  const auto is_alone = [&](core::Index v) {
+    bool alone = true;
+    mesh.for_each_outgoing(v, [&](core::Index h) {
+      if ((mesh.position(mesh.target(h)) - mesh.position(v)).stableNorm() <= radius) alone = false;
+      if ((mesh.position(mesh.apex(h)) - mesh.position(v)).stableNorm() <= radius) alone = false;
+    });
+    return alone;
+  };
+  if (!is_most(count_empty(is_alone))) return {};
+  const core::PointSearch search(mesh.positions());
+  const std::size_t empty = count_empty([&](core::Index v) {
+    std::vector<core::Index> near;
+    if (!is_alone(v)) return false;
+    search.within(mesh.position(v), radius, near);
+    return near.size() <= 1;
+  });
+  if (!is_most(empty)) return {};
+  return {"of " + std::to_string(mesh.vertex_count()) + " vertices " + std::to_string(empty) +
+          " have no other within the radius of " + core::shortest(radius) +
+          ", and there smoothing does nothing; a sigma of 1edges or more reaches the neighbours"};
 }
 
 SalientResult run_salient(const core::ScalarField& input, SalientOptions options,

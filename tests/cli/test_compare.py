@@ -113,7 +113,10 @@ class Compare(ProgramTest):
         self.assertAlmostEqual(salient["critical_points"]["total"], 97, delta=2)
         self.assertEqual(conventional["persistence"]["pairs"], 960)
         self.assertEqual([entry["pairs"] for entry in conventional["persistence"]["above"]], [734, 295, 98])
-        self.assertEqual(tps["persistence"]["above"][0]["pairs"], 734)
+        self.assertEqual(tps["parameters"]["count"], salient["critical_points"]["total"])
+        self.assertIn(salient["critical_points"]["total"] - tps["critical_points"]["total"], (0, 1))
+        threshold, = self.report(SAMPLES / "lion-head.off", "--method", "tps")["methods"]
+        self.assertEqual(threshold["persistence"]["above"][0]["pairs"], 734)
         for method in report["methods"]:
             counts, complex_ = method["critical_points"], method["ms_complex"]
             self.assertEqual(counts["minima"] - counts["saddle_multiplicity"] + counts["maxima"], 1)
@@ -177,9 +180,36 @@ class Compare(ProgramTest):
         result = self.morsel("compare", mesh, "--method", "conventional", "-o", "-")
         self.assertEqual(json.loads(result.stdout)["schema"], "morsel.comparison/1")
 
+    def test_presets_set_field_and_methods_and_a_report_of_one_can_be_checked(self):
+        self.morsel("compare", SAMPLES / "lion-head.off", "--preset", "resampled", "-o", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["request"]["field"], "mean-curvature:estimator=diffused")
+        conventional, laplacian, tps = report["methods"]
+        self.assertEqual(tps["parameters"]["count"], laplacian["critical_points"]["total"])
+        self.morsel("check", "r.json")
+        for arguments, naming in ((("--preset", "best"), ["paper", "landmarks"]),
+                                  (("--preset", "paper", "--field", "height"), ["--preset", "--field"]),
+                                  (("--preset", "paper", "--method", "tps"), ["--preset", "--method"]),
+                                  (("--method", "tps:count=salient"), ["salient", "no method before it"])):
+            error = self.morsel("compare", SAMPLES / "lion-head.off", *arguments, code=2).stderr
+            for word in naming:
+                self.assertIn(word, error)
+
+    def test_warnings_are_printed_and_in_the_report(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        values = self.file("values.txt", "1\n" * 6)
+        result = self.morsel("compare", mesh, "--field", f"vertex-scalar:file={values}", "--method", "salient",
+                             "-o", "r.json")
+        self.assertIn("morsel: warning: vertex-scalar: the field is constant", result.stderr)
+        self.assertIn("morsel: warning: salient: of 6 vertices 6 have no other", result.stderr)
+        report = json.loads((self.folder / "r.json").read_text())
+        jsonschema.validate(report, json.loads(SCHEMA.read_text()))
+        self.assertIn("constant", report["field"]["warnings"][0])
+        self.assertIn("no other", report["methods"][0]["warnings"][0])
+
     def test_the_table_names_each_method(self):
         result = self.morsel("compare", self.file("octahedron.off", OCTAHEDRON))
-        for name in ("conventional", "salient", "tps"):
+        for name in ("conventional", "salient", "tps:count=salient", "kept: points of conventional", ">1 %:"):
             self.assertIn(name, result.stdout)
         self.assertNotIn("\r", result.stderr)
 

@@ -37,6 +37,24 @@ class Control(ProgramTest):
         self.assertIn("149 are left", result.stderr)
         self.assertEqual(len(data_lines(self.folder / "lion.txt")), 8356)
 
+    def test_a_target_is_of_the_methods_own_points(self):
+        """`--target K` once gave the input where that had no more than K points."""
+        lion = SAMPLES / "lion-head.off"
+        alone, = self.report(lion, "--field", "height", "--method", "saliency")["methods"]
+        self.assertGreater(alone["critical_points"]["total"], 1000)
+        saliency, denoise = self.report(lion, "--field", "height", "--method", "saliency", "--method",
+                                        "denoise", "--target", 31)["methods"]
+        self.assertEqual(saliency["target"]["before_cancelling"], alone["critical_points"]["total"])
+        self.assertEqual(saliency["critical_points"]["total"], 31)
+        self.assertEqual(denoise["critical_points"]["total"], 31)
+        self.assertGreaterEqual(saliency["field"]["min"], 0)  # of heights it is -0.5
+        for target in (33, 2001):
+            method, = self.report(lion, "--field", "height", "--method", "conventional", "--target",
+                                  target)["methods"]
+            self.assertTrue(method["target"]["note"].startswith(
+                f"the method's own field has 31 critical points, fewer than {target}"))
+            self.assertIsNone(method["target"]["left_by_next"])
+
     def test_conditions_to_stop_are_reported_with_the_curve(self):
         report = self.report(SAMPLES / "lion-head.off", "--method", "salient:until-count=300", "--method",
                              "laplacian:until-stable=2", "--method", "laplacian:until-change=0.001",

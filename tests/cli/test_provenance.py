@@ -354,7 +354,8 @@ class Provenance(ProgramTest):
                     self.check_document(document, path)
                     self.assertEqual(document["inputs"], collection if path.suffix != ".png" else [
                         {"path": f"meshes/{path.name[:5]}", "sha256": hashed}])
-                    self.assertEqual(document["request"]["methods"], ["conventional", "salient", "tps"])
+                    self.assertEqual(document["request"]["methods"],
+                                     ["conventional", "salient", "tps:count=salient"])
 
     def test_no_command_is_left_out(self):
         """A new command has its files looked at here, too."""

@@ -1,11 +1,13 @@
 #include "morsel/core/text/parameters.h"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "morsel/core/error.h"
 #include "support/meshes.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -102,7 +104,18 @@ TEST_CASE("unknown and doubled keys are refused with the known ones listed") {
   CHECK_THROWS_WITH(twice.finish(), "salient:k is given twice");
 }
 
-TEST_CASE("lengths are in the unit of the mesh, in epsilon or in edges") {
+TEST_CASE("regression: no length was the same however the mesh is turned, but those in edges") {
+  const TriangleMesh mesh = jittered(sphere(2).mesh(), 0.1, 3);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, core::Point(1, 2, -1).normalized()).toRotationMatrix();
+  const TriangleMesh turned = moved(mesh, turn, {3, -2, 1});
+  CHECK(Length::root_areas(0.02).on(turned) == Approx(Length::root_areas(0.02).on(mesh)).epsilon(1e-12));
+  CHECK(Length::edges(2).on(turned) == Approx(Length::edges(2).on(mesh)).epsilon(1e-12));
+  CHECK(Length::epsilons(8).on(turned) != Approx(Length::epsilons(8).on(mesh)).epsilon(1e-6));
+  CHECK(core::root_area(grid(4, 5).mesh()) == Approx(std::sqrt(12.0)).epsilon(1e-14));
+  CHECK(core::root_area(scaled(mesh, 0x1p-900)) == 0x1p-900 * core::root_area(mesh));
+}
+
+TEST_CASE("lengths are in the unit of the mesh, in epsilon, in edges or in roots of the area") {
   const TriangleMesh mesh = grid(4, 5).mesh();  // 3 by 4: a diagonal of 5
   CHECK(Length::absolute(0.25).on(mesh) == 0.25);
   CHECK(core::parse_length("3edge", "length").on(mesh) == Length::edges(3).on(mesh));
@@ -114,7 +127,7 @@ TEST_CASE("lengths are in the unit of the mesh, in epsilon or in edges") {
         0x1p-900 * core::mean_edge_length(mesh));
   CHECK(Length::epsilons(8).on(mesh) == Approx(8 * 0.003 * 5).epsilon(1e-15));
   for (const Length length : {Length::absolute(0.1), Length::epsilons(8), Length::epsilons(1.0 / 3),
-                              Length::edges(3), Length::edges(1e-7)}) {
+                              Length::edges(3), Length::edges(1e-7), Length::root_areas(0.02)}) {
     const Length back = core::parse_length(core::to_string(length), "length");
     CHECK(back.value == length.value);
     CHECK(back.unit == length.unit);

@@ -6,7 +6,9 @@
 #include <map>
 
 #include "morsel/core/error.h"
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/morse/operators/normals.h"
 #include "support/fields.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
@@ -66,13 +68,64 @@ TEST_CASE("a sphere of radius r has mean curvature 1 over r whichever way its tr
     }
 }
 
-TEST_CASE("each closed component gets its own outward normals and a bounded one follows its triangles") {
-  const TriangleMesh mesh =
-      together(together(inside_out(sphere(2)), sphere(2)), inside_out(punctured_sphere(2, 1))).mesh();
-  const ScalarField curvature = morse::mean_curvature(mesh);
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const double expected = mesh.component_of_vertex(v) < 2 ? 1 : -1;
-    if (!mesh.is_boundary_vertex(v)) CHECK(curvature.value(v) == Approx(expected).epsilon(0.02));
+TEST_CASE("normals are turned if all outermost components are inside out, and a bounded one's never are") {
+  for (const bool other_inward : {false, true}) {
+    const TriangleMesh mesh =
+        together(together(inside_out(sphere(2)), other_inward ? inside_out(sphere(2)) : sphere(2)),
+                 inside_out(punctured_sphere(2, 1)))
+            .mesh();
+    const ScalarField curvature = morse::mean_curvature(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Index c = mesh.component_of_vertex(v);
+      const double expected = c == 2 || (c == 0 && !other_inward) ? -1 : 1;
+      if (!mesh.is_boundary_vertex(v)) CHECK(curvature.value(v) == Approx(expected).epsilon(0.02));
+    }
+    CHECK_THAT(morse::orientation_warnings(mesh).front(),
+               Catch::Contains(other_inward ? "turned outward" : "others are not"));
+  }
+}
+
+namespace {
+
+/// A sphere of radius 1, and one of half the radius within it.
+Soup hollow_sphere(bool inner_is_wall) {
+  Soup soup = sphere(2);
+  const Soup inner = inner_is_wall ? inside_out(sphere(2)) : sphere(2);
+  const auto shift = static_cast<Index>(soup.positions.size());
+  for (const Point& p : inner.positions) soup.positions.emplace_back(p / 2);
+  for (const core::Triangle& t : inner.triangles)
+    soup.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  return soup;
+}
+
+}  // namespace
+
+TEST_CASE("regression: the wall of a cavity had the sign of an outside") {
+  for (const bool turned : {false, true}) {
+    const Soup soup = hollow_sphere(true);
+    const TriangleMesh mesh = turned ? inside_out(soup).mesh() : soup.mesh();
+    const ScalarField curvature = morse::mean_curvature(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      CHECK(curvature.value(v) == Approx(mesh.component_of_vertex(v) == 0 ? 1 : -2).epsilon(0.02));
+    CHECK(morse::orientation_warnings(mesh).empty() == !turned);
+  }
+  const TriangleMesh both_outward = hollow_sphere(false).mesh();  // the file's own orientation is kept
+  CHECK(morse::mean_curvature(both_outward).value(200) == Approx(2).epsilon(0.02));
+  CHECK(morse::orientation_warnings(both_outward).empty());
+}
+
+TEST_CASE("a repaired orientation is outward, by nesting") {
+  for (const bool inner_is_wall : {false, true}) {
+    Soup soup = hollow_sphere(inner_is_wall);
+    for (const std::size_t t : {std::size_t{3}, soup.triangles.size() - 3})
+      std::swap(soup.triangles[t][0], soup.triangles[t][1]);
+    core::PolygonSoup polygons;
+    polygons.positions = soup.positions;
+    for (const core::Triangle& t : soup.triangles) polygons.add_polygon(t);
+    const TriangleMesh mesh = core::build_mesh(std::move(polygons), {.repair = true}).mesh;
+    const ScalarField curvature = morse::mean_curvature(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v)
+      CHECK(curvature.value(v) == Approx(mesh.component_of_vertex(v) == 0 ? 1 : -2).epsilon(0.02));
   }
 }
 

@@ -243,9 +243,9 @@ TEST_CASE("every curvature at a scale is that of the smoothed surface, and repor
   check(morse::make_mean_curvature, "mean-curvature", {{"estimator", "cotangent"}});
   check(morse::make_mean_curvature, "mean-curvature", {{"estimator", "quadric"}, {"radius", "1"}});
   check(morse::make_gaussian_curvature, "gaussian-curvature", {});
-  check(morse::make_principal_curvature, "principal-curvature", {{"which", "min"}});
-  check(morse::make_curvedness, "curvedness", {});
-  check(morse::make_shape_index, "shape-index", {});
+  check(morse::make_principal_curvature, "principal-curvature", {{"which", "min"}, {"radius", "1"}});
+  check(morse::make_curvedness, "curvedness", {{"radius", "1"}});
+  check(morse::make_shape_index, "shape-index", {{"estimator", "taubin"}});
 }
 
 TEST_CASE("salient with a scale smooths the function of the smoothed surface") {

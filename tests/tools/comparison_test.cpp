@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <memory>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/mscomplex/hierarchy.h"
+#include "morsel/mscomplex/segments.h"
+#include "morsel/tools/study/level_builder.h"
+#include "morsel/tools/study/persistence_levels.h"
+#include "morsel/tools/study/presets.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
+#include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
@@ -95,6 +106,173 @@ TEST_CASE("invariants hold for every field that a method returns") {
         INFO(entry.name << ", " << f.name << ", " << chain.specification);
         check_invariants(apply(chain, f.field));
       }
+}
+
+TEST_CASE("regression: compare, hierarchy and segment counted cells in three ways") {
+  for (const NamedMesh& entry : mesh_zoo())
+    for (const NamedField& f : field_zoo(entry.mesh, 29)) {
+      INFO(entry.name << ", " << f.name);
+      const auto field = std::make_shared<core::ScalarField>(f.field);
+      const auto hierarchy = std::make_shared<mscomplex::PersistenceHierarchy>(*field);
+      const mscomplex::Segmenter segmenter(*field, *hierarchy, mscomplex::SegmentKind::morse_smale);
+      tools::Timings timings;
+      const tools::Measurement m = tools::measure(*field, timings);
+      CHECK(m.cells <= m.complex.quad_count() + entry.mesh.component_count());
+      // At a boundary a cell may be several connected segments.
+      const auto agree = [&](Index cells, Index segments) {
+        return entry.mesh.is_closed() ? cells == segments : cells <= segments;
+      };
+      CHECK(agree(m.cells, segmenter.count(0)));
+      std::vector<std::size_t> counts;
+      for (const std::size_t share : {1u, 2u, 4u}) counts.push_back(m.critical_points.total() / share + 1);
+      tools::build_levels(
+          tools::levels_by_count({field, hierarchy}, counts),
+          [&](const tools::Level& level) {
+            CHECK(agree(level.quad_cells, segmenter.count(level.name.cancelled->cancellations)));
+          },
+          {});
+    }
+}
+
+TEST_CASE("regression: shares of the extent were each method's own") {
+  const TriangleMesh mesh = sphere(3).mesh();
+  const core::LoadedMesh loaded{mesh, {}};
+  struct Sink : tools::ComparisonSink {
+    void field(const tools::FieldOutcome& outcome) override { extent = outcome.field.extent(); }
+    void method(const tools::MethodOutcome& outcome) override {
+      CHECK(outcome.input_extent == extent);
+      ++methods;
+    }
+    double extent = 0;
+    int methods = 0;
+  } sink;
+  tools::ComparisonRequest request;
+  request.field = "height";
+  request.methods = {"conventional", "spectral:modes=2", "saliency"};
+  tools::run_comparison(loaded, tools::prepare(request), {&sink});
+  CHECK(sink.methods == 3);
+}
+
+namespace {
+
+/// Rows by specification: their critical points and the `count` of their last step, if it has one.
+class Rows : public tools::ComparisonSink {
+ public:
+  struct Row {
+    std::string specification;
+    std::size_t total;
+    std::optional<std::int64_t> count;
+  };
+  void field(const tools::FieldOutcome&) override {}
+  void method(const tools::MethodOutcome& outcome) override {
+    rows.push_back({outcome.specification, outcome.measurement.critical_points.total(), {}});
+    for (const auto& [name, value] : outcome.steps.back().parameters)
+      if (name == "count") rows.back().count = std::get<std::int64_t>(value);
+  }
+  std::vector<Row> rows;
+};
+
+std::vector<Rows::Row> rows_of(const tools::ComparisonRequest& request) {
+  Rows sink;
+  tools::run_comparison({jittered(sphere(3).mesh(), 0.02, 5), {}}, tools::prepare(request), {&sink});
+  return sink.rows;
+}
+
+}  // namespace
+
+TEST_CASE("by default tps is held to the number of points that salient leaves") {
+  const std::vector<Rows::Row> rows = rows_of({});
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[2].specification == "tps:count=salient");
+  CHECK(rows[1].total < rows[0].total);
+  REQUIRE(rows[2].count);
+  CHECK(static_cast<std::size_t>(*rows[2].count) == rows[1].total);
+  CHECK(rows[2].total <= rows[1].total);
+  CHECK(rows[2].total + 1 >= rows[1].total);
+}
+
+TEST_CASE("a count is that of an earlier row, by its methods' names or by all of it") {
+  const std::vector<Rows::Row> rows =
+      rows_of({.field = "mean-curvature",
+               .methods = {"laplacian:iterations=2", "laplacian:iterations=5",
+                           "gaussian:sigma=1edges+tps:count=30", R"(tps:count=laplacian\:iterations\=5)",
+                           R"(tps:count=gaussian\+tps+laplacian:iterations=0)"},
+               .target = {}});
+  REQUIRE(rows.size() == 5);
+  CHECK(static_cast<std::size_t>(*rows[3].count) == rows[1].total);
+  CHECK(rows[4].total + 1 >= rows[2].total);
+  CHECK(rows[4].total <= rows[2].total);
+  const auto refused = [](std::vector<std::string> methods, const char* why) {
+    tools::ComparisonRequest request;
+    request.methods = std::move(methods);
+    CHECK_THROWS_AS(tools::prepare(request), core::InvalidArgument);
+    CHECK_THROWS_WITH(tools::prepare(request), Catch::Contains(why));
+  };
+  refused({"tps:count=salient", "salient"}, "no method before it");
+  refused({"conventional", "tps:count=salient"}, "before it there are conventional");
+  refused({"salient:iterations=1", "salient:iterations=2", "tps:count=salient"}, "it could be");
+  refused({"salient", "tps:count=salient,threshold=1%"}, "not both");
+  CHECK_THROWS_WITH(tools::Registry::standard().make_method("tps:count=salient"),
+                    Catch::Contains("in a comparison alone"));
+}
+
+TEST_CASE("presets are comparisons") {
+  for (const tools::Preset& preset : tools::presets()) {
+    INFO(preset.name);
+    tools::ComparisonRequest request;
+    tools::apply_preset(preset.name, request);
+    CHECK(request.field == preset.field);
+    CHECK(tools::prepare(request).chains.size() == preset.methods.size());
+    CHECK(rows_of(request).size() == preset.methods.size());
+  }
+  tools::ComparisonRequest request;
+  CHECK_THROWS_WITH(tools::apply_preset("papper", request), Catch::Contains("did you mean paper?"));
+}
+
+TEST_CASE("regression: points that come from vertex numbers alone were not told from others") {
+  const TriangleMesh mesh = sphere(2).mesh();
+  const core::LoadedMesh loaded{mesh, {}};
+  const auto warnings = [&](std::vector<double> values) {
+    tools::Registry registry = tools::Registry::standard();
+    struct Given final : core::MorseFunction {
+      explicit Given(std::vector<double> v) : values(std::move(v)) {}
+      core::FunctionResult evaluate(const TriangleMesh& on, const core::FunctionContext&) const override {
+        return {{on, values}, {}};
+      }
+      std::vector<double> values;
+    };
+    registry.add(tools::FunctionEntry{
+        "given", "values", [&](core::ParameterReader&) { return std::make_unique<Given>(values); }});
+    return tools::evaluate_field(loaded, registry.make_function("given")).warnings;
+  };
+  const Index n = mesh.vertex_count();
+  REQUIRE(warnings(std::vector<double>(n, 3)).size() == 1);
+  CHECK_THAT(warnings(std::vector<double>(n, 3)).front(),
+             Catch::Contains("constant") && Catch::Contains("vertex numbers alone"));
+  REQUIRE(warnings(plateau_values(mesh, 2, 5)).size() == 1);
+  CHECK_THAT(warnings(plateau_values(mesh, 2, 5)).front(), Catch::Contains("neighbour of the same value"));
+  CHECK(warnings(random_values(n, 3)).empty());
+  std::vector<double> one_tie = random_values(n, 3);
+  one_tie[mesh.triangle(0)[0]] = one_tie[mesh.triangle(0)[1]];
+  CHECK(warnings(std::move(one_tie)).empty());
+}
+
+TEST_CASE("regression: salient on a coarse mesh did nothing, silently") {
+  const core::ScalarField coarse(sphere(1).mesh(), random_values(42, 3));
+  const auto warnings = [](const char* method, const core::ScalarField& input) {
+    return tools::apply_chain(tools::Registry::standard().make_method(method), {input.mesh(), {}},
+                              tools::Registry::standard().make_function("height"), input)
+        .steps.front()
+        .warnings;
+  };
+  for (const char* method : {"salient", "gaussian"}) {
+    REQUIRE(warnings(method, coarse).size() == 1);
+    CHECK_THAT(warnings(method, coarse).front(),
+               Catch::Contains("of 42 vertices 42 have no other") && Catch::Contains("1edges"));
+  }
+  CHECK(warnings("salient:sigma=1edges", coarse).empty());
+  const TriangleMesh fine = sphere(4).mesh();
+  CHECK(warnings("salient", core::ScalarField(fine, random_values(fine.vertex_count(), 3))).empty());
 }
 
 TEST_CASE("every method gives the same bits at any number of threads") {

@@ -14,6 +14,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/study/iteration_levels.h"
+#include "morsel/tools/study/matching.h"
 #include "morsel/tools/study/persistence_levels.h"
 #include "support/counted_method.h"
 #include "support/fields.h"
@@ -232,8 +233,9 @@ TEST_CASE("two bumps that merge, by persistence") {
 }
 
 TEST_CASE("a hill that moves, one that appears and one that disappears, by iteration") {
-  // The middle row of a strip is a range of hills, so far apart that 2 % of the diagonal are not quite 2.
-  const TriangleMesh mesh = grid(100, 3).mesh();
+  // The middle row of a strip is a range of hills; 2 % of the root of its area are more than 1 and less
+  // than 2.
+  const TriangleMesh mesh = moved(grid(100, 3).mesh(), Point(1, 20, 1).asDiagonal(), {0, 0, 0});
   const auto hills = [&](const std::vector<std::pair<int, double>>& tops) {
     std::vector<double> values;
     for (int v = 0; v < 300; ++v) {
@@ -273,7 +275,7 @@ TEST_CASE("parents are followed through all iterations between two levels") {
   const ScalarField field(mesh, smooth_values(mesh, 2, 5));
   const std::vector<Level> levels = by_iteration(field, "laplacian", {0, 1, 2, 3, 8});
   check_levels(levels);
-  morse::CriticalPointTracker tracker(*levels[3].field, 0.02 * mesh.bounding_box().diagonal());
+  morse::CriticalPointTracker tracker(*levels[3].field, tools::matching_radius(mesh));
   const tools::MethodChain one = tools::Registry::standard().make_method("laplacian:iterations=1");
   ScalarField at = *levels[3].field;
   for (int i = 3; i < 8; ++i) {

@@ -73,7 +73,7 @@ void add_field_options(Command& command, std::string& mesh, FieldRequest& reques
 void add_camera_options(Command& command, render::CameraText& camera);
 /// --method, any number of times.
 void add_methods_option(Command& command, std::vector<std::string>& methods);
-/// --field, --method, --target and --snap of the commands that run several methods.
+/// --field, --method, --preset, --target and --snap of the commands that run several methods.
 void add_comparison_options(Command& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures.
 void add_figure_options(Command& command, render::FigureText& figure);

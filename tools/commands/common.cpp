@@ -5,6 +5,7 @@
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/study/presets.h"
 
 namespace morsel::tools {
 
@@ -62,9 +63,29 @@ void add_methods_option(Command& command, std::vector<std::string>& methods) {
       .in_detail("May be given several times; what is given replaces the default");
 }
 
+namespace {
+
+void add_preset_option(Command& command, ComparisonRequest& request) {
+  Option row{"--preset", "Field and methods at once"};
+  row.value_name = "WHICH";
+  for (const Preset& preset : presets()) {
+    row.choices.emplace_back(preset.name);
+    row.help += (row.choices.size() == 1 ? ": " : ", ") + std::string(preset.name);
+    row.details +=
+        (row.choices.size() == 1 ? "" : "; ") + std::string(preset.name) + ": " + std::string(preset.purpose);
+  }
+  row.take = [&request](const Option&, const std::vector<std::string>& words) {
+    apply_preset(words.back(), request);
+  };
+  command.add(std::move(row)).excludes("--field").excludes("--method");
+}
+
+}  // namespace
+
 void add_comparison_options(Command& command, ComparisonRequest& request) {
   command.text("--field", request.field, "Morse function").value("F");
   add_methods_option(command, request.methods);
+  add_preset_option(command, request);
   add_target_option(command, request.target);
   command.flag("--snap", request.snap, "Report each critical point at its origin")
       .in_detail(
@@ -89,9 +110,9 @@ std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
 void add_specification_notes(Command& command) {
   command.notes +=
       "F and M are written name or name:key=value,key=value; methods chain as M+M. Lengths are in the mesh's "
-      "unit, in eps (0.3 % of the bounding box's diagonal), in percent of that or in mean edges: 8eps, 5%, "
-      "3edges. `morsel fields` and `morsel methods` list all names, `morsel methods salient` the keys of "
-      "one.";
+      "unit, in eps (0.3 % of the bounding box's diagonal), in percent of that, in mean edges or in roots of "
+      "the area: 8eps, 5%, 3edges, 0.02rootarea. `morsel fields` and `morsel methods` list all names, "
+      "`morsel methods salient` the keys of one.";
   command.details += "A backslash keeps , : + = / in names and values literal.";
 }
 

@@ -47,8 +47,8 @@ class Announcer : public ComparisonSink {
   void begin_method(const std::string& name) override {
     console_.enter(name + " (" + std::to_string(++begun_) + " of " + std::to_string(methods_) + ")");
   }
-  void field(const FieldOutcome&) override {}
-  void method(const MethodOutcome&) override {}
+  void field(const FieldOutcome& outcome) override { tell_warnings(outcome, console_); }
+  void method(const MethodOutcome& outcome) override { tell_warnings(outcome.steps, console_); }
 
  private:
   Console& console_;
@@ -255,7 +255,10 @@ void add_compare(Program& program) {
   add_figure_options(command, options->figure);
   add_common_options(command, program.common);
   command.examples = {
-      {"compare scan.off", "a table: conventional, salient and tps on the mean curvature"},
+      {"compare scan.off",
+       "a table: conventional, salient, and tps held to as many points as salient leaves, on the mean "
+       "curvature"},
+      {"compare scan.off --preset noise", "a field and methods for noisy surfaces"},
       {"compare scan.off --method conventional --method salient:iterations=20,sigma=4eps --figures out",
        "two methods, with pictures and plots"},
       {"compare scan.off --field height:axis=z --target 40 -o report.json --html report.html",

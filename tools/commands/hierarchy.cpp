@@ -28,7 +28,7 @@ struct Options {
 class TargetTeller : public HierarchySink {
  public:
   explicit TargetTeller(Console& console) : console_(console) {}
-  void begin(const HierarchyBasis& basis) override { tell_target(basis.made, console_); }
+  void begin(const HierarchyBasis& basis) override { tell_made(basis.made, console_); }
   void level(const Level&) override {}
 
  private:

@@ -77,6 +77,7 @@ int choose(const Options& options, const Run& run) {
   const Stopwatch watch;
   const MadePoints made = make_points(plan, base.loaded(), base.made(), run.console.progress());
   const Timings timings = base.timings({{"points", watch.seconds()}});
+  if (made.fill) tell_warnings(*made.fill, run.console);
 
   const Json request = request_section(options.request, plan.request, run.common.repair);
   if (wants_document) {

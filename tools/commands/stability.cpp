@@ -39,6 +39,9 @@ int measure_stability(const Options& options, const Run& run) {
   target.tell_journal(trials ? trials->count() : 0, " perturbed surfaces done", run.console);
   const StabilityResult result =
       run_stability(input.loaded, prepared, run.console.progress(), trials ? &*trials : nullptr);
+  for (const FieldOutcome& field : result.fields) tell_warnings(field, run.console);
+  for (std::size_t i = 0; i < result.outcomes.size() / prepared.targets.size(); ++i)  // the first target's
+    tell_warnings(result.outcomes[i].clean.steps, run.console);
 
   const StabilityReport report{input.loaded, input.about, request, prepared, result};
   target.write([&](JsonSink& json) { write_stability(json, report); },
@@ -87,7 +90,7 @@ void add_agreement_options(Command& command, StabilityRequest& request) {
           "persistence cancellation");
   command.text("--reference-field", request.reference_field, "Morse function of the reference")
       .value("F")
-      .shows_default("the first --field");
+      .shows_default("each method's own field");
 }
 
 }  // namespace

@@ -23,8 +23,21 @@ MeshInput read_input(const std::string& path, const Run& run, bool items) {
   return {std::move(mesh.loaded), {path, std::move(mesh.sha256), run.common.repair, items, watch.seconds()}};
 }
 
-void tell_target(const MadeField& made, Console& console) {
-  if (made.outcome.target && !made.outcome.target->note.empty()) console.message(made.outcome.target->note);
+void tell_warnings(const FieldOutcome& field, Console& console) {
+  for (const std::string& warning : field.warnings) console.warning(field.name + ": " + warning);
+}
+
+void tell_warnings(const std::vector<StepOutcome>& steps, Console& console) {
+  for (const StepOutcome& step : steps)
+    for (const std::string& warning : step.warnings) console.warning(step.name + ": " + warning);
+}
+
+void tell_made(const MadeField& made, Console& console) {
+  tell_warnings(made.input, console);
+  tell_warnings(made.outcome.steps, console);
+  if (!made.outcome.target) return;
+  for (const std::string& text : {made.outcome.target->note, early_end(*made.outcome.target)})
+    if (!text.empty()) console.message(text);
 }
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
@@ -52,7 +65,7 @@ void FieldRun::read_whole() {
 
 void FieldRun::make() {
   made_.emplace(make_field(plan_, loaded(), run_.console.progress()));
-  tell_target(*made_, run_.console);
+  tell_made(*made_, run_.console);
 }
 
 Provenance FieldRun::provenance(const Json& request) const {

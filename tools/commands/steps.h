@@ -36,8 +36,11 @@ struct MeshInput {
 /// `items`: whether documents list what grows with the mesh.
 MeshInput read_input(const std::string& path, const Run& run, bool items = true);
 
-/// Says why a wanted number of critical points was not reached.
-void tell_target(const MadeField& made, Console& console);
+/// Warnings of a Morse function, and of methods.
+void tell_warnings(const FieldOutcome& field, Console& console);
+void tell_warnings(const std::vector<StepOutcome>& steps, Console& console);
+/// Warnings, why a wanted number of critical points was not reached, and whether it ended a method early.
+void tell_made(const MadeField& made, Console& console);
 
 /// What commands on one field begin with: MESH, and what --field, --method and --target make on it.
 class FieldRun {

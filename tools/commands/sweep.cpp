@@ -61,6 +61,11 @@ int sweep(const Options& options, const Run& run) {
   const std::vector<SweepRow> rows =
       run_sweep(input.loaded, prepared, done ? done->options() : SweepOptions(), run.console.progress());
 
+  std::set<std::string> warnings;  // a field is in many rows
+  for (const SweepRow& row : rows)
+    for (const std::string& warning : row.field.warnings) warnings.insert(row.field.name + ": " + warning);
+  for (const std::string& warning : warnings) run.console.warning(warning);
+
   const SweepReport report{input.loaded, input.about, options.request, prepared, rows, files};
   target.write([&](JsonSink& json) { write_sweep(json, report); },
                [&](std::ostream& out) { write_sweep_csv(out, report); });

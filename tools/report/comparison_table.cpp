@@ -5,6 +5,21 @@
 #include "morsel/tools/formats/text_table.h"
 
 namespace morsel::tools {
+namespace {
+
+/// What the columns mean that are about more than their own row.
+std::string foot(const MethodOutcome& first) {
+  const double radius = matching_radius(first.field.mesh());
+  return core::printable("kept: points of " + first.specification +
+                         " that have the same type at the same vertex; moved: those that have it within " +
+                         core::to_digits(radius) +
+                         " of theirs (2 % of the root of the area), one to one; "
+                         "added: points that are neither") +
+         "\n>1 %: pairs above 1 % of the input field's range\n";
+}
+
+}  // namespace
+
 std::string field_line(const FieldOutcome& outcome) {
   return outcome.name + ": " + core::to_digits(outcome.field.min()) + " to " +
          core::to_digits(outcome.field.max()) + " on " + grouped(outcome.field.mesh().vertex_count()) +
@@ -22,20 +37,27 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
   double seconds = 0;
   for (const auto& [step, time] : outcome.timings) seconds += time;
   const Matching& matching = outcome.compared_to_first;
-  rows_.push_back(
-      {outcome.specification, grouped(m.critical_points.minima), grouped(m.critical_points.saddles),
-       grouped(m.critical_points.saddle_multiplicity), grouped(m.critical_points.maxima),
-       grouped(m.critical_points.total()), grouped(m.diagram.pairs.size()),
-       grouped(m.diagram.count_above(0.01 * outcome.field.extent()) + m.diagram.cap_pairs().size()),
-       grouped(m.complex.arc_count()), grouped(m.segmentation.morse_smale.count),
-       grouped(matching.kept.size()), grouped(matching.moved.size()), grouped(matching.added),
-       core::to_decimals(seconds, 2)});
-  if (outcome.target && !outcome.target->note.empty())
-    notes_ += core::printable(outcome.specification + ": " + outcome.target->note) + "\n";
+  rows_.push_back({outcome.specification, grouped(m.critical_points.minima),
+                   grouped(m.critical_points.saddles), grouped(m.critical_points.saddle_multiplicity),
+                   grouped(m.critical_points.maxima), grouped(m.critical_points.total()),
+                   grouped(m.diagram.pairs.size()),
+                   grouped(m.diagram.count_above(0.01 * outcome.input_extent) + m.diagram.cap_pairs().size()),
+                   grouped(m.complex.arc_count()), grouped(m.cells), grouped(matching.kept.size()),
+                   grouped(matching.moved.size()), grouped(matching.added), core::to_decimals(seconds, 2)});
+  if (rows_.size() == 2) foot_ = foot(outcome);
+  const auto note = [&](const std::string& text) {
+    notes_ += core::printable(outcome.specification + ": " + text) + "\n";
+  };
+  for (const StepOutcome& step : outcome.steps)
+    for (const auto& [name, value] : step.details)
+      if (name == "note") note(std::get<std::string>(value));
+  if (!outcome.target) return;
+  for (const std::string& text : {outcome.target->note, early_end(*outcome.target)})
+    if (!text.empty()) note(text);
 }
 
 std::string ComparisonTable::text() const {
-  return core::printable(headline_) + "\n" + text_table(rows_) + notes_;
+  return core::printable(headline_) + "\n" + text_table(rows_) + foot_ + notes_;
 }
 
 }  // namespace morsel::tools

@@ -16,12 +16,13 @@ class ComparisonTable : public ComparisonSink {
  public:
   void field(const FieldOutcome& outcome) override;
   void method(const MethodOutcome& outcome) override;
-  /// The table, with a line on the field above it and details of the runs below.
+  /// The table, with a line on the field above it, the meaning of its columns and details of the runs below.
   std::string text() const;
 
  private:
   std::string headline_;
   std::vector<std::vector<std::string>> rows_;
+  std::string foot_;
   std::string notes_;
 };
 

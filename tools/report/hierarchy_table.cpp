@@ -23,8 +23,8 @@ void HierarchyTable::level(const Level& level) {
   rows_.push_back({level.name.asked, grouped(level.points.minima), grouped(level.points.saddles),
                    grouped(level.points.saddle_multiplicity), grouped(level.points.maxima),
                    grouped(level.points.total()), grouped(level.complex.arc_count()),
-                   grouped(level.segmentation.morse_smale.count), counted(PointStatus::kept),
-                   counted(PointStatus::moved), counted(PointStatus::fresh)});
+                   grouped(level.quad_cells), counted(PointStatus::kept), counted(PointStatus::moved),
+                   counted(PointStatus::fresh)});
   if (!level.name.note.empty()) notes_ += core::printable(level.name.note) + "\n";
 }
 

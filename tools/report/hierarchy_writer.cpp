@@ -99,7 +99,7 @@ void HierarchyWriter::level(const Level& level) {
   json_.member("links", {{"kept", level.count(PointStatus::kept)},
                          {"moved", level.count(PointStatus::moved)},
                          {"new", level.count(PointStatus::fresh)}});
-  json_.member("ms_complex", complex_section(level.complex, level.segmentation));
+  json_.member("ms_complex", complex_section(level.complex, level.segmentation, level.quad_cells));
   if (items_) write_items(level);
   json_.end_object();
   Json seconds = {{"level", level.place}};

@@ -64,10 +64,12 @@ Json field_parameters(const FieldSummary& field, std::span<const HashedFile> kno
 }
 
 Json field_section(const FieldSummary& field, std::span<const HashedFile> known) {
-  return {{"name", field.name},
-          {"parameters", field_parameters(field, known)},
-          {"min", field.min},
-          {"max", field.max}};
+  Json section = {{"name", field.name},
+                  {"parameters", field_parameters(field, known)},
+                  {"min", field.min},
+                  {"max", field.max}};
+  if (!field.warnings.empty()) section["warnings"] = field.warnings;
+  return section;
 }
 
 Json field_section(const FieldOutcome& outcome) { return field_section(summary_of(outcome)); }
@@ -95,14 +97,15 @@ Json persistence_section(const persistence::Diagram& diagram, double extent) {
   return persistence_section(summary_of(diagram, extent));
 }
 
-Json complex_section(const mscomplex::MorseSmaleComplex& complex,
-                     const mscomplex::Segmentation& segmentation) {
+Json complex_section(const mscomplex::MorseSmaleComplex& complex, const mscomplex::Segmentation& segmentation,
+                     core::Index cells) {
   return {{"minima", complex.minimum_count()},
           {"saddles", complex.saddle_count()},
           {"maxima", complex.maximum_count()},
           {"caps", complex.cap_count()},
           {"arcs", complex.arc_count()},
           {"quads", complex.quad_count()},
+          {"cells", cells},
           {"segments",
            {{"descending", segmentation.descending.count},
             {"ascending", segmentation.ascending.count},
@@ -120,9 +123,12 @@ Json parameters_section(const std::vector<StepOutcome>& steps) {
 }
 
 Json steps_section(const std::vector<StepOutcome>& steps) {
-  return {{"parameters", parameters_section(steps)},
-          {"details", by_step(steps, &StepOutcome::details)},
-          {"iterations", by_step(steps, &StepOutcome::iterations)}};
+  Json section = {{"parameters", parameters_section(steps)},
+                  {"details", by_step(steps, &StepOutcome::details)},
+                  {"iterations", by_step(steps, &StepOutcome::iterations)}};
+  for (const StepOutcome& step : steps)
+    for (const std::string& warning : step.warnings) section["warnings"].push_back(warning);
+  return section;
 }
 
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering) {
@@ -131,7 +137,7 @@ Json target_section(const TargetOutcome& target, const core::VertexNumbering& nu
   return {{"wanted", target.wanted},
           {"reached", target.reached},
           {"iterations", target.iterations},
-          {"blend", target.blend},
+          {"left_by_next", target.left_by_next ? Json(*target.left_by_next) : Json()},
           {"before_cancelling", target.before_cancelling},
           {"cancelled_pairs", target.cancelled.size()},
           {"largest_cancelled", target.largest_cancelled},

@@ -25,24 +25,25 @@ Json tool_section();
 /// A field's resolved parameters, and KEY_sha256 for a KEY that names a file. The hash is that of `known`, or
 /// else the file is read here. Throws BadInput if it cannot be read.
 Json field_parameters(const FieldSummary& field, std::span<const HashedFile> known = {});
-/// {"name", "parameters", "min", "max"}
+/// {"name", "parameters", "min", "max", "warnings" (if there are any)}
 Json field_section(const FieldSummary& field, std::span<const HashedFile> known = {});
 Json field_section(const FieldOutcome& outcome);
 /// {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}
 Json counts_section(const morse::CriticalPoints& points);
 /// {"pairs", "infinite_pairs", "essential_saddles", "max", "above" [{"percent", "pairs"}]}; the
-/// percentages are of the field's range.
+/// percentages are of the input field's range.
 Json persistence_section(const PersistenceSummary& summary);
 Json persistence_section(const persistence::Diagram& diagram, double extent);
-/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "segments" {"descending", "ascending",
-/// "morse_smale"}}
-Json complex_section(const mscomplex::MorseSmaleComplex& complex,
-                     const mscomplex::Segmentation& segmentation);
+/// {"minima", "saddles", "maxima", "caps", "arcs", "quads", "cells", "segments" {"descending", "ascending",
+/// "morse_smale"}}; `cells` are the quads that have area.
+Json complex_section(const mscomplex::MorseSmaleComplex& complex, const mscomplex::Segmentation& segmentation,
+                     core::Index cells);
 /// Steps with their seconds.
 Json timings_section(const Timings& timings);
 /// The resolved parameters: of a single step directly, of a chain by step.
 Json parameters_section(const std::vector<StepOutcome>& steps);
-/// {"parameters", "details", "iterations"}: of a single step directly, of a chain by step.
+/// {"parameters", "details", "iterations"}: of a single step directly, of a chain by step; and "warnings" of
+/// all steps, if there are any.
 Json steps_section(const std::vector<StepOutcome>& steps);
 /// How a wanted number was reached, without the list of the cancelled pairs; vertices in the input's numbers.
 Json target_section(const TargetOutcome& target, const core::VertexNumbering& numbering);

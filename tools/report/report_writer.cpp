@@ -41,7 +41,7 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   if (outcome.target) write_target(*outcome.target);
   json_.member("field", {{"min", outcome.field.min()}, {"max", outcome.field.max()}});
   json_.member("critical_points", counts_section(m.critical_points));
-  json_.member("ms_complex", complex_section(m.complex, m.segmentation));
+  json_.member("ms_complex", complex_section(m.complex, m.segmentation, m.cells));
   json_.member("compared_to_first", {{"kept", outcome.compared_to_first.kept.size()},
                                      {"moved", outcome.compared_to_first.moved.size()},
                                      {"added", outcome.compared_to_first.added},
@@ -77,7 +77,7 @@ void ReportWriter::write_target(const TargetOutcome& target) {
 
 void ReportWriter::write_persistence(const MethodOutcome& outcome) {
   json_.begin_object("persistence");
-  add_members(persistence_section(outcome.measurement.diagram, outcome.field.extent()));
+  add_members(persistence_section(outcome.measurement.diagram, outcome.input_extent));
   if (items_) write_diagram(outcome);
   json_.end_object();
 }

@@ -122,7 +122,7 @@ Json trials_key(const StabilityRequest& request, const ReportInput& input) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
   std::vector<std::string> fields = request.fields;
-  fields.push_back(request.reference_field);
+  if (!request.reference_field.empty()) fields.push_back(request.reference_field);
   return {{"schema", "morsel.stability/1"},
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},

@@ -1,6 +1,7 @@
 #include "morsel/tools/report/sweep_row.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -28,8 +29,11 @@ core::Parameters read_parameters(const JsonView& values) {
 
 FieldSummary read_field(const JsonView& field) {
   check_field(field);
-  return {field["name"].text(), read_parameters(field["parameters"]), field["min"].number(),
-          field["max"].number()};
+  FieldSummary summary{field["name"].text(), read_parameters(field["parameters"]), field["min"].number(),
+                       field["max"].number()};
+  if (const std::optional<JsonView> warnings = field.find("warnings"))
+    for (const JsonView& warning : warnings->list(1)) summary.warnings.push_back(warning.text());
+  return summary;
 }
 
 /// The parameters of a single step directly, of a chain as a list of its steps'.

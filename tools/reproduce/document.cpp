@@ -32,7 +32,8 @@ Json run_section(const Model& model, const MethodRun& run) {
           {"field", field_section(run.made.input)},
           {"method", method_section(run.plan, run.made, model.loaded().source.numbering)},
           {"critical_points", counts_section(run.measurement.critical_points)},
-          {"ms_complex", complex_section(run.measurement.complex, run.measurement.segmentation)}};
+          {"ms_complex",
+           complex_section(run.measurement.complex, run.measurement.segmentation, run.measurement.cells)}};
 }
 
 Json panel_section(const Model& model, const PanelOutcome& panel, std::size_t number) {

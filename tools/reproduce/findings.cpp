@@ -48,7 +48,7 @@ std::string simpler_complex(const FigureOutcome& figure) {
   for (std::size_t i = 0; i < 2; ++i) {
     const Measurement& m = figure.panels[i].run->measurement;
     text += (i == 0 ? "(a) has " : "; (b) has ") + counted(m.complex.arc_count(), "arc", "arcs") + " and " +
-            counted(m.segmentation.morse_smale.count, "segment", "segments");
+            counted(m.cells, "cell", "cells");
   }
   return text + ".";
 }

@@ -17,24 +17,26 @@ bool is_same(const core::ScalarField& a, const core::ScalarField& b) {
 /// Observes one step: passes its fields to the tracker and to the search for the wanted number.
 class StepWatcher {
  public:
-  /// Either may be null.
-  StepWatcher(morse::CriticalPointTracker* tracker, TargetSearch* search)
-      : tracker_(tracker), search_(search) {}
+  /// Either may be null. `result_only`: the search is shown the step's result alone.
+  StepWatcher(morse::CriticalPointTracker* tracker, TargetSearch* search, bool result_only)
+      : tracker_(tracker), search_(search), result_only_(result_only) {}
 
   bool wanted() const { return tracker_ != nullptr || search_ != nullptr; }
 
   bool iteration(int number, const core::ScalarField& field) {
     if (number <= last_) restart();
     last_ = number;
-    return pass(field);
+    if (!result_only_) return pass(field);
+    if (tracker_ != nullptr) tracker_->advance(field);
+    return true;
   }
 
   /// The step's result, unless it is the field of its last iteration.
   void finish(const core::ScalarField& field) {
     if (!wanted() || ended_) return;
-    const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->reached();
-    const bool nothing_new = passed_ || search_ == nullptr;
-    if (!(nothing_new && is_same(last, field))) pass(field);
+    const core::ScalarField& last = tracker_ != nullptr ? tracker_->field() : search_->current();
+    const bool known = passed_ || search_ == nullptr;
+    if (!(known && is_same(last, field))) pass(field);
   }
 
  private:
@@ -49,20 +51,23 @@ class StepWatcher {
   }
 
   bool pass(const core::ScalarField& field) {
-    const int before = search_ == nullptr ? 0 : search_->iterations();
     const bool go_on = search_ == nullptr || search_->offer(field);
-    const bool counts = search_ == nullptr || search_->iterations() > before;
-    if (tracker_ != nullptr && counts) tracker_->advance(field);
-    passed_ |= counts;
+    if (search_ != nullptr && search_->is_beyond()) {
+      ended_ = true;
+      return false;
+    }
+    if (tracker_ != nullptr) tracker_->advance(field);
+    passed_ = true;
     ended_ = !go_on;
     return go_on;
   }
 
   morse::CriticalPointTracker* tracker_;
   TargetSearch* search_;
+  bool result_only_;
   std::optional<morse::CriticalPointTracker> at_start_;  // once the first iteration is seen
   int last_ = std::numeric_limits<int>::max();  // the last reported number; a smaller one is a new start
-  bool passed_ = false;                         // a field that counts
+  bool passed_ = false;                         // a field that the method may end with
   bool ended_ = false;
 };
 
@@ -89,8 +94,10 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
     const core::IterationCallback callback = is_last ? options.on_iteration : core::IterationCallback();
     std::optional<TargetSearch> search;
     if (options.target && is_last)
-      search.emplace(outcome.field, *options.target, !step.method->traits().cancels_pairs, progress);
-    StepWatcher watcher(options.tracker, search ? &*search : nullptr);
+      search.emplace(outcome.field, *options.target, step.method->traits().cancels_pairs, progress);
+    std::optional<morse::CriticalPointTracker> at_input;
+    if (search && options.tracker != nullptr) at_input = *options.tracker;
+    StepWatcher watcher(options.tracker, search ? &*search : nullptr, step.method->traits().returns_other);
     context.on_iteration = callback;
     if (watcher.wanted())
       context.on_iteration = [&](int number, const core::ScalarField& passed) {
@@ -100,14 +107,15 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
     callback(0, outcome.field);
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
-    outcome.steps.push_back(
-        {step.name, std::move(result.parameters), std::move(result.details), std::move(result.iterations)});
+    outcome.steps.push_back({step.name, std::move(result.parameters), std::move(result.details),
+                             std::move(result.iterations), std::move(result.warnings)});
     if (!search) {
       outcome.field = std::move(result.field);
       continue;
     }
     TargetSearch::Result found = search->finish();
-    if (options.tracker != nullptr) {
+    if (at_input) {
+      if (found.outcome.iterations == 0) *options.tracker = *at_input;
       options.tracker->advance(found.smoothed);
       options.tracker->advance(found.field);
     }

@@ -24,6 +24,7 @@ struct StepOutcome {
   core::Parameters parameters;
   core::Parameters details;
   std::vector<core::IterationRecord> iterations;  ///< if they were counted
+  std::vector<std::string> warnings = {};
 };
 
 struct ChainOptions {

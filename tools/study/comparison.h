@@ -24,7 +24,10 @@ namespace morsel::tools {
 /// A comparison in the syntax of the command line.
 struct ComparisonRequest {
   std::string field = "mean-curvature";
-  std::vector<std::string> methods = {"conventional", "salient", "tps"};
+  /// A row of the comparison each. `tps:count=NAME` takes the number of critical points of an earlier row, by
+  /// what it is as a whole or by its methods' names: by default persistence simplification is held to the
+  /// number that salient smoothing leaves.
+  std::vector<std::string> methods = {"conventional", "salient", "tps:count=salient"};
   std::optional<std::size_t> target;  ///< every method is to end with so many critical points
   bool snap = false;                  ///< critical points are reported at their origins
 };
@@ -38,6 +41,7 @@ struct Measurement {
   persistence::Diagram diagram;
   mscomplex::MorseSmaleComplex complex;
   mscomplex::Segmentation segmentation;
+  core::Index cells = 0;  ///< quads of the complex that have area
 };
 
 /// A method's field and its measurement.
@@ -46,6 +50,7 @@ struct MethodOutcome {
   std::string name;
   std::vector<StepOutcome> steps;
   core::ScalarField field;
+  double input_extent = 0;  ///< of the field before any method: what shares of the extent are of
   std::optional<TargetOutcome> target;
   Measurement measurement;
   /// For each critical point, the vertex of the one of the input field that it came from; kNone if it has no
@@ -71,6 +76,7 @@ struct FieldOutcome {
   core::Parameters parameters;
   double seconds = 0;
   std::vector<FieldFile> files = {};
+  std::vector<std::string> warnings = {};  ///< the function's, and of critical points that mean nothing
 };
 
 /// Evaluates a Morse function on a loaded mesh.
@@ -91,15 +97,24 @@ class ComparisonSink {
   virtual void method(const MethodOutcome& outcome) = 0;
 };
 
+/// A `count` of a step that is the number of critical points of an earlier row.
+struct RowCount {
+  std::size_t step = 0;
+  std::size_t row = 0;
+};
+
 /// A checked request: its names have been looked up.
 struct ComparisonPlan {
   NamedFunction function;
-  std::vector<MethodChain> chains;
+  std::vector<MethodChain> chains;  ///< by row; a count that is another row's is not in it yet
   std::optional<std::size_t> target;
   bool snap = false;
+  std::vector<std::vector<RowCount>> counts;  ///< by row
+  Registry registry;                          ///< a copy of the one that it was made with
 };
 
-/// Throws InvalidArgument on unknown names and keys, bad values and a target of 0. Touches no file.
+/// Throws InvalidArgument on unknown names and keys, bad values, a target of 0, and the name of no earlier
+/// row or of several. Touches no file.
 ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry = Registry::standard());
 
 /// Evaluates the function and then applies each chain in turn, calling every sink. Throws what functions,

@@ -25,9 +25,9 @@ struct IterationLevels {
 
 /// Applies the chain to `input` and keeps the fields of its last step's iterations whose numbers are in
 /// `levels` (ascending, not empty; 0 is that step's input). A critical point's parent is the one of the level
-/// before that it came from, followed back through every iteration in between (morse::CriticalPointTracker, 2
-/// % of the diagonal from one to the next). Throws InvalidArgument if the method ends before the last level,
-/// or returns another field than that of its last iteration, and what methods throw.
+/// before that it came from, followed back through every iteration in between (morse::CriticalPointTracker,
+/// by matching_radius() from one to the next). Throws InvalidArgument if the method ends before the last
+/// level, or returns another field than that of its last iteration, and what methods throw.
 IterationLevels iteration_levels(const MethodChain& chain, const core::LoadedMesh& loaded,
                                  const NamedFunction& function, const core::ScalarField& input,
                                  const std::vector<int>& levels, const core::Progress& progress = {});

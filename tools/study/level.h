@@ -70,6 +70,7 @@ struct Level {
   std::vector<core::Index> parents;  ///< per point, the vertex of a point of the level before; kNone
   mscomplex::MorseSmaleComplex complex;
   mscomplex::Segmentation segmentation;
+  core::Index quad_cells = 0;  ///< quads of the complex that have area
   std::array<CellLinks, kCellKinds.size()> links;
   Timings timings;
 

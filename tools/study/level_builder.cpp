@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include "morsel/mscomplex/quad_regions.h"
+
 namespace morsel::tools {
 namespace {
 
@@ -19,8 +21,11 @@ Level make_level(LevelSeed seed, std::size_t place, const core::Progress& progre
   Timings timings;
   auto complex = timed(timings, "complex",
                        [&] { return mscomplex::MorseSmaleComplex(*seed.field, seed.gradient(), progress); });
-  auto segmentation = timed(timings, "segmentation",
-                            [&] { return mscomplex::segment(*seed.field, complex.gradient(), progress); });
+  core::Index quad_cells = 0;
+  auto segmentation = timed(timings, "segmentation", [&] {
+    quad_cells = mscomplex::cell_count(*seed.field, complex);
+    return mscomplex::segment(*seed.field, complex.gradient(), progress);
+  });
   return {place,
           std::move(seed.name),
           std::move(seed.field),
@@ -29,6 +34,7 @@ Level make_level(LevelSeed seed, std::size_t place, const core::Progress& progre
           std::move(seed.parents),
           std::move(complex),
           std::move(segmentation),
+          quad_cells,
           {},
           std::move(timings)};
 }

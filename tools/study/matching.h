@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "morsel/core/mesh/length.h"
 #include "morsel/core/mesh/mesh.h"
 #include "morsel/morse/critical_points.h"
 
@@ -28,9 +29,8 @@ struct Matching {
 Matching match_critical_points(const core::TriangleMesh& mesh, const morse::CriticalPoints& reference,
                                const morse::CriticalPoints& other, double radius);
 
-/// The radius that reports use: 2 % of the bounding box's diagonal.
-inline double matching_radius(const core::TriangleMesh& mesh) {
-  return 0.02 * mesh.bounding_box().diagonal();
-}
+/// The radius that reports use: 2 % of the square root of the surface's area, which is the same however the
+/// mesh is turned.
+inline double matching_radius(const core::TriangleMesh& mesh) { return 0.02 * core::root_area(mesh); }
 
 }  // namespace morsel::tools

@@ -202,7 +202,8 @@ std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const Stabilit
                                    StabilityResult& result, const core::Progress& progress) {
   for (const NamedFunction& function : plan.functions)
     result.fields.push_back(evaluate_field(clean, function, progress));
-  const core::ScalarField reference_input = evaluate_field(clean, plan.reference_function, progress).field;
+  std::optional<FieldOutcome> reference_input;
+  if (plan.reference_function) reference_input = evaluate_field(clean, *plan.reference_function, progress);
   std::vector<CleanPoints> points;
   for (const std::optional<std::size_t>& target : plan.targets)
     for (std::size_t f = 0; f < plan.functions.size(); ++f)
@@ -211,10 +212,13 @@ std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const Stabilit
                                         {.target = target}, progress);
         morse::CriticalPoints critical = morse::classify(made.field, progress);
         const PointsByType compared = by_type(critical, plan.points, clean.mesh.positions());
-        const morse::CriticalPoints reference =
-            morse::classify(apply_chain(plan.reference, clean, plan.reference_function, reference_input,
-                                        {.target = critical.total()}, progress)
-                                .field);
+        const NamedFunction& function =
+            plan.reference_function ? *plan.reference_function : plan.functions[f];
+        const core::ScalarField& unsmoothed =
+            reference_input ? reference_input->field : result.fields[f].field;
+        const morse::CriticalPoints reference = morse::classify(
+            apply_chain(plan.reference, clean, function, unsmoothed, {.target = critical.total()}, progress)
+                .field);
         const CleanPoints of_reference(by_type(reference, plan.points, clean.mesh.positions()),
                                        result.radius);
         points.emplace_back(compared, result.radius);
@@ -268,8 +272,6 @@ Estimate PerturbationOutcome::found() const {
 StabilityRequest with_defaults(StabilityRequest request) {
   if (request.noise.empty() && request.decimate.empty() && request.subdivide.empty())
     request.noise = {0.05, 0.15, 0.3, 0.5};
-  if (request.reference_field.empty() && !request.fields.empty())
-    request.reference_field = request.fields.front();
   return request;
 }
 
@@ -287,8 +289,10 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
                      request.seed,
                      parse_radius(request.radius),
                      request.points,
-                     registry.make_function(request.reference_field),
+                     {},
                      registry.make_method(request.reference)};
+  if (!request.reference_field.empty())
+    plan.reference_function = registry.make_function(request.reference_field);
   const MatchingRadius& radius = plan.radius;
   if (!(radius.share.value_or(radius.length.value) >= 0))
     throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);

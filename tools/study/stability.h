@@ -32,12 +32,11 @@ struct StabilityRequest {
   std::optional<std::size_t> target;  ///< critical points of each field, besides each method's own count
   std::string radius = "2%";          ///< of matching: a length or a percentage of the clean box's diagonal
   PointChoice points = PointChoice::all;
-  std::string reference_field;  ///< the first of `fields` if empty
+  std::string reference_field;  ///< each row's own if empty
   std::string reference = "conventional";
 };
 
-/// Fills in what a request leaves out: if it has no perturbations, noise of 0.05, 0.15, 0.3 and 0.5; and the
-/// reference field.
+/// Fills in the perturbations that a request leaves out: if it has none, noise of 0.05, 0.15, 0.3 and 0.5.
 StabilityRequest with_defaults(StabilityRequest request);
 
 /// A length or a share of the bounding box's diagonal.
@@ -59,7 +58,7 @@ struct StabilityPlan {
   std::uint64_t seed = 1;
   MatchingRadius radius;
   PointChoice points = PointChoice::all;
-  NamedFunction reference_function;
+  std::optional<NamedFunction> reference_function;  ///< none: each row's own
   MethodChain reference;
 
   /// The number of trials of a perturbation: one if nothing is random.
@@ -119,8 +118,9 @@ struct StabilityOutcome {
   std::optional<std::size_t> target;
   ChainOutcome clean;
   morse::CriticalPoints points;  ///< on the clean surface
-  Agreement with_reference;  ///< `found`: the method's clean points; those of the reference at the same count
-  double chance = 0;         ///< expected agreement of as many points of the same types at random vertices
+  Agreement with_reference;      ///< `found`: the method's clean points; those of the reference method at the
+                                 ///< same count, by default on the row's own field
+  double chance = 0;  ///< expected agreement of as many points of the same types at random vertices
   std::vector<PerturbationOutcome> perturbations;
 
   /// Share of the clean points that the reference has too.

@@ -3,7 +3,8 @@
 namespace morsel::tools {
 
 FieldSummary summary_of(const FieldOutcome& outcome) {
-  return {outcome.name, outcome.parameters, outcome.field.min(), outcome.field.max(), outcome.files};
+  return {outcome.name,        outcome.parameters, outcome.field.min(),
+          outcome.field.max(), outcome.files,      outcome.warnings};
 }
 
 PersistenceSummary summary_of(const persistence::Diagram& diagram, double extent) {

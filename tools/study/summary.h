@@ -20,12 +20,13 @@ struct FieldSummary {
   double min = 0;
   double max = 0;
   std::vector<FieldFile> files = {};
+  std::vector<std::string> warnings = {};
 };
 FieldSummary summary_of(const FieldOutcome& outcome);
 
 /// How many pairs a diagram has, and how many of them are large.
 struct PersistenceSummary {
-  /// Of the field's range.
+  /// Of the input field's range, so that methods can be compared.
   static constexpr std::array kPercents = {0.1, 1.0, 5.0};
 
   std::size_t pairs = 0;           ///< extremum-saddle pairs, infinite ones included

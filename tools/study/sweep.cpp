@@ -201,7 +201,7 @@ class SweepRun {
     row.max = field.max();
     row.critical_points = morse::classify(field, silent_);
     row.critical_points.points = {};
-    row.persistence = summary_of(persistence::pair_extrema(field, silent_), field.extent());
+    row.persistence = summary_of(persistence::pair_extrema(field, silent_), field_->field.extent());
     row.seconds.measuring = watch.seconds();
     emit();
   }

@@ -1,30 +1,15 @@
 #include "morsel/tools/study/target.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
-#include "morsel/morse/smoothing/keep_order.h"
 #include "morsel/morse/unfolding.h"
 #include "morsel/persistence/cancellation.h"
 
 namespace morsel::tools {
 namespace {
-
-constexpr int kHalvings = 12;
-constexpr double kLeastRemainder = -40;  // as a power of two
-
-core::ScalarField blended(const core::ScalarField& from, const core::ScalarField& to, double share) {
-  if (share == 0) return from;
-  if (share == 1) return to;
-  std::vector<double> values(from.values().size());
-  core::parallel_for_each(
-      values.size(), [&](std::size_t v) { values[v] = std::lerp(from.values()[v], to.values()[v], share); });
-  return morse::keep_order(from, std::move(values));
-}
 
 /// Unfolds multiple saddles of `field` until the wanted number is reached or none is left.
 void unfold(core::ScalarField& field, TargetOutcome& outcome) {
@@ -48,75 +33,89 @@ void unfold(core::ScalarField& field, TargetOutcome& outcome) {
 
 }  // namespace
 
+std::string early_end(const TargetOutcome& outcome) {
+  if (!outcome.left_by_next || outcome.iterations == 0) return {};
+  return "ended early, with a field of " + std::to_string(outcome.before_cancelling) +
+         " critical points; the next iteration leaves " + std::to_string(*outcome.left_by_next);
+}
+
 void check_target(std::optional<std::size_t> target) {
   if (target && *target == 0)
     throw core::InvalidArgument("a target of 0 critical points cannot be reached: every field has a minimum");
 }
 
-TargetSearch::TargetSearch(const core::ScalarField& start, std::size_t wanted, bool blends,
+TargetSearch::TargetSearch(const core::ScalarField& start, std::size_t wanted, bool cancels_pairs,
                            const core::Progress& progress)
-    : start_(start), wanted_(wanted), blends_(blends), progress_(progress), reached_(start) {
-  restart();
-}
+    : start_(start),
+      start_total_(morse::classify(start, progress).total()),
+      wanted_(wanted),
+      cancels_pairs_(cancels_pairs),
+      progress_(progress),
+      current_(start) {}
 
 void TargetSearch::restart() {
-  reached_ = start_;
-  beyond_.reset();
-  total_ = morse::classify(start_, progress_).total();
+  current_ = start_;
+  total_ = 0;
+  most_ = 0;
   iterations_ = 0;
+  left_by_next_.reset();
 }
 
 bool TargetSearch::offer(const core::ScalarField& field) {
   if (!wants_more()) return false;
   const std::size_t total = morse::classify(field, progress_).total();
-  if (total < wanted_) {
-    beyond_ = field;
+  if (total < wanted_ && total_ > wanted_) {
+    left_by_next_ = total;
     return false;
   }
-  reached_ = field;
+  current_ = field;
   total_ = total;
+  most_ = std::max(most_, total);
   ++iterations_;
   return wants_more();
 }
 
-/// The largest share found that leaves enough critical points.
-double TargetSearch::furthest_blend() const {
-  // The logarithm of the remaining share of the field before is halved: a little noise makes many critical
-  // points.
-  double enough = 0;
-  double too_few = kLeastRemainder;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = (enough + too_few) / 2;
-    const core::ScalarField field = blended(reached_, *beyond_, 1 - std::exp2(middle));
-    (morse::classify(field, progress_).total() >= wanted_ ? enough : too_few) = middle;
-  }
-  return 1 - std::exp2(enough);
+std::string TargetSearch::too_few() const {
+  std::string text = "the method's own field has " + std::to_string(total_) +
+                     " critical points, fewer than " + std::to_string(wanted_);
+  if (most_ > total_) text += "; its iterations leave " + std::to_string(most_) + " at most";
+  return text;
 }
 
 TargetSearch::Result TargetSearch::finish() const {
-  const bool blends = beyond_ && blends_ && total_ > wanted_;
-  const double share = blends ? furthest_blend() : 0;
-  core::ScalarField smoothed = blends ? blended(reached_, *beyond_, share) : reached_;
-  persistence::CancellationOptions options;
-  options.count = wanted_;
-  persistence::CancellationResult cancelled = persistence::cancel(smoothed, options, progress_);
+  const bool is_enough = total_ >= wanted_;
+  const bool from_start = !is_enough && cancels_pairs_ && start_total_ >= wanted_;
+  core::ScalarField smoothed = from_start ? start_ : current_;
   TargetOutcome outcome;
   outcome.wanted = wanted_;
-  outcome.reached = cancelled.reached_count;
-  outcome.iterations = iterations_;
-  outcome.blend = share;
-  outcome.before_cancelling = blends ? morse::classify(smoothed, progress_).total() : total_;
-  outcome.cancelled = std::move(cancelled.pairs);
-  outcome.largest_cancelled = cancelled.largest_cancelled;
-  unfold(cancelled.field, outcome);
-  if (outcome.reached != wanted_) {
-    outcome.note = std::move(cancelled.note);
+  outcome.iterations = from_start ? 0 : iterations_;
+  outcome.left_by_next = from_start ? total_ : left_by_next_;
+  outcome.before_cancelling = from_start ? start_total_ : total_;
+  outcome.reached = outcome.before_cancelling;
+  core::ScalarField field = smoothed;
+  std::string missed = too_few();
+  if (is_enough || from_start) {
+    persistence::CancellationOptions options;
+    options.count = wanted_;
+    persistence::CancellationResult cancelled = persistence::cancel(smoothed, options, progress_);
+    outcome.reached = cancelled.reached_count;
+    outcome.cancelled = std::move(cancelled.pairs);
+    outcome.largest_cancelled = cancelled.largest_cancelled;
+    field = std::move(cancelled.field);
+    missed = std::move(cancelled.note);
     const long euler = smoothed.mesh().euler_characteristic();
     if ((euler - static_cast<long>(wanted_)) % 2 != 0)
-      outcome.note += "; with simple saddles totals are " + std::string(euler % 2 != 0 ? "odd" : "even") +
-                      " on this mesh, as is its Euler characteristic";
+      missed += "; with simple saddles totals are " + std::string(euler % 2 != 0 ? "odd" : "even") +
+                " on this mesh, as is its Euler characteristic";
   }
-  return {std::move(smoothed), std::move(cancelled.field), std::move(outcome)};
+  unfold(field, outcome);
+  if (outcome.reached != wanted_) {
+    outcome.note = std::move(missed);
+    if (!outcome.unfolded.empty())
+      outcome.note += "; with " + std::to_string(outcome.unfolded.size()) +
+                      " multiple saddles unfolded there are " + std::to_string(outcome.reached);
+  }
+  return {std::move(smoothed), std::move(field), std::move(outcome)};
 }
 
 }  // namespace morsel::tools

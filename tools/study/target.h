@@ -1,6 +1,6 @@
 #pragma once
-/// The target, a wanted number of critical points: as much smoothing as leaves enough of them, then
-/// cancellation by persistence.
+/// The target, a wanted number of critical points: as many iterations of a method as leave enough of them,
+/// then cancellation by persistence.
 
 #include <cstddef>
 #include <optional>
@@ -17,9 +17,10 @@ namespace morsel::tools {
 struct TargetOutcome {
   std::size_t wanted = 0;
   std::size_t reached = 0;
-  int iterations = 0;  ///< of the method (1 if it has none) that were used in full
-  double blend = 0;  ///< then this share of the step to the next iteration, which has too few critical points
-  std::size_t before_cancelling = 0;                    ///< critical points left by that
+  int iterations = 0;  ///< of the method that the field had (1 if it has none); 0 is a method's input
+  /// Critical points after one more iteration, if that was too few: the method was not run to its end.
+  std::optional<std::size_t> left_by_next = {};
+  std::size_t before_cancelling = 0;                    ///< critical points of the method's field
   std::vector<persistence::PersistencePair> cancelled;  ///< in the order of persistence
   double largest_cancelled = 0;
   std::vector<core::Index>
@@ -30,49 +31,57 @@ struct TargetOutcome {
   friend bool operator==(const TargetOutcome&, const TargetOutcome&) = default;
 };
 
+/// What an iterative method's next iteration would have left, in a sentence; empty if it was run to its end.
+std::string early_end(const TargetOutcome& outcome);
+
 /// Throws InvalidArgument if a wanted number is given that no field can have.
 void check_target(std::optional<std::size_t> target);
 
-/// Observes the fields of a method, one by one. Fields are used as long as they have at least the wanted
-/// number of critical points. If the next one has fewer, the furthest field on the straight line to it that
-/// has enough is sought (by halving, 12 times, the logarithm of the remaining share). Points above the number
-/// are cancelled in the order of persistence. Each pair removes two critical points, unless its saddle is a
-/// multiple one: if that leaves too few, multiple saddles are unfolded (morse::unfold_saddle()), those first
-/// that need the least change of value.
+/// Observes the fields of a method, one by one. The method's field is the last one with at least the wanted
+/// number of critical points before one that has fewer; if none has as many, it is the method's last, and the
+/// note says so. The method's input is not used, whatever its number: a method that adds critical points is
+/// applied, too. Points of the field above the wanted number are cancelled in the order of persistence. Each
+/// pair removes two critical points, unless its saddle is a multiple one: if that leaves too few, multiple
+/// saddles are unfolded (morse::unfold_saddle()), those first that need the least change of value.
 class TargetSearch {
  public:
-  /// `start`: the method's input. `blends`: whether a blend of two fields is a sensible field; if not, a
-  /// field with too few critical points is not used at all.
-  TargetSearch(const core::ScalarField& start, std::size_t wanted, bool blends,
+  /// `start`: the method's input. `cancels_pairs`: what cancels fewer pairs of it is the same method, so that
+  /// the input counts as a field of the method.
+  TargetSearch(const core::ScalarField& start, std::size_t wanted, bool cancels_pairs,
                const core::Progress& progress);
 
   /// The next field; returns false if no further ones are needed.
   bool offer(const core::ScalarField& field);
   /// The method starts again from its input.
   void restart();
-  /// The number of fields used, and the last of them, not yet blended; the method's input before the first.
-  int iterations() const { return iterations_; }
-  const core::ScalarField& reached() const { return reached_; }
-  bool wants_more() const { return !beyond_ && total_ > wanted_; }
+  /// The last field that was offered and is not beyond the one to end with; the method's input before the
+  /// first.
+  const core::ScalarField& current() const { return current_; }
+  /// Whether a field was offered that has too few, after one that had enough.
+  bool is_beyond() const { return left_by_next_.has_value(); }
 
   struct Result {
     core::ScalarField smoothed;  ///< before cancelling
     core::ScalarField field;
     TargetOutcome outcome;
   };
+  /// At least one field was offered.
   Result finish() const;
 
  private:
-  double furthest_blend() const;
+  bool wants_more() const { return !is_beyond() && total_ != wanted_; }
+  std::string too_few() const;
 
   core::ScalarField start_;
+  std::size_t start_total_;
   std::size_t wanted_;
-  bool blends_;
+  bool cancels_pairs_;
   core::Progress progress_;
-  core::ScalarField reached_;
-  std::optional<core::ScalarField> beyond_;  // the first field with too few
-  std::size_t total_ = 0;                    // of reached_
-  int iterations_ = 0;
+  core::ScalarField current_;
+  std::size_t total_ = 0;  // of current_
+  std::size_t most_ = 0;   // of the fields up to current_
+  int iterations_ = 0;     // fields up to current_
+  std::optional<std::size_t> left_by_next_;
 };
 
 }  // namespace morsel::tools

@@ -14,8 +14,8 @@ function fillSummary(page) {
     const above = method.persistence.above.find((entry) => entry.percent === 1).pairs;
     const numbers = [
       points.minima, points.saddles, points.saddle_multiplicity, points.maxima, points.total,
-      method.persistence.pairs, above, method.ms_complex.arcs, method.ms_complex.segments.morse_smale, kept,
-      moved, added
+      method.persistence.pairs, above, method.ms_complex.arcs, method.ms_complex.cells, kept, moved,
+      added
     ];
     return make(
         'tr', {}, make('th', {scope: 'row'}, page.methods[i].name),
