@@ -118,10 +118,12 @@ void add_points(Program& program) {
           "at "
           "one vertex. Distances are those of paths along edges and straight across two triangles: not "
           "shorter than geodesic ones, a few percent longer");
-  command.text("--fill", options->fill, "A Morse function that fills up where points are too few, or none")
+  command.text("--fill", options->fill, "A Morse function that fills up, or none")
       .value("F")
-      .in_detail("Its points come after all of the field's, by their own rank and apart from those");
-  command.text("--salience-scale", options->scale, "How far salience is smoothed, with --rank salience")
+      .in_detail(
+          "Where the field has too few points, its points come after these, by their own rank and apart from "
+          "those");
+  command.text("--salience-scale", options->scale, "How far salience is smoothed")
       .value("LENGTH")
       .shows_default("the method's sigma, or 8eps");
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
