@@ -6,9 +6,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 # morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS … SOURCES … DEPENDS …
-#                   PRIVATE_DEPENDS … PRECOMPILED …): the library target morsel_NAME, alias morsel::NAME, whose headers are included as
-# "morsel/NAME/….h", or as "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and
-# after installation alike.
+#                   PRIVATE_DEPENDS … PRECOMPILED …)
+# The library target morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as
+# "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and after installation alike.
 #   PROGRAM          it serves the program alone and is not installed
 #   PUBLIC_HEADERS   what users of the installed library may include. They include public headers only, which
 #                    tests/layers checks; all other headers are private: they are not installed
