@@ -149,8 +149,8 @@ class Points(ProgramTest):
 
     def test_what_is_refused(self):
         mesh = self.values(1, 0, 0.5, 0.6, 0.5, 0.6)
-        for words, naming in ((("--kind", "tips"), "extrema, maxima, minima, saddles, all"),
-                              (("--rank", "height"), "persistence, salience"),
+        for words, naming in ((("--kind", "tips"), "extrema, maxima, minima, saddles or all"),
+                              (("--rank", "height"), "persistence or salience"),
                               (("--points", "0"), "--points"),
                               (("--spacing", "wide"), "--spacing"),
                               (("--spacing=-1%",), "spacing"),
