@@ -6,9 +6,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 # morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS … SOURCES … DEPENDS …
-#                   PRIVATE_DEPENDS … PRECOMPILED …): the library target morsel_NAME, alias morsel::NAME, whose headers are included as
-# "morsel/NAME/….h", or as "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and
-# after installation alike.
+#                   PRIVATE_DEPENDS … PRECOMPILED …
+#                   [PART NAME SOURCES_OF_PART … [REPLACED_BY SOURCE] DEPENDS_OF_PART …])
+# The library target morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as
+# "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and after installation alike.
 #   PROGRAM          it serves the program alone and is not installed
 #   PUBLIC_HEADERS   what users of the installed library may include. They include public headers only, which
 #                    tests/layers checks; all other headers are private: they are not installed
@@ -18,9 +19,24 @@ endif()
 #   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it
 #                    shares. Sources include what they use all the same: tools/lint compiles them without
 #                    precompiled headers and one by one.
+#   PART             MOLECULES or PICTURES. With MORSEL_WITH_NAME it has SOURCES_OF_PART, which need the
+#                    packages DEPENDS_OF_PART privately; without, in their place, REPLACED_BY (without_name.cpp
+#                    if not given), which defines the same functions
 function(morsel_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "PROGRAM" "WITHIN"
-                        "PUBLIC_HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED")
+  cmake_parse_arguments(
+    PARSE_ARGV 1 arg "PROGRAM" "WITHIN;PART;REPLACED_BY"
+    "PUBLIC_HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED;SOURCES_OF_PART;DEPENDS_OF_PART")
+  if(arg_PART AND MORSEL_WITH_${arg_PART})
+    list(APPEND arg_SOURCES ${arg_SOURCES_OF_PART})
+    list(APPEND arg_PRIVATE_DEPENDS ${arg_DEPENDS_OF_PART})
+    # Files of their own in the library, for which tests/cli links the replacement.
+    set_source_files_properties(${arg_SOURCES_OF_PART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  elseif(arg_REPLACED_BY)
+    list(APPEND arg_SOURCES ${arg_REPLACED_BY})
+  elseif(arg_PART)
+    string(TOLOWER without_${arg_PART}.cpp replacement)
+    list(APPEND arg_SOURCES ${replacement})
+  endif()
   set(target morsel_${name})
   set(outer ${name})
   set(folder ${name})

@@ -10,7 +10,6 @@
 #include "morsel/core/text/numbers.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/operators/laplacian.h"
-#include "morsel/morse/operators/surface_distance.h"
 #include "morsel/morse/operators/unit_size.h"
 #include "morsel/morse/smoothing/gaussian.h"
 #include "morsel/morse/smoothing/saliency.h"
@@ -93,39 +92,45 @@ std::vector<PointCandidate> point_candidates(const ScalarField& field, PointKind
   return candidates;
 }
 
-ChosenPoints choose_points(const core::TriangleMesh& mesh,
-                           std::span<const std::vector<PointCandidate>> candidates, std::size_t count,
-                           double spacing, const core::Progress& progress) {
+PointChooser::PointChooser(const core::TriangleMesh& mesh, std::size_t count, double spacing)
+    : distances_(mesh), search_(distances_), count_(count), is_near_(mesh.vertex_count()) {
   if (!(spacing >= 0) || !std::isfinite(spacing))
     throw core::InvalidArgument("the spacing of points must be finite and at least 0, not " +
                                 core::shortest(spacing));
-  progress.update("points", 0);
-  ChosenPoints chosen;
-  chosen.spacing = spacing;
-  const SurfaceDistances distances(mesh);
-  SurfaceDistances::Search search(distances);
-  std::vector<bool> is_near(mesh.vertex_count());
-  std::vector<Index> vertices;
-  for (std::size_t source = 0; source < candidates.size(); ++source) {
-    chosen.too_near.push_back(0);
-    for (const PointCandidate& candidate : candidates[source]) {
-      if (chosen.points.size() == count) break;
-      progress.throw_if_cancelled();
-      const Index v = candidate.point.vertex;
-      if (is_near[v]) {
-        ++chosen.too_near.back();
-        continue;
-      }
-      chosen.points.push_back({candidate, source, 0});
-      vertices.push_back(v);
-      is_near[v] = true;
-      for (const auto& [u, distance] : search.within(v, spacing)) is_near[u] = true;
+  chosen_.spacing = spacing;
+}
+
+void PointChooser::add(std::span<const PointCandidate> candidates, const core::Progress& progress) {
+  const std::size_t source = chosen_.too_near.size();
+  chosen_.too_near.push_back(0);
+  for (const PointCandidate& candidate : candidates) {
+    if (missing() == 0) break;
+    progress.update("points", static_cast<double>(chosen_.points.size()) / static_cast<double>(count_));
+    const Index v = candidate.point.vertex;
+    if (is_near_[v]) {
+      ++chosen_.too_near.back();
+      continue;
     }
+    chosen_.points.push_back({candidate, source, 0});
+    is_near_[v] = true;
+    for (const auto& [u, distance] : search_.within(v, chosen_.spacing)) is_near_[u] = true;
   }
-  const std::vector<double> nearest = distances.to_nearest_other(vertices);
-  for (std::size_t i = 0; i < nearest.size(); ++i) chosen.points[i].distance = nearest[i];
-  progress.update("points", 1);
-  return chosen;
+}
+
+ChosenPoints PointChooser::finish() {
+  std::vector<Index> vertices;
+  for (const ChosenPoint& point : chosen_.points) vertices.push_back(point.candidate.point.vertex);
+  const std::vector<double> nearest = distances_.to_nearest_other(vertices);
+  for (std::size_t i = 0; i < nearest.size(); ++i) chosen_.points[i].distance = nearest[i];
+  return std::move(chosen_);
+}
+
+ChosenPoints choose_points(const core::TriangleMesh& mesh,
+                           std::span<const std::vector<PointCandidate>> candidates, std::size_t count,
+                           double spacing, const core::Progress& progress) {
+  PointChooser chooser(mesh, count, spacing);
+  for (const std::vector<PointCandidate>& list : candidates) chooser.add(list, progress);
+  return chooser.finish();
 }
 
 std::vector<double> mesh_salience(const core::TriangleMesh& mesh, core::Length scale,

@@ -12,6 +12,7 @@
 #include "morsel/core/mesh/length.h"
 #include "morsel/core/parallel/progress.h"
 #include "morsel/morse/critical_points.h"
+#include "morsel/morse/operators/surface_distance.h"
 
 namespace morsel::morse {
 
@@ -53,12 +54,31 @@ struct ChosenPoints {
   std::vector<std::size_t> too_near;  ///< of each list: candidates nearer than that to a point chosen before
 };
 
-/// Takes candidates in the order of their list, each that is not nearer than `spacing` along the surface
-/// (SurfaceDistances) to a point taken before, until there are `count`: the greedy choice. When a list is
-/// exhausted, the next one fills up. A vertex is taken once. `spacing` is at least 0, in the mesh's unit;
-/// throws InvalidArgument otherwise. All candidates are vertices of the mesh.
-///
-/// O(n log n), and O(m log m) for each point with m vertices within the spacing; mostly serial.
+/// The greedy choice: takes candidates in the order of their list, each that is not nearer than `spacing`
+/// along the surface (SurfaceDistances) to a point taken before, until there are `count`. A vertex is taken
+/// once. O(m log m) for each point with m vertices within the spacing; serial.
+class PointChooser {
+ public:
+  /// `spacing` is at least 0, in the mesh's unit; throws InvalidArgument otherwise. O(edges), parallel.
+  PointChooser(const core::TriangleMesh& mesh, std::size_t count, double spacing);
+  PointChooser(const PointChooser&) = delete;
+  PointChooser& operator=(const PointChooser&) = delete;
+
+  /// Takes from one more list, of vertices of the mesh, which fills up what those before left.
+  void add(std::span<const PointCandidate> candidates, const core::Progress& progress = {});
+  std::size_t missing() const { return count_ - chosen_.points.size(); }
+  /// With the distances between the points, O(n log n), which are taken now. To be called once.
+  ChosenPoints finish();
+
+ private:
+  SurfaceDistances distances_;
+  SurfaceDistances::Search search_;
+  std::size_t count_;
+  std::vector<bool> is_near_;  // per vertex: to a point that was taken
+  ChosenPoints chosen_;
+};
+
+/// All of that with the lists in their order.
 ChosenPoints choose_points(const core::TriangleMesh& mesh,
                            std::span<const std::vector<PointCandidate>> candidates, std::size_t count,
                            double spacing, const core::Progress& progress = {});

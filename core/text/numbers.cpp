@@ -6,10 +6,10 @@ namespace morsel::core {
 namespace {
 
 /// Room for the longest number before its decimals.
-constexpr std::size_t kLongest = DBL_MAX_10_EXP + 8;
+constexpr std::size_t kLongestNumber = DBL_MAX_10_EXP + 8;
 
 std::string written(double value, std::chars_format format, int precision) {
-  std::string text(kLongest + static_cast<std::size_t>(precision), '\0');
+  std::string text(kLongestNumber + static_cast<std::size_t>(precision), '\0');
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format, precision).ptr;
   text.resize(static_cast<std::size_t>(end - text.data()));
   return text;

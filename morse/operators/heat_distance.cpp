@@ -41,8 +41,9 @@ std::vector<HeatElement> elements_of(const IntrinsicTriangles& triangles) {
   return elements;
 }
 
-SparseMatrix heat_matrix(const TriangleMesh& mesh, const SparseMatrix& laplacian,
-                         std::span<const double> areas, double time, bool boundary_is_cold) {
+/// heat_matrix(), with boundary values held at 0 if the boundary is cold.
+SparseMatrix heat_matrix_of(const TriangleMesh& mesh, const SparseMatrix& laplacian,
+                            std::span<const double> areas, double time, bool boundary_is_cold) {
   SparseMatrix matrix = laplacian;
   const auto is_cold = [&](int v) {
     return boundary_is_cold && mesh.is_boundary_vertex(static_cast<Index>(v));
@@ -186,9 +187,9 @@ HeatDistance::HeatDistance(const TriangleMesh& mesh, const HeatOptions& options,
   const std::vector<double> areas = barycentric_areas(triangles, mesh.vertex_count());
   const bool bounded = !mesh.is_closed();
   if (!bounded || options.boundary != HeatBoundary::dirichlet)
-    made->free.emplace(heat_matrix(mesh, matrix, areas, time, false), "heat", progress);
+    made->free.emplace(heat_matrix_of(mesh, matrix, areas, time, false), "heat", progress);
   if (bounded && options.boundary != HeatBoundary::neumann)
-    made->cold.emplace(heat_matrix(mesh, matrix, areas, time, true), "heat", progress);
+    made->cold.emplace(heat_matrix_of(mesh, matrix, areas, time, true), "heat", progress);
   made->poisson.emplace(poisson_matrix(mesh, matrix), "distance", progress);
   operators_ = std::move(made);
 }

@@ -115,4 +115,11 @@ std::vector<double> vertex_areas(const TriangleMesh& mesh, VertexArea kind) {
   return area;
 }
 
+SparseMatrix heat_matrix(const SparseMatrix& laplacian, std::span<const double> areas, double time) {
+  SparseMatrix matrix = time * laplacian;
+  for (std::size_t v = 0; v < areas.size(); ++v)
+    matrix.coeffRef(static_cast<int>(v), static_cast<int>(v)) += areas[v];
+  return matrix;
+}
+
 }  // namespace morsel::morse

@@ -50,4 +50,7 @@ enum class VertexArea : std::uint8_t {
 /// area. 0 where all triangles of a vertex have no area. O(triangles), parallel.
 std::vector<double> vertex_areas(const core::TriangleMesh& mesh, VertexArea kind);
 
+/// M + tL of an implicit step of the heat equation, with M the areas. O(edges).
+SparseMatrix heat_matrix(const SparseMatrix& laplacian, std::span<const double> areas, double time);
+
 }  // namespace morsel::morse

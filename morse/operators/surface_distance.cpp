@@ -75,59 +75,43 @@ void SurfaceDistances::for_each_path(Index v, const Visit& visit) const {
 std::vector<double> SurfaceDistances::to_nearest_other(std::span<const Index> vertices) const {
   // From all at once. The shortest path from one to the nearest other one passes from what is nearest to the
   // one to what is nearest to the other.
-  std::vector<double> distance(mesh_.vertex_count(), HUGE_VAL);
+  ShortestPaths paths(mesh_.vertex_count());
   std::vector<Index> nearest(mesh_.vertex_count(), kNone);  // by its place in `vertices`
-  using Entry = std::pair<double, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    distance[vertices[i]] = 0;
+    paths.lower(vertices[i], 0);
     nearest[vertices[i]] = static_cast<Index>(i);
-    queue.emplace(0, vertices[i]);
   }
-  while (!queue.empty()) {
-    const auto [d, from] = queue.top();
-    queue.pop();
-    if (d > distance[from]) continue;
-    for_each_path(from, [&, d = d, from = from](Index u, double path) {
-      if (!(d + path < distance[u])) return;
-      distance[u] = d + path;
-      nearest[u] = nearest[from];
-      queue.emplace(distance[u], u);
+  paths.run([&](Index from, double d) {
+    for_each_path(from, [&](Index u, double path) {
+      if (paths.lower(u, d + path)) nearest[u] = nearest[from];
     });
-  }
+  });
   std::vector<double> result(vertices.size(), HUGE_VAL);
   for (Index v = 0; v < mesh_.vertex_count(); ++v)
     for_each_path(v, [&](Index u, double path) {
       if (nearest[v] == nearest[u]) return;
       for (const Index one : {nearest[v], nearest[u]})
-        result[one] = std::min(result[one], std::ldexp(distance[v] + path + distance[u], exponent_));
+        result[one] =
+            std::min(result[one], std::ldexp(paths.distance(v) + path + paths.distance(u), exponent_));
     });
   return result;
 }
 
 SurfaceDistances::Search::Search(const SurfaceDistances& distances)
-    : distances_(distances), distance_(distances.mesh_.vertex_count(), HUGE_VAL) {}
-
-void SurfaceDistances::Search::lower(Index v, double distance) {
-  if (!(distance < radius_) || !(distance < distance_[v])) return;
-  if (distance_[v] == HUGE_VAL) touched_.push_back(v);
-  distance_[v] = distance;
-  queue_.emplace(distance, v);
-}
+    : distances_(distances), paths_(distances.mesh_.vertex_count()) {}
 
 const std::vector<SurfaceDistances::Reached>& SurfaceDistances::Search::within(Index v, double radius) {
-  radius_ = std::ldexp(radius, -distances_.exponent_);
+  const double limit = std::ldexp(radius, -distances_.exponent_);
+  const auto lower = [&](Index u, double d) {
+    if (d < limit) paths_.lower(u, d);
+  };
   reached_.clear();
   lower(v, 0);
-  while (!queue_.empty()) {
-    const auto [d, from] = queue_.top();
-    queue_.pop();
-    if (d > distance_[from]) continue;
+  paths_.run([&](Index from, double d) {
     reached_.push_back({from, std::ldexp(d, distances_.exponent_)});
-    distances_.for_each_path(from, [&, d = d](Index u, double path) { lower(u, d + path); });
-  }
-  for (const Index u : touched_) distance_[u] = HUGE_VAL;
-  touched_.clear();
+    distances_.for_each_path(from, [&](Index u, double path) { lower(u, d + path); });
+  });
+  for (const Reached& reached : reached_) paths_.forget(reached.vertex);  // all that was lowered
   return reached_;
 }
 

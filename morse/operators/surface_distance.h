@@ -1,13 +1,11 @@
 #pragma once
 /// Distances along a surface between near vertices.
 
-#include <functional>
-#include <queue>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "morsel/core/mesh/mesh.h"
+#include "morsel/morse/operators/shortest_paths.h"
 
 namespace morsel::morse {
 
@@ -42,14 +40,8 @@ class SurfaceDistances {
     const std::vector<Reached>& within(core::Index v, double radius);
 
    private:
-    void lower(core::Index v, double distance);
-
-    using Entry = std::pair<double, core::Index>;
     const SurfaceDistances& distances_;
-    double radius_ = 0;
-    std::vector<double> distance_;      // infinite but during a search
-    std::vector<core::Index> touched_;  // where it is not
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+    ShortestPaths paths_;  // no distances between searches
     std::vector<Reached> reached_;
   };
 

@@ -6,16 +6,6 @@
 #include "morsel/morse/operators/intrinsic_triangles.h"
 
 namespace morsel::morse {
-namespace {
-
-SparseMatrix heat_matrix(const SurfaceLaplacian& laplacian, double time) {
-  SparseMatrix result = time * laplacian.weights;
-  for (std::size_t v = 0; v < laplacian.areas.size(); ++v)
-    result.coeffRef(static_cast<int>(v), static_cast<int>(v)) += laplacian.areas[v];
-  return result;
-}
-
-}  // namespace
 
 std::vector<double> SurfaceLaplacian::of(std::span<const double> f) const {
   using Vector = Eigen::VectorXd;
@@ -35,7 +25,7 @@ SurfaceLaplacian surface_laplacian(const core::TriangleMesh& mesh) {
 
 HeatStep::HeatStep(const SurfaceLaplacian& laplacian, double time, const char* what,
                    const core::Progress& progress)
-    : areas_(laplacian.areas), heat_(heat_matrix(laplacian, time), what, progress) {}
+    : areas_(laplacian.areas), heat_(heat_matrix(laplacian.weights, laplacian.areas, time), what, progress) {}
 
 std::vector<double> HeatStep::of(std::vector<double> f) const {
   for (std::size_t v = 0; v < f.size(); ++v) f[v] *= areas_[v];

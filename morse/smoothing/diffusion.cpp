@@ -34,15 +34,11 @@ void for_each_difference(const SparseMatrix& laplacian, std::span<const double> 
   });
 }
 
-SparseMatrix heat_matrix(const core::TriangleMesh& mesh, const SparseMatrix& laplacian, double time) {
+SparseMatrix step_matrix(const core::TriangleMesh& mesh, const SparseMatrix& laplacian, double time) {
   if (!(time > 0 && std::isfinite(time)))
     throw InvalidArgument("the time of an implicit step must be finite and above 0, not " +
                           core::shortest(time));
-  SparseMatrix matrix = time * laplacian;
-  const std::vector<double> areas = vertex_areas(mesh, VertexArea::barycentric);
-  for (std::size_t v = 0; v < areas.size(); ++v)
-    matrix.coeffRef(static_cast<int>(v), static_cast<int>(v)) += areas[v];
-  return matrix;
+  return heat_matrix(laplacian, vertex_areas(mesh, VertexArea::barycentric), time);
 }
 
 struct DiffusionOptions {
@@ -118,7 +114,7 @@ ImplicitDiffusion::ImplicitDiffusion(const core::TriangleMesh& mesh, EdgeWeights
                                      const core::Progress& progress)
     : laplacian_(laplacian(mesh, edge_weights(mesh, weights))),
       time_(time),
-      system_(heat_matrix(mesh, laplacian_, time), "implicit smoothing", progress) {}
+      system_(step_matrix(mesh, laplacian_, time), "implicit smoothing", progress) {}
 
 std::vector<double> ImplicitDiffusion::step(std::span<const double> values) const {
   // Solved for the change, (M + t L)(f' − f) = −t L f.

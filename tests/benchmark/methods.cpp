@@ -54,11 +54,11 @@ void run_methods(const Plan& plan, const Report& report) {
       report(row);
     }
   };
-  for (const char* text : {"mean-curvature", "mean-curvature:estimator=cotangent",
-                           "mean-curvature:estimator=quadric,radius=4eps", "gaussian-curvature",
-                           "principal-curvature", "curvedness", "shape-index", "geodesic:source=0",
-                           "geodesic:mode=average", "eigenfunction:index=10",
-                           "gaussian-curvature:estimator=diffused", "heat-kernel-signature"}) {
+  for (const char* text :
+       {"mean-curvature", "mean-curvature:estimator=cotangent",
+        "mean-curvature:estimator=quadric,radius=4eps", "gaussian-curvature", "principal-curvature",
+        "curvedness", "shape-index", "geodesic:source=0", "geodesic:mode=average", "eigenfunction:index=10",
+        "gaussian-curvature:estimator=diffused", "heat-kernel-signature"}) {
     const tools::NamedFunction function = tools::Registry::standard().make_function(text);
     add(text, [&] { return tools::evaluate_field(loaded, function).field; });
   }

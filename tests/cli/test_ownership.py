@@ -379,7 +379,9 @@ class FileSystems(OwnershipTest):
         self.folder.chmod(0o755)
         self.assertEqual(self.batch("meshes", "--out", "out").returncode, 0)
         (self.folder / "empty").mkdir()
-        other = {"user": NOBODY, "group": NOBODY, "extra_groups": ()}
+        program = self.folder / "morsel"
+        shutil.copy(PROGRAM, program)  # which that user need not reach where it was built, as in /root
+        other = {"user": NOBODY, "group": NOBODY, "extra_groups": (), "executable": str(program)}
         for out in ("out", "empty", "new"):
             self.refused("batch", meshes, "--out", out, *QUICK, code=4, naming=["ermission denied"], **other)
             self.refused("compare", "m.off", "--export", out, *QUICK, code=4, naming=["ermission denied"],

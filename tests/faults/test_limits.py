@@ -97,6 +97,8 @@ class Limits(LimitTest):
         user = NOBODY - os.getpid() % 10000
         least = 1 + self.threads_of_libraries()
         self.folder.chmod(0o777)
+        program = self.folder / "morsel"
+        shutil.copy(program_path(), program)  # that user need not reach where it was built, as in /root
         for name in ("compare", "batch"):
             ready = self.prepared(name)
             for limit in (1, least - 1, least, least + 1, least + 2):
@@ -112,7 +114,8 @@ class Limits(LimitTest):
                         os.setgid(user)
                         os.setuid(user)
 
-                    result = self.run_in(folder, ready.scenario.arguments, preexec_fn=confine)
+                    result = self.run_in(folder, ready.scenario.arguments, preexec_fn=confine,
+                                         executable=program)
                     if name == "compare":
                         self.assertEqual(result.returncode, 5 if limit < least else 0, result.stderr)
                     self.check_end(ready, folder, result, (0, 1, 5))

@@ -15,8 +15,10 @@ CLEAN = {
     "core/a.cpp": '#include "morsel/core/a.h"\n',
     "morse/functions/height.cpp": '#include "morsel/core/a.h"\n#include "morsel/morse/functions/height.h"\n',
     "persistence/pairing.h": '#pragma once\n#include "morsel/core/a.h"\n',
-    "mscomplex/complex.h": '#pragma once\n#include <boost/graph/adjacency_list.hpp>\n#include "morsel/core/a.h"\n',
-    "tools/main.cpp": '#include <iostream>\n#include "morsel/mscomplex/complex.h"\nint main() { std::cout << 1; }\n',
+    "mscomplex/complex.h": '#pragma once\n#include <boost/graph/adjacency_list.hpp>\n'
+                           '#include "morsel/core/a.h"\n',
+    "tools/main.cpp": '#include <iostream>\n#include "morsel/mscomplex/complex.h"\n'
+                      'int main() { std::cout << 1; }\n',
 }
 
 
@@ -85,7 +87,8 @@ class CheckLayers(unittest.TestCase):
                 self.assertTrue(found[0].startswith("morse/b.cpp:2: "), found)
 
     def test_rooms_of_tools(self):
-        """A room includes rooms of lower floors only: neither one above, nor a neighbour, nor one that has no floor."""
+        """A room includes rooms of lower floors only: neither one above, nor a neighbour, nor one that has no
+        floor."""
         for name, code, said in (
                 ("tools/study/a.h", '#include "morsel/tools/report/b.h"', "study may not include"),
                 ("tools/html/a.h", '#include "morsel/tools/export/b.h"', "html may not include"),
@@ -102,12 +105,15 @@ class CheckLayers(unittest.TestCase):
                 self.assertEqual(len(found), 1, found)
                 self.assertIn(said, found[0])
         self.assertEqual(complaints({"tools/batch/a.h": '#pragma once\n#include "morsel/tools/plot/b.h"\n',
-                                     "tools/plot/CMakeLists.txt": "x(DEPENDS morsel::report morsel::core)\n"}), [])
+                                     "tools/plot/CMakeLists.txt":
+                                         "x(DEPENDS morsel::report morsel::core)\n"}), [])
 
     def test_public_headers(self):
         """Listed headers are there, once, and include none that is not listed, in whatever module."""
-        listing = "morsel_add_module(\n  core\n  PUBLIC_HEADERS a.h  # the first\n    deep/b.h\n  SOURCES a.cpp)\n"
-        public = {"core/CMakeLists.txt": listing, "core/deep/b.h": '#pragma once\n#include "morsel/core/a.h"\n'}
+        listing = ("morsel_add_module(\n  core\n  PUBLIC_HEADERS a.h  # the first\n    deep/b.h\n"
+                   "  SOURCES a.cpp)\n")
+        public = {"core/CMakeLists.txt": listing,
+                  "core/deep/b.h": '#pragma once\n#include "morsel/core/a.h"\n'}
         private = {"core/c.h": "#pragma once\n"}
         includes_private = '#pragma once\n#include "morsel/core/c.h"\n'
         self.assertEqual(complaints({**public, **private, "core/b.cpp": '#include "morsel/core/c.h"\n'}), [])
@@ -120,7 +126,8 @@ class CheckLayers(unittest.TestCase):
                 ({"core/CMakeLists.txt": listing.replace("deep/b.h", ""), **private,
                   "core/a.h": "#pragma once\n#include <morsel/core/c.h>\n"}, "core/a.h:2: ", "is private"),
                 ({**private, "tools/study/CMakeLists.txt": room,
-                  "tools/study/d.h": '#pragma once\n#include "morsel/core/a.h"\n#include "morsel/core/c.h"\n'},
+                  "tools/study/d.h":
+                      '#pragma once\n#include "morsel/core/a.h"\n#include "morsel/core/c.h"\n'},
                  "tools/study/d.h:3: ", "is private")):
             with self.subTest(changes=changes):
                 found = complaints(changes)
@@ -129,7 +136,8 @@ class CheckLayers(unittest.TestCase):
                 self.assertIn(said, found[0])
 
     def test_links(self):
-        found = complaints({"morse/CMakeLists.txt": "# morsel::persistence\nx(\nDEPENDS morsel::core morsel::mscomplex)\n"})
+        found = complaints({"morse/CMakeLists.txt":
+                                "# morsel::persistence\nx(\nDEPENDS morsel::core morsel::mscomplex)\n"})
         self.assertEqual(len(found), 1)
         self.assertTrue(found[0].startswith("morse/CMakeLists.txt:3: "), found)
 

@@ -124,8 +124,4 @@ TEST_CASE("bad requests for points are refused") {
         r.scale = core::Length::epsilons(0);
       },
       "above 0");
-  CHECK_THROWS_WITH(tools::parse_point_kind("tips"),
-                    Catch::Contains("extrema, maxima, minima, saddles, all"));
-  CHECK_THROWS_WITH(tools::parse_point_rank("height"), Catch::Contains("persistence, salience"));
-  CHECK(tools::parse_point_kind("saddles") == morse::PointKind::saddles);
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -102,6 +103,13 @@ class Command {
   template <class Target, class Value>
   Option& choice(std::string names, Target& target, std::vector<std::pair<std::string, Value>> choices,
                  std::string help);
+  /// The same for values that to_string() names.
+  template <class Value>
+  Option& choice(std::string names, Value& target, std::initializer_list<Value> values, std::string help) {
+    std::vector<std::pair<std::string, Value>> choices;
+    for (const Value value : values) choices.emplace_back(to_string(value), value);
+    return choice(std::move(names), target, std::move(choices), std::move(help));
+  }
   /// Integers of 0 and above, or finite real numbers; between() narrows that.
   template <class Number>
   Option& number(std::string names, Number& target, std::string help);

@@ -22,9 +22,7 @@ constexpr std::string_view kNone = "none";
 struct Options {
   std::string mesh;
   FieldRequest request = {"gaussian-curvature:estimator=diffused", "conventional", {}};
-  std::size_t points = PointsRequest().count;
-  std::string kind{to_string(PointsRequest().kind)};
-  std::string rank{to_string(PointsRequest().rank)};
+  PointsRequest points;
   std::string spacing = core::to_string(PointsRequest().spacing);
   std::string fill = "mean-curvature";
   std::string scale;
@@ -32,10 +30,7 @@ struct Options {
 };
 
 PointsRequest points_request(const Options& options) {
-  PointsRequest request;
-  request.count = options.points;
-  request.kind = parse_point_kind(options.kind);
-  request.rank = parse_point_rank(options.rank);
+  PointsRequest request = options.points;
   request.spacing = core::parse_length(options.spacing, "--spacing");
   if (options.fill != kNone) request.fill = options.fill;
   if (!options.scale.empty()) request.scale = core::parse_length(options.scale, "--salience-scale");
@@ -101,28 +96,36 @@ void add_points(Program& program) {
   Command& command =
       program.add("points", "Choose critical points of one field that stand out and lie apart");
   add_field_options(command, options->mesh, options->request);
-  command.number("--points", options->points, "How many, or the reason why there are fewer")
+  command.number("--points", options->points.count, "How many, or the reason why there are fewer")
       .between(1, std::numeric_limits<double>::infinity())
       .value("K");
-  command.text("--kind", options->kind, "extrema, maxima, minima, saddles or all").value("KIND");
-  command.text("--rank", options->rank, "What comes first: persistence or salience")
+  using morse::PointKind;
+  using morse::PointRank;
+  command
+      .choice("--kind", options->points.kind,
+              {PointKind::extrema, PointKind::maxima, PointKind::minima, PointKind::saddles, PointKind::all},
+              "extrema, maxima, minima, saddles or all")
+      .value("KIND");
+  command
+      .choice("--rank", options->points.rank, {PointRank::persistence, PointRank::salience},
+              "What comes first: persistence or salience")
       .value("RANK")
       .in_detail(
           "persistence: of essential points, which have none, the extent of the field on their component; "
           "salience: persistence times the mesh saliency of the surface there, counted by areas and "
-          "smoothed, 1 "
-          "on average");
+          "smoothed, 1 on average");
   command.text("--spacing", options->spacing, "The least distance of two points along the surface")
       .value("LENGTH")
       .in_detail(
           "Points are taken by rank; what is nearer to one that was taken before is passed over. 0: no two "
-          "at "
-          "one vertex. Distances are those of paths along edges and straight across two triangles: not "
+          "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
           "shorter than geodesic ones, a few percent longer");
-  command.text("--fill", options->fill, "A Morse function that fills up where points are too few, or none")
+  command.text("--fill", options->fill, "A Morse function that fills up, or none")
       .value("F")
-      .in_detail("Its points come after all of the field's, by their own rank and apart from those");
-  command.text("--salience-scale", options->scale, "How far salience is smoothed, with --rank salience")
+      .in_detail(
+          "Where the field has too few points, its points come after these, by their own rank and apart from "
+          "those");
+  command.text("--salience-scale", options->scale, "How far salience is smoothed")
       .value("LENGTH")
       .shows_default("the method's sigma, or 8eps");
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")

@@ -51,22 +51,13 @@ int measure_stability(const Options& options, const Run& run) {
   return kDone;
 }
 
-/// An option whose values are named by to_string(); the first is the default.
-template <class Choice>
-void add_choice(Command& command, const std::string& name, Choice& chosen,
-                std::initializer_list<Choice> choices, const std::string& help) {
-  std::vector<std::pair<std::string, Choice>> named;
-  for (const Choice choice : choices) named.emplace_back(to_string(choice), choice);
-  command.choice(name, chosen, std::move(named), help);
-}
-
 void add_perturbation_options(Command& command, StabilityRequest& request) {
   command.begin_group("How the surface is perturbed");
   command.numbers("--noise", request.noise, "Standard deviations of Gaussian noise, in mean edge lengths")
       .value("S,S,...")
       .in_detail("By default, if no perturbation is given: 0.05,0.15,0.3,0.5");
-  add_choice(command, "--kind", request.noise_kind, {NoiseKind::normal, NoiseKind::isotropic},
-             "Noise along normals (normal) or in x, y and z (isotropic)");
+  command.choice("--kind", request.noise_kind, {NoiseKind::normal, NoiseKind::isotropic},
+                 "Noise along normals (normal) or in x, y and z (isotropic)");
   command.numbers("--decimate", request.decimate, "Shares of the vertices that are left after decimation")
       .value("R,R,...")
       .in_detail("Edges are collapsed, short ones first");
@@ -81,8 +72,8 @@ void add_agreement_options(Command& command, StabilityRequest& request) {
   command.text("--radius", request.radius, "Points match within this length or share of the diagonal")
       .value("R")
       .in_detail("The diagonal is the bounding box's");
-  add_choice(command, "--points", request.points, {PointChoice::all, PointChoice::extrema},
-             "Which points are compared: all or extrema");
+  command.choice("--points", request.points, {PointChoice::all, PointChoice::extrema},
+                 "Which points are compared: all or extrema");
   command.text("--reference", request.reference, "Agreement is the share of points that this method has, too")
       .value("M")
       .in_detail(

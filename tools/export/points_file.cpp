@@ -1,6 +1,8 @@
 #include "morsel/tools/export/points_file.h"
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 

@@ -114,18 +114,14 @@ Provenance::Provenance(std::string_view command, Json request, const FieldSource
   add_method(source.made.outcome.steps);
 }
 
-void Provenance::set_field(const FieldOutcome& field) {
-  document_["field"] = {{"name", field.name}, {"parameters", field_parameters(summary_of(field))}};
-  add_files(field);
-}
+void Provenance::set_field(const FieldOutcome& field) { set_function("field", field); }
 
-void Provenance::set_fill(const FieldOutcome& field) {
-  document_["fill"] = {{"name", field.name}, {"parameters", field_parameters(summary_of(field))}};
-  add_files(field);
-}
+void Provenance::set_fill(const FieldOutcome& field) { set_function("fill", field); }
 
-void Provenance::add_files(const FieldOutcome& field) {
-  for (Json& file : files_section(hashed_files(field))) document_["inputs"].push_back(std::move(file));
+void Provenance::set_function(const char* member, const FieldOutcome& field) {
+  const std::vector<HashedFile> files = hashed_files(field);
+  document_[member] = {{"name", field.name}, {"parameters", field_parameters(summary_of(field), files)}};
+  for (Json& file : files_section(files)) document_["inputs"].push_back(std::move(file));
 }
 
 void Provenance::add_method(const std::vector<StepOutcome>& steps) {

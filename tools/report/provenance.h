@@ -54,7 +54,7 @@ class Provenance {
   std::string html_comment() const;
 
  private:
-  void add_files(const FieldOutcome& field);
+  void set_function(const char* member, const FieldOutcome& field);
 
   Json document_;
 };

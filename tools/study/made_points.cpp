@@ -19,17 +19,6 @@ using core::Index;
 using morse::PointKind;
 using morse::PointRank;
 
-/// The value whose name the word is.
-template <class Value, std::size_t kCount>
-Value parse_name(const std::array<Value, kCount>& values, const std::string& word, const char* what) {
-  std::string names;
-  for (const Value value : values) {
-    if (to_string(value) == word) return value;
-    names += (names.empty() ? "" : ", ") + std::string(to_string(value));
-  }
-  throw core::InvalidArgument("there is no " + std::string(what) + " \"" + word + "\"; there are " + names);
-}
-
 /// σ of the last step of the method that has one.
 std::optional<double> sigma_of(const std::vector<StepOutcome>& steps) {
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
@@ -74,16 +63,6 @@ std::string why_fewer(const PointsRequest& request, const MadePoints& made, cons
 }
 
 }  // namespace
-
-PointKind parse_point_kind(const std::string& word) {
-  return parse_name(std::array{PointKind::extrema, PointKind::maxima, PointKind::minima, PointKind::saddles,
-                               PointKind::all},
-                    word, "kind of points");
-}
-
-PointRank parse_point_rank(const std::string& word) {
-  return parse_name(std::array{PointRank::persistence, PointRank::salience}, word, "rank");
-}
 
 PointsPlan prepare(const PointsRequest& request, const Registry& registry) {
   if (request.count == 0) throw core::InvalidArgument("the number of points must be at least 1, not 0");
@@ -131,17 +110,18 @@ MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, c
     result.scale = scale.on(mesh);
     weight = morse::mesh_salience(mesh, scale, progress);
   }
-  std::vector<std::vector<morse::PointCandidate>> candidates;
+  morse::PointChooser chooser(mesh, request.count, request.spacing.on(mesh));
   const auto add = [&](const core::ScalarField& field) {
-    candidates.push_back(morse::point_candidates(field, request.kind, weight, progress));
-    result.candidates.push_back(candidates.back().size());
-    result.chosen = morse::choose_points(mesh, candidates, request.count, request.spacing.on(mesh), progress);
+    const auto candidates = morse::point_candidates(field, request.kind, weight, progress);
+    result.candidates.push_back(candidates.size());
+    chooser.add(candidates, progress);
   };
   add(made.field());
-  if (plan.fill && result.chosen.points.size() < request.count) {
+  if (plan.fill && chooser.missing() > 0) {
     result.fill = evaluate_field(loaded, *plan.fill, progress);
     add(result.fill->field);
   }
+  result.chosen = chooser.finish();
   if (result.chosen.points.size() < request.count) result.note = why_fewer(request, result, made);
   const std::vector<double> percentiles = saliency_percentiles(mesh, progress);
   for (const morse::ChosenPoint& point : result.chosen.points)

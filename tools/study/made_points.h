@@ -22,11 +22,6 @@ struct PointsRequest {
   std::optional<core::Length> scale;  ///< σ of mesh_salience(); none: the last method's sigma, or else 8ε
 };
 
-/// "extrema", "maxima", "minima", "saddles", "all"; "persistence", "salience". Throw InvalidArgument for
-/// another word.
-morse::PointKind parse_point_kind(const std::string& word);
-morse::PointRank parse_point_rank(const std::string& word);
-
 /// A request whose names have been looked up.
 struct PointsPlan {
   PointsRequest request;
