@@ -24,6 +24,11 @@ void check_range(double value, const Range& range, const std::string& what) {
   throw InvalidArgument(what + " must be " + allowed + ", not " + shortest(value));
 }
 
+ParameterInfo described(std::string_view key, std::string_view default_text, std::string_view description,
+                        ParameterKind kind) {
+  return {std::string(key), std::string(default_text), std::string(description), kind};
+}
+
 template <class Number>
 bool parse_whole(std::string_view text, Number& value) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
@@ -85,13 +90,12 @@ ParameterReader ParameterReader::for_help(std::string name) {
   return reader;
 }
 
-const std::string* ParameterReader::declare(std::string_view key, std::string default_text,
-                                            std::string_view description, bool required) {
-  declared_.push_back({std::string(key), std::move(default_text), std::string(description)});
+const std::string* ParameterReader::declare(ParameterInfo declared, bool required) {
+  const ParameterInfo& info = declared_.emplace_back(std::move(declared));
   for (const auto& [name, value] : specification_.given)
-    if (name == key) return &value;
+    if (name == info.key) return &value;
   if (required && !for_help_)
-    throw InvalidArgument(owner() + " needs " + std::string(key) + "=… (" + std::string(description) + ")");
+    throw InvalidArgument(owner() + " needs " + info.key + "=… (" + info.description + ")");
   return nullptr;
 }
 
@@ -102,7 +106,8 @@ bool ParameterReader::given(std::string_view key) const {
 
 double ParameterReader::number(std::string_view key, double default_value, Range range,
                                std::string_view description) {
-  const std::string* text = declare(key, shortest(default_value), description);
+  const std::string* text =
+      declare(described(key, shortest(default_value), description, ParameterKind::number));
   if (text == nullptr) return default_value;
   const std::string what = owner() + ":" + std::string(key);
   const double value = parse_number(*text, what);
@@ -112,7 +117,8 @@ double ParameterReader::number(std::string_view key, double default_value, Range
 
 std::int64_t ParameterReader::count(std::string_view key, std::int64_t default_value, std::int64_t min,
                                     std::int64_t max, std::string_view description) {
-  const std::string* text = declare(key, std::to_string(default_value), description);
+  const std::string* text =
+      declare(described(key, std::to_string(default_value), description, ParameterKind::count));
   if (text == nullptr) return default_value;
   const std::string what = owner() + ":" + std::string(key);
   const std::int64_t value = parse_integer(*text, what);
@@ -124,7 +130,8 @@ std::int64_t ParameterReader::count(std::string_view key, std::int64_t default_v
 
 Length ParameterReader::length(std::string_view key, Length default_value, Range range,
                                std::string_view description) {
-  const std::string* text = declare(key, to_string(default_value), description);
+  const std::string* text =
+      declare(described(key, to_string(default_value), description, ParameterKind::length));
   if (text == nullptr) return default_value;
   const std::string what = owner() + ":" + std::string(key);
   const Length value = parse_length(*text, what);
@@ -133,27 +140,37 @@ Length ParameterReader::length(std::string_view key, Length default_value, Range
 }
 
 bool ParameterReader::flag(std::string_view key, bool default_value, std::string_view description) {
-  return choice(key, default_value ? "yes" : "no", {"yes", "no"}, description) == "yes";
+  ParameterInfo info = described(key, default_value ? "yes" : "no", description, ParameterKind::flag);
+  info.choices = {"yes", "no"};
+  return choose(std::move(info)) == "yes";
 }
 
 std::string ParameterReader::choice(std::string_view key, std::string_view default_value,
                                     const std::vector<std::string_view>& choices,
                                     std::string_view description) {
+  ParameterInfo info = described(key, default_value, description, ParameterKind::choice);
+  info.choices.assign(choices.begin(), choices.end());
+  return choose(std::move(info));
+}
+
+std::string ParameterReader::choose(ParameterInfo info) {
+  const std::vector<std::string> choices = info.choices;
   std::string allowed;
-  for (const std::string_view c : choices) allowed += (allowed.empty() ? "" : ", ") + std::string(c);
-  const std::string* text =
-      declare(key, std::string(default_value), std::string(description) + " [" + allowed + "]");
-  if (text == nullptr) return std::string(default_value);
+  for (const std::string& c : choices) allowed += (allowed.empty() ? "" : ", ") + c;
+  info.description += " [" + allowed + "]";
+  const std::string what = owner() + ":" + info.key;
+  const std::string default_value = info.default_value;
+  const std::string* text = declare(std::move(info));
+  if (text == nullptr) return default_value;
   if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
-  throw InvalidArgument(owner() + ":" + std::string(key) + " must be one of " + allowed + ", not " +
-                        in_quotes(*text));
+  throw InvalidArgument(what + " must be one of " + allowed + ", not " + in_quotes(*text));
 }
 
 std::string ParameterReader::text(std::string_view key, const char* default_value,
                                   std::string_view description) {
   const bool required = default_value == nullptr;
   const std::string fallback = required ? "" : default_value;
-  const std::string* text = declare(key, fallback, description, required);
+  const std::string* text = declare(described(key, fallback, description, ParameterKind::text), required);
   return text == nullptr ? fallback : unescape(*text);
 }
 
@@ -161,7 +178,8 @@ std::vector<std::string> ParameterReader::list(std::string_view key, const char*
                                                std::string_view description) {
   const bool required = default_value == nullptr;
   const std::string fallback = required ? "" : default_value;
-  const std::string* given_text = declare(key, fallback, description, required);
+  const std::string* given_text =
+      declare(described(key, fallback, description, ParameterKind::list), required);
   std::vector<std::string> items;
   for (const std::string_view item : split_unescaped(given_text == nullptr ? fallback : *given_text, '/'))
     items.push_back(unescape(item));

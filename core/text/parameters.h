@@ -22,11 +22,16 @@ using ParameterValue = std::variant<bool, std::int64_t, double, std::string>;
 /// Resolved parameters, in the order in which they are shown.
 using Parameters = std::vector<std::pair<std::string, ParameterValue>>;
 
+/// What a key's value is, by the call that declared it.
+enum class ParameterKind : std::uint8_t { number, count, length, flag, choice, text, list };
+
 /// A key as help shows it.
 struct ParameterInfo {
   std::string key;
   std::string default_value;  ///< as text; empty if the key must be given
   std::string description;
+  ParameterKind kind = ParameterKind::text;
+  std::vector<std::string> choices = {};  ///< of a choice
 };
 
 /// Inclusive or exclusive lower bound and inclusive upper bound of a number.
@@ -72,8 +77,8 @@ class ParameterReader {
   static ParameterReader for_help(std::string name);
 
  private:
-  const std::string* declare(std::string_view key, std::string default_text, std::string_view description,
-                             bool required = false);
+  const std::string* declare(ParameterInfo info, bool required = false);
+  std::string choose(ParameterInfo info);
 
   Specification specification_;
   std::vector<ParameterInfo> declared_;

@@ -51,6 +51,27 @@ TEST_CASE("parameters are read by kind and default where not given") {
   CHECK(r.declared()[1].default_value == "0.1");
 }
 
+TEST_CASE("a declared key says what its value is") {
+  using core::ParameterKind;
+  ParameterReader help = ParameterReader::for_help("salient");
+  help.number("a", 1, {}, "");
+  help.count("b", 1, 0, 9, "");
+  help.length("c", Length::epsilons(8), {}, "");
+  help.flag("d", false, "");
+  help.choice("e", "x", {"x", "y"}, "which");
+  help.text("f", "none", "");
+  help.list("g", "1/2", "");
+  const ParameterKind kinds[] = {ParameterKind::number, ParameterKind::count,  ParameterKind::length,
+                                 ParameterKind::flag,   ParameterKind::choice, ParameterKind::text,
+                                 ParameterKind::list};
+  REQUIRE(help.declared().size() == std::size(kinds));
+  for (std::size_t i = 0; i < std::size(kinds); ++i) CHECK(help.declared()[i].kind == kinds[i]);
+  CHECK(help.declared()[3].choices == std::vector<std::string>{"yes", "no"});
+  CHECK(help.declared()[4].choices == std::vector<std::string>{"x", "y"});
+  CHECK(help.declared()[4].description == "which [x, y]");
+  CHECK(help.declared()[6].choices.empty());
+}
+
 TEST_CASE("bad values are refused with owner and key and what is allowed") {
   const auto number = [](const char* text, core::Range range) {
     return reader({{"k", text}}).number("k", 1, range, "");

@@ -93,3 +93,15 @@ TEST_CASE("help names every key with its default") {
   CHECK_THAT(tools::Registry::standard().describe_function("height"), Contains("axis=z"));
   CHECK_THROWS_AS(tools::Registry::standard().describe_method("height"), core::InvalidArgument);
 }
+
+TEST_CASE("the parameters of an entry come with their kinds and defaults") {
+  const std::vector<core::ParameterInfo> salient =
+      tools::Registry::standard().parameters_of_method("salient");
+  REQUIRE(salient.size() == tools::Registry::standard().keys_of_method("salient").size());
+  CHECK(salient[1].key == "iterations");
+  CHECK(salient[1].kind == core::ParameterKind::count);
+  CHECK(salient[1].default_value == "10");
+  CHECK(tools::Registry::standard().parameters_of_function("height")[0].choices ==
+        std::vector<std::string>{"x", "y", "z"});
+  CHECK_THROWS_AS(tools::Registry::standard().parameters_of_function("salient"), core::InvalidArgument);
+}

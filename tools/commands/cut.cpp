@@ -14,7 +14,7 @@ namespace {
 
 struct Options {
   std::string mesh;
-  FieldRequest request{"height:axis=z", "conventional", {}};
+  FieldRequest request{kCutField, "conventional", {}};
   std::string output;
   bool no_shorten = false;
   std::string json;

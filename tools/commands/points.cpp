@@ -21,10 +21,10 @@ constexpr std::string_view kNone = "none";
 
 struct Options {
   std::string mesh;
-  FieldRequest request = {"gaussian-curvature:estimator=diffused", "conventional", {}};
+  FieldRequest request = {kPointsField, "conventional", {}};
   PointsRequest points;
   std::string spacing = core::to_string(PointsRequest().spacing);
-  std::string fill = "mean-curvature";
+  std::string fill = kFillField;
   std::string scale;
   std::string output;
 };

@@ -15,7 +15,7 @@ namespace {
 
 struct Options {
   std::string mesh;
-  FieldRequest field{"eigenfunction:index=40", "conventional", std::nullopt};
+  FieldRequest field{kQuadField, "conventional", std::nullopt};
   QuadRequest quads;
   std::string output;
   std::string json;

@@ -15,19 +15,20 @@ namespace {
 
 /// The report that the same request gives now.
 ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
-                         const core::Progress& progress) {
+                         const Registry& registry, const core::Progress& progress) {
   const HashedMesh input = read_hashed_mesh(mesh_path, {.repair = report.repair}, progress);
   ReportCollector again;
   ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.repair, report.items},
                       report.request);
-  run_comparison(input.loaded, prepare(report.request), {&writer}, progress);
+  run_comparison(input.loaded, prepare(report.request, registry), {&writer}, progress);
   writer.finish();
   return again.take();
 }
 
 }  // namespace
 
-ReportCheck check_report(const std::filesystem::path& path, const core::Progress& progress) {
+ReportCheck check_report(const std::filesystem::path& path, const core::Progress& progress,
+                         const Registry& registry) {
   const LoadedReport report = read_report(path);
   ReportCheck result{report.mesh_path, report.request.methods.size(), false, {}};
   const std::filesystem::path mesh = find_mesh(report, path);
@@ -36,7 +37,7 @@ ReportCheck check_report(const std::filesystem::path& path, const core::Progress
     return result;
   }
   try {
-    result.differences = report_differences(report.document, run_again(report, mesh, progress));
+    result.differences = report_differences(report.document, run_again(report, mesh, registry, progress));
   } catch (const core::InvalidArgument& error) {
     throw core::BadInput(path.string() + " requests what this version does not support: " + error.what());
   }

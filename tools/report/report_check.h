@@ -7,6 +7,7 @@
 
 #include "morsel/core/parallel/progress.h"
 #include "morsel/tools/report/difference.h"
+#include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
 
@@ -21,7 +22,9 @@ struct ReportCheck {
 
 /// Runs a report's comparison again and compares. Throws OtherDocument or BadInput (report_reader.h) on what
 /// is no report, BadInput also on a request that this version does not support, and what comparisons throw.
-ReportCheck check_report(const std::filesystem::path& report, const core::Progress& progress = {});
+/// `registry` has the user's own methods, if the report has any.
+ReportCheck check_report(const std::filesystem::path& report, const core::Progress& progress = {},
+                         const Registry& registry = Registry::standard());
 
 /// The .json files in a folder and the folders in it, by name. Throws BadInput if it cannot be read or has
 /// none.

@@ -164,7 +164,7 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress) {
   const auto shared = std::make_shared<const FieldOutcome>(evaluate_field(loaded, plan.function, progress));
   const FieldOutcome& input = *shared;
-  for (ComparisonSink* sink : sinks) sink->field(input);
+  for (ComparisonSink* sink : sinks) sink->keep_field(shared);
   const double radius = matching_radius(loaded.mesh);
   const morse::CriticalPointTracker at_input(std::shared_ptr<const core::ScalarField>(shared, &input.field),
                                              radius, progress.unreported());
@@ -188,11 +188,11 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
     for (std::size_t i = 0; i < places.size(); ++i)
       places[i] =
           plan.snap && origins[i] != core::kNone ? origins[i] : measurement.critical_points.points[i].vertex;
-    const MethodOutcome outcome{chain.specification,    chain.name,           std::move(made.steps),
-                                std::move(made.field),  input.field.extent(), std::move(made.target),
-                                std::move(measurement), std::move(origins),   std::move(places),
-                                std::move(matching),    std::move(timings)};
-    for (ComparisonSink* sink : sinks) sink->method(outcome);
+    const auto outcome = std::make_shared<const MethodOutcome>(
+        MethodOutcome{chain.specification, chain.name, std::move(made.steps), std::move(made.field),
+                      input.field.extent(), std::move(made.target), std::move(measurement),
+                      std::move(origins), std::move(places), std::move(matching), std::move(timings)});
+    for (ComparisonSink* sink : sinks) sink->keep_method(outcome);
   }
 }
 

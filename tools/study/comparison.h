@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -95,6 +96,9 @@ class ComparisonSink {
   virtual void begin_method(const std::string& name) { static_cast<void>(name); }
   virtual void field(const FieldOutcome& outcome) = 0;
   virtual void method(const MethodOutcome& outcome) = 0;
+  /// What run_comparison() calls: for sinks that keep outcomes without copying them.
+  virtual void keep_field(const std::shared_ptr<const FieldOutcome>& outcome) { field(*outcome); }
+  virtual void keep_method(const std::shared_ptr<const MethodOutcome>& outcome) { method(*outcome); }
 };
 
 /// A `count` of a step that is the number of critical points of an earlier row.

@@ -10,6 +10,9 @@
 
 namespace morsel::tools {
 
+/// The Morse function of `morsel cut`, unless another is asked for.
+inline constexpr const char* kCutField = "height:axis=z";
+
 /// One component of a surface and its cut. Lengths in the mesh's unit.
 struct ComponentCut {
   core::Index vertices = 0;

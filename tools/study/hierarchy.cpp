@@ -141,8 +141,9 @@ void run_hierarchy(const core::LoadedMesh& loaded, const HierarchyPlan& plan,
   }
   build_levels(
       std::move(seeds),
-      [&](const Level& level) {
-        for (HierarchySink* sink : sinks) sink->level(level);
+      [&](Level level) {
+        const auto kept = std::make_shared<const Level>(std::move(level));
+        for (HierarchySink* sink : sinks) sink->keep_level(kept);
       },
       progress);
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,6 +64,8 @@ class HierarchySink {
   virtual ~HierarchySink() = default;
   virtual void begin(const HierarchyBasis& basis) = 0;
   virtual void level(const Level& level) = 0;
+  /// What run_hierarchy() calls: for sinks that keep levels without copying them.
+  virtual void keep_level(const std::shared_ptr<const Level>& kept) { level(*kept); }
 };
 
 /// Makes the field, then the hierarchy level by level. Throws what functions, methods, sinks and

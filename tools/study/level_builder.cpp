@@ -59,7 +59,7 @@ void link(Level& finer, Level& coarser, const std::vector<double>& areas) {
 
 }  // namespace
 
-void build_levels(std::vector<LevelSeed> seeds, const std::function<void(const Level&)>& take,
+void build_levels(std::vector<LevelSeed> seeds, const std::function<void(Level)>& take,
                   const core::Progress& progress) {
   if (seeds.empty()) return;
   const std::vector<double> areas = mscomplex::triangle_areas(seeds.front().field->mesh());
@@ -71,10 +71,10 @@ void build_levels(std::vector<LevelSeed> seeds, const std::function<void(const L
       level.links[static_cast<std::size_t>(kind)] = unlinked(level, kind, areas);
     if (before) link(*before, level, areas);
     level.timings.emplace_back("links", watch.seconds());
-    if (before) take(*before);
+    if (before) take(std::move(*before));
     before.emplace(std::move(level));
   }
-  take(*before);
+  take(std::move(*before));
 }
 
 }  // namespace morsel::tools

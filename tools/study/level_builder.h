@@ -23,7 +23,7 @@ struct LevelSeed {
 /// Makes the levels, the finest first, and links the cells of each with those of the levels beside it. Each
 /// is passed to `take` as soon as its links are complete, so that no more than two complexes are in memory.
 /// Parallel, the same for every number of threads but for timings.
-void build_levels(std::vector<LevelSeed> seeds, const std::function<void(const Level&)>& take,
+void build_levels(std::vector<LevelSeed> seeds, const std::function<void(Level)>& take,
                   const core::Progress& progress = {});
 
 }  // namespace morsel::tools

@@ -12,6 +12,11 @@
 
 namespace morsel::tools {
 
+/// The Morse functions of `morsel points`, unless others are asked for: of the points, and of those that fill
+/// up.
+inline constexpr const char* kPointsField = "gaussian-curvature:estimator=diffused";
+inline constexpr const char* kFillField = "mean-curvature";
+
 /// In the words of the command line.
 struct PointsRequest {
   std::size_t count = 20;

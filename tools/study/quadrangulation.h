@@ -9,6 +9,9 @@
 
 namespace morsel::tools {
 
+/// The Morse function of `morsel quads`, unless another is asked for.
+inline constexpr const char* kQuadField = "eigenfunction:index=40";
+
 /// A quadrangulation in the syntax of the command line.
 struct QuadRequest {
   std::string

@@ -182,6 +182,14 @@ MethodChain Registry::make_method(std::string_view specification) const {
   return chain;
 }
 
+std::vector<core::ParameterInfo> Registry::parameters_of_function(const std::string& name) const {
+  return declared_by(find_entry(functions_, name, "Morse function"));
+}
+
+std::vector<core::ParameterInfo> Registry::parameters_of_method(const std::string& name) const {
+  return declared_by(find_entry(methods_, name, "method"));
+}
+
 std::vector<std::string> Registry::keys_of_function(const std::string& name) const {
   return keys_of(find_entry(functions_, name, "Morse function"));
 }

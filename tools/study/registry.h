@@ -67,7 +67,11 @@ class Registry {
   NamedFunction make_function(std::string_view specification) const;
   MethodChain make_method(std::string_view specification) const;
 
-  /// The keys that a Morse function or method has. Throw InvalidArgument if there is none of that name.
+  /// The keys that a Morse function or method has, in the order in which it declares them. Throw
+  /// InvalidArgument if there is none of that name.
+  std::vector<core::ParameterInfo> parameters_of_function(const std::string& name) const;
+  std::vector<core::ParameterInfo> parameters_of_method(const std::string& name) const;
+  /// Their names alone.
   std::vector<std::string> keys_of_function(const std::string& name) const;
   std::vector<std::string> keys_of_method(const std::string& name) const;
 
