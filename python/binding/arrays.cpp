@@ -1,0 +1,126 @@
+#include "morsel/python/binding/arrays.h"
+
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+namespace morsel::python {
+namespace {
+
+std::string shape_text(const py::array& array) { return py::str(py::tuple(array.attr("shape"))); }
+std::string type_text(const py::array& array) { return py::str(array.dtype()); }
+
+[[noreturn]] void refuse(const std::string& text) { throw py::value_error(text); }
+
+/// Calls visit(T()) with the element type of an array of whole numbers; returns false for other arrays.
+template <class Visit>
+bool with_integers(const py::array& array, const Visit& visit) {
+  const char kind = array.dtype().kind();
+  const py::ssize_t size = array.itemsize();
+  const auto byteorder = std::string(py::str(array.dtype().attr("byteorder")));
+  if ((kind != 'i' && kind != 'u') || byteorder == ">") return false;
+  const bool is_signed = kind == 'i';
+  if (size == 1) {
+    is_signed ? visit(std::int8_t()) : visit(std::uint8_t());
+  } else if (size == 2) {
+    is_signed ? visit(std::int16_t()) : visit(std::uint16_t());
+  } else if (size == 4) {
+    is_signed ? visit(std::int32_t()) : visit(std::uint32_t());
+  } else {
+    is_signed ? visit(std::int64_t()) : visit(std::uint64_t());
+  }
+  return true;
+}
+
+/// Calls take(row, column, value) for all elements of an array of one or two dimensions.
+template <class T, class Take>
+void for_each_element(const py::array& array, const Take& take) {
+  const py::ssize_t rows = array.shape(0);
+  const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 1;
+  const py::ssize_t across = array.ndim() == 2 ? array.strides(1) : 0;
+  const auto* const data = static_cast<const char*>(array.data());
+  for (py::ssize_t r = 0; r < rows; ++r)
+    for (py::ssize_t c = 0; c < columns; ++c) {
+      T value;
+      std::memcpy(&value, data + r * array.strides(0) + c * across, sizeof(T));
+      take(r, c, value);
+    }
+}
+
+/// Whole numbers of an array of one or two dimensions, row by row.
+std::vector<core::Index> whole_numbers(const py::array& given, const char* what) {
+  const py::array array = given.dtype().attr("isnative").cast<bool>()
+                              ? given
+                              : py::array(given.attr("astype")(given.dtype().attr("newbyteorder")("=")));
+  std::vector<core::Index> numbers(static_cast<std::size_t>(array.size()));
+  std::size_t next = 0;
+  const bool known = with_integers(array, [&](auto type) {
+    using T = decltype(type);
+    for_each_element<T>(array, [&](py::ssize_t row, py::ssize_t, T value) {
+      if (std::cmp_less(value, 0) || std::cmp_greater_equal(value, core::kNone))
+        refuse(std::string(what) + " must be numbers of vertices, from 0 on, not " + std::to_string(value) +
+               " (in row " + std::to_string(row) + ")");
+      numbers[next++] = static_cast<core::Index>(value);
+    });
+  });
+  if (!known)
+    refuse(std::string(what) + " must be whole numbers (such as int32 or int64), not " + type_text(given));
+  return numbers;
+}
+
+/// Doubles, contiguous, of an array of numbers.
+py::array_t<double> doubles(const py::array& array, const char* what) {
+  const char kind = array.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u')
+    refuse(std::string(what) + " must be real numbers, not " + type_text(array));
+  return py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+}
+
+}  // namespace
+
+py::array view_of(const py::dtype& type, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+                  const void* data, Owner owner) {
+  const py::capsule base(new Owner(std::move(owner)), [](void* kept) { delete static_cast<Owner*>(kept); });
+  static const double nothing = 0;  // what an array of no elements refers to
+  py::array array(type, std::move(shape), std::move(strides), data != nullptr ? data : &nothing, base);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+std::vector<core::Point> points_from(const py::array& array, const char* what) {
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    refuse(std::string(what) + " must have the shape (n, 3), not " + shape_text(array) +
+           (array.ndim() == 2 && array.shape(0) == 3 ? "; transpose them" : ""));
+  const py::array_t<double> numbers = doubles(array, what);
+  std::vector<core::Point> points(static_cast<std::size_t>(numbers.shape(0)));
+  static_assert(sizeof(core::Point) == 3 * sizeof(double));
+  if (!points.empty())
+    std::memcpy(static_cast<void*>(points.data()), numbers.data(), points.size() * sizeof(core::Point));
+  return points;
+}
+
+std::vector<double> values_from(const py::array& array, const char* what) {
+  if (array.ndim() != 1) refuse(std::string(what) + " must have the shape (n,), not " + shape_text(array));
+  const py::array_t<double> numbers = doubles(array, what);
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+std::vector<core::Index> indices_from(const py::array& array, const char* what) {
+  if (array.ndim() != 1) refuse(std::string(what) + " must have the shape (n,), not " + shape_text(array));
+  return whole_numbers(array, what);
+}
+
+core::PolygonSoup soup_from(const py::array& positions, const py::array& faces) {
+  core::PolygonSoup soup;
+  soup.positions = points_from(positions, "the vertices");
+  if (faces.ndim() != 2 || faces.shape(1) < 3)
+    refuse("the faces must have the shape (m, 3), or (m, k) for polygons of k corners, not " +
+           shape_text(faces) + (faces.ndim() == 2 && faces.shape(0) == 3 ? "; transpose them" : ""));
+  soup.corners = whole_numbers(faces, "the corners of the faces");
+  const auto corners = static_cast<std::size_t>(faces.shape(1));
+  soup.offsets.resize(static_cast<std::size_t>(faces.shape(0)) + 1);
+  for (std::size_t i = 0; i < soup.offsets.size(); ++i) soup.offsets[i] = i * corners;
+  return soup;
+}
+
+}  // namespace morsel::python

@@ -1,0 +1,105 @@
+/// Fields, segments and chosen points as files and documents.
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morsel/core/io/file_extension.h"
+#include "morsel/persistence/threshold.h"
+#include "morsel/python/binding/job.h"
+#include "morsel/python/documents/module.h"
+#include "morsel/python/documents/source.h"
+#include "morsel/tools/export/field_file.h"
+#include "morsel/tools/export/label_file.h"
+#include "morsel/tools/export/points_file.h"
+#include "morsel/tools/report/points_writer.h"
+#include "morsel/tools/report/segments_writer.h"
+
+namespace morsel::python {
+namespace {
+
+/// .txt, .ply or .vtp.
+void write_field(const FieldHandle& field, const std::string& path, const tools::Registry& registry,
+                 const py::object& report) {
+  tools::check_field_path(path);
+  run_job(report, [&](const core::Progress& progress) {
+    const DocumentField source(field, {}, registry, progress);
+    const DocumentMesh& mesh = source.mesh();
+    tools::write_field(path, *field->field, mesh.loaded.source.numbering, mesh.input_positions(progress),
+                       source.made().input.name,
+                       source.provenance("field", {}, tools::request_section(source.request(), mesh.repair)));
+  });
+}
+
+/// The words of the command line of a request.
+std::vector<std::string> words_of(const tools::SegmentRequest& request) {
+  std::vector<std::string> words = {"--by", tools::to_string(request.kind)};
+  if (request.segments) words.insert(words.end(), {"--segments", std::to_string(*request.segments)});
+  if (request.persistence)
+    words.insert(words.end(), {"--persistence", persistence::to_string(*request.persistence)});
+  return words;
+}
+
+/// .json: the table of the segments; .ply, .vtp, .txt: the labels.
+void write_segments(const SegmentsHandle& segments, const std::string& path,
+                    const std::optional<std::string>& mesh_file, const tools::Registry& registry,
+                    const py::object& report) {
+  const bool is_document = core::file_extension(path) == ".json";
+  if (!is_document) tools::label_files(path);  // refuses other endings
+  run_job(report, [&](const core::Progress& progress) {
+    const DocumentField source(segments->field, {mesh_file, false}, registry, progress);
+    const DocumentMesh& mesh = source.mesh();
+    const tools::SegmentsRequest request{source.request(), segments->request, mesh.repair};
+    if (is_document)
+      return write_document(path, [&](tools::JsonSink& json) {
+        tools::write_segments(json, request, source.source(), segments->made, {});
+      });
+    const mscomplex::Segments& made = segments->made.segments;
+    tools::write_labels(
+        path, {"segment", made.vertex, made.triangle}, *segments->field->field, source.made().input.name,
+        mesh.loaded.source.numbering, mesh.input_positions(progress),
+        source.provenance("segment", words_of(segments->request), tools::request_section(request)));
+  });
+}
+
+std::vector<std::string> words_of(const tools::PointsRequest& request) {
+  std::vector<std::string> words = {"--points",  std::to_string(request.count),
+                                    "--kind",    std::string(morse::to_string(request.kind)),
+                                    "--rank",    std::string(morse::to_string(request.rank)),
+                                    "--spacing", core::to_string(request.spacing),
+                                    "--fill",    request.fill.value_or("none")};
+  if (request.scale) words.insert(words.end(), {"--salience-scale", core::to_string(*request.scale)});
+  return words;
+}
+
+/// .json, .csv, .ply or .vtp.
+void write_points(const PointsHandle& points, const std::string& path,
+                  const std::optional<std::string>& mesh_file, const tools::Registry& registry,
+                  const py::object& report) {
+  const bool is_document = core::file_extension(path) == ".json";
+  if (!is_document) tools::check_points_path(path);
+  run_job(report, [&](const core::Progress& progress) {
+    const DocumentField source(points->field, {mesh_file, false}, registry, progress);
+    const DocumentMesh& mesh = source.mesh();
+    const tools::Json request = tools::request_section(source.request(), points->plan.request, mesh.repair);
+    if (is_document)
+      return write_document(path, [&](tools::JsonSink& json) {
+        tools::write_points_document(json, request, source.source(), points->made, {});
+      });
+    tools::Provenance provenance = source.provenance("points", words_of(points->plan.request), request);
+    if (points->made.fill) provenance.set_fill(*points->made.fill);
+    tools::write_points(path, points->made, mesh.loaded, source.made().input.name, provenance);
+  });
+}
+
+}  // namespace
+
+void add_field_documents(py::module_& m) {
+  m.def("write_field", &write_field);
+  m.def("write_segments", &write_segments);
+  m.def("write_points", &write_points);
+}
+
+}  // namespace morsel::python

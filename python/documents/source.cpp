@@ -1,0 +1,113 @@
+#include "morsel/python/documents/source.h"
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "morsel/core/error.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/core/io/mesh_writer.h"
+#include "morsel/tools/formats/command_line.h"
+#include "morsel/tools/formats/sha256.h"
+
+namespace morsel::python {
+namespace {
+
+constexpr const char* kInMemory = "(in memory)";
+
+/// A mesh that has no file: the hash is of its positions and triangles.
+tools::HashedFile in_memory(const core::TriangleMesh& mesh) {
+  const auto bytes = [](const auto& row) {
+    return std::string_view(reinterpret_cast<const char*>(row.data()), row.size_bytes());
+  };
+  return {kInMemory, tools::sha256_of(tools::sha256_of(bytes(mesh.positions())) +
+                                      tools::sha256_of(bytes(mesh.triangles())))};
+}
+
+void write_mesh(const std::string& path, const core::LoadedMesh& loaded, bool has_values,
+                const core::Progress& progress) {
+  const std::string extension = core::file_extension(path);
+  if (extension == ".ply") {
+    core::write_ply(path, loaded.mesh, loaded.source.properties, {}, progress);
+  } else if (extension == ".off" && !has_values) {
+    core::write_off(path, loaded.mesh, {}, progress);
+  } else {
+    throw core::InvalidArgument(has_values
+                                    ? "values are a property of the mesh's file, which .ply files hold, "
+                                      "not " +
+                                          path
+                                    : "a mesh is written to .off or .ply, not to " + path);
+  }
+}
+
+void check_unchanged(const MeshData& mesh) {
+  std::error_code error;
+  if (std::filesystem::last_write_time(mesh.path, error) != mesh.file_time || error)
+    throw core::BadInput(mesh.path + " has changed since it was read");
+}
+
+}  // namespace
+
+std::vector<core::Point> DocumentMesh::input_positions(const core::Progress& progress) const {
+  if (loaded.source.numbering.from_input.empty())
+    return {loaded.mesh.positions().begin(), loaded.mesh.positions().end()};
+  if (file.path != kInMemory) return core::read_polygon_soup(file.path, progress).soup.positions;
+  std::vector<core::Point> positions(loaded.source.numbering.input_count, core::Point::Zero());
+  for (core::Index v = 0; v < loaded.mesh.vertex_count(); ++v)
+    positions[loaded.source.numbering.input_vertex(v)] = loaded.mesh.position(v);
+  return positions;
+}
+
+DocumentMesh document_mesh(const StudyInput& input, const MeshPlace& place, const core::Progress& progress) {
+  const MeshData& mesh = *input.mesh;
+  const bool has_values = input.values != nullptr;
+  if (place.file) {
+    core::LoadedMesh loaded = has_values ? mesh_with_values(*input.values) : in_own_numbers(mesh.loaded);
+    write_mesh(*place.file, loaded, has_values, progress);
+    return {std::move(loaded), {*place.file, tools::sha256_of_file(*place.file)}, false};
+  }
+  if (!mesh.path.empty() && !has_values) {
+    check_unchanged(mesh);
+    return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.path)}, mesh.repair};
+  }
+  if (place.must_be_file)
+    throw core::InvalidArgument(
+        has_values
+            ? "the report's field is of given values, which are in no file: name one for mesh and values "
+              "(mesh=\"mesh.ply\")"
+            : "the report's mesh is in no file: name one that it is written to (mesh=\"mesh.off\")");
+  return {has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair};
+}
+
+DocumentField::DocumentField(const FieldHandle& field, const MeshPlace& place,
+                             const tools::Registry& registry, const core::Progress& progress)
+    : mesh_(document_mesh({field->mesh, field->story.function.empty() ? field : nullptr}, place, progress)),
+      made_(documented(*field, registry)) {}
+
+tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,
+                                            const tools::Json& json) const {
+  return {command_of(command, mesh_, request().field, {request().method}, request().target, words), json,
+          source()};
+}
+
+std::string command_of(const std::string& command, const DocumentMesh& mesh, const std::string& field,
+                       const std::vector<std::string>& methods, const std::optional<std::size_t>& target,
+                       const std::vector<std::string>& words) {
+  std::vector<std::string> line = {"morsel", command, mesh.file.path, "--field", field};
+  for (const std::string& method : methods) line.insert(line.end(), {"--method", method});
+  if (target) line.insert(line.end(), {"--target", std::to_string(*target)});
+  line.insert(line.end(), words.begin(), words.end());
+  if (mesh.repair) line.emplace_back("--repair");
+  return tools::command_line(line);
+}
+
+void write_document(const std::string& path, const std::function<void(tools::JsonSink&)>& write) {
+  core::FileWriter file(path);
+  tools::JsonStream json(file.stream());
+  write(json);
+  file.commit();
+}
+
+}  // namespace morsel::python

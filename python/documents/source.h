@@ -1,0 +1,70 @@
+#pragma once
+/// The mesh and field that a document is of, and the program's command that makes the same.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "morsel/core/io/mesh_io.h"
+#include "morsel/core/parallel/progress.h"
+#include "morsel/python/binding/data.h"
+#include "morsel/tools/formats/json_stream.h"
+#include "morsel/tools/report/field_document.h"
+#include "morsel/tools/report/provenance.h"
+#include "morsel/tools/report/report_writer.h"
+
+namespace morsel::python {
+
+/// Where the mesh of a document is.
+struct MeshPlace {
+  /// The file that it is written to first, with the values that a field was given of; none: the file that it
+  /// was read from or, where there is none, memory.
+  std::optional<std::string> file = {};
+  bool must_be_file = false;
+};
+
+/// A mesh as a document names it.
+struct DocumentMesh {
+  core::LoadedMesh loaded;  ///< in the vertex numbers of the file
+  tools::HashedFile file;
+  bool repair = false;
+
+  /// `items`: whether lists that grow with the mesh are written.
+  tools::ReportInput about(bool items = true) const { return {file.path, file.sha256, repair, items}; }
+  /// The positions of the file's vertices, those that repair dropped included.
+  std::vector<core::Point> input_positions(const core::Progress& progress) const;
+};
+
+/// Throws InvalidArgument where the mesh must be in a file and is not, BadInput where its file has changed
+/// since it was read, and what writing throws.
+DocumentMesh document_mesh(const StudyInput& input, const MeshPlace& place, const core::Progress& progress);
+
+/// A field of a request, on its mesh.
+class DocumentField {
+ public:
+  DocumentField(const FieldHandle& field, const MeshPlace& place, const tools::Registry& registry,
+                const core::Progress& progress);
+
+  const DocumentMesh& mesh() const { return mesh_; }
+  const tools::FieldRequest& request() const { return made_.request; }
+  const tools::MadeField& made() const { return made_.made; }
+  tools::FieldSource source() const { return {mesh_.file, mesh_.loaded, made_.plan, made_.made}; }
+  /// `words`: the command's own, after its field and method.
+  tools::Provenance provenance(const std::string& command, const std::vector<std::string>& words,
+                               const tools::Json& request) const;
+
+ private:
+  DocumentMesh mesh_;
+  Documented made_;
+};
+
+/// "morsel COMMAND MESH --field F --method M …": all that shapes the result.
+std::string command_of(const std::string& command, const DocumentMesh& mesh, const std::string& field,
+                       const std::vector<std::string>& methods, const std::optional<std::size_t>& target,
+                       const std::vector<std::string>& words);
+
+/// Writes a JSON document whole or not at all.
+void write_document(const std::string& path, const std::function<void(tools::JsonSink&)>& write);
+
+}  // namespace morsel::python

@@ -1,0 +1,110 @@
+/// Hierarchies, sweeps and stability as documents and tables.
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_writer.h"
+#include "morsel/python/binding/job.h"
+#include "morsel/python/binding/text.h"
+#include "morsel/python/documents/module.h"
+#include "morsel/python/documents/source.h"
+#include "morsel/tools/report/hierarchy_writer.h"
+#include "morsel/tools/report/input_files.h"
+#include "morsel/tools/report/stability_table.h"
+#include "morsel/tools/report/stability_writer.h"
+#include "morsel/tools/report/sweep_writer.h"
+
+namespace morsel::python {
+namespace {
+
+/// Writes a table as JSON or CSV.
+void write_table(const std::string& path, const std::function<void(tools::JsonSink&)>& json,
+                 const std::function<void(std::ostream&)>& csv) {
+  const std::string extension = core::file_extension(path);
+  if (extension == ".json") return write_document(path, json);
+  if (extension != ".csv") throw core::InvalidArgument("a table is written to .json or .csv, not to " + path);
+  core::FileWriter file(path);
+  csv(file.stream());
+  file.commit();
+}
+
+/// The files that the fields of a sweep read.
+std::vector<tools::HashedFile> files_of(const SweepData& sweep) {
+  std::set<std::string> fields;
+  for (const tools::Combination& combination : sweep.plan.combinations)
+    fields.insert(core::to_string(combination.field));
+  return tools::input_files({fields.begin(), fields.end()}, sweep.plan.registry);
+}
+
+void write_sweep(const SweepHandle& sweep, const std::string& path,
+                 const std::optional<std::string>& mesh_file, const py::object& report) {
+  run_job(report, [&](const core::Progress& progress) {
+    const DocumentMesh mesh = document_mesh(sweep->input, {mesh_file, false}, progress);
+    const tools::ReportInput about = mesh.about();
+    const std::vector<tools::HashedFile> files = files_of(*sweep);
+    const tools::SweepReport document{mesh.loaded, about, sweep->request, sweep->plan, sweep->rows, files};
+    write_table(
+        path, [&](tools::JsonSink& json) { tools::write_sweep(json, document); },
+        [&](std::ostream& out) { tools::write_sweep_csv(out, document); });
+  });
+}
+
+std::string sweep_table(const SweepHandle& sweep) {
+  const tools::ReportInput about;
+  const std::vector<tools::HashedFile> files;
+  const core::LoadedMesh& loaded = sweep->input.mesh->loaded;
+  return tools::sweep_table({loaded, about, sweep->request, sweep->plan, sweep->rows, files});
+}
+
+void write_stability(const StabilityHandle& stability, const std::string& path,
+                     const std::optional<std::string>& mesh_file, const py::object& report) {
+  run_job(report, [&](const core::Progress& progress) {
+    const DocumentMesh mesh = document_mesh(stability->input, {mesh_file, false}, progress);
+    const tools::ReportInput about = mesh.about();
+    const tools::StabilityReport document{mesh.loaded, about, stability->request, stability->plan,
+                                          stability->result};
+    write_table(
+        path, [&](tools::JsonSink& json) { tools::write_stability(json, document); },
+        [&](std::ostream& out) { tools::write_stability_csv(out, document); });
+  });
+}
+
+/// Makes the hierarchy again, level by level, and writes it.
+void write_hierarchy(const LevelsHandle& levels, const std::string& path,
+                     const std::optional<std::string>& mesh_file, bool items, const tools::Registry& registry,
+                     const py::object& report) {
+  const FieldHandle& field = levels->field;
+  if (!field->story.is_request) documented(*field, registry);  // which says why it cannot be
+  const tools::HierarchyPlan plan = tools::prepare(levels->request, registry);
+  run_job(report, [&](const core::Progress& progress) {
+    const DocumentMesh mesh = document_mesh({field->mesh, field->story.function.empty() ? field : nullptr},
+                                            {mesh_file, false}, progress);
+    const tools::ReportInput about = mesh.about(items);
+    const tools::HierarchyRequest request = tools::with_defaults(levels->request);
+    write_document(path, [&](tools::JsonSink& json) {
+      tools::HierarchyWriter writer(json, mesh.loaded, about, request, plan);
+      tools::run_hierarchy(mesh.loaded, plan, {&writer}, progress);
+      writer.finish();
+    });
+  });
+}
+
+}  // namespace
+
+void add_study_documents(py::module_& m) {
+  m.def("write_sweep", &write_sweep);
+  m.def("sweep_table", [](const SweepHandle& sweep) { return text(sweep_table(sweep)); });
+  m.def("write_stability", &write_stability);
+  m.def("stability_table", [](const StabilityHandle& stability) {
+    return text(tools::stability_table(stability->plan, stability->result));
+  });
+  m.def("write_hierarchy", &write_hierarchy);
+}
+
+}  // namespace morsel::python

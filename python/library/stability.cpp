@@ -1,0 +1,140 @@
+/// Stability of critical points on perturbed surfaces.
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/python/binding/data.h"
+#include "morsel/python/binding/job.h"
+#include "morsel/python/binding/text.h"
+#include "morsel/python/library/module.h"
+#include "morsel/tools/study/stability.h"
+
+namespace morsel::python {
+namespace {
+
+using tools::StabilityRequest;
+
+/// What a dict gives of a request; what it lacks keeps its default.
+class RequestReader {
+ public:
+  RequestReader(StabilityRequest& request, py::dict given) : request_(request), given_(std::move(given)) {}
+
+  StabilityRequest& read() {
+    take("fields", request_.fields);
+    take("methods", request_.methods);
+    take("noise", request_.noise);
+    take("decimate", request_.decimate);
+    take("subdivide", request_.subdivide);
+    take("trials", request_.trials);
+    take("seed", request_.seed);
+    take("target", request_.target);
+    take("radius", request_.radius);
+    take("reference_field", request_.reference_field);
+    take("reference", request_.reference);
+    choose("kind", request_.noise_kind, {tools::NoiseKind::normal, tools::NoiseKind::isotropic});
+    choose("points", request_.points, {tools::PointChoice::all, tools::PointChoice::extrema});
+    return request_;
+  }
+
+ private:
+  template <class T>
+  void take(const char* key, T& value) {
+    if (given_.contains(key)) value = given_[key].cast<T>();
+  }
+  template <class T>
+  void choose(const char* key, T& value, std::initializer_list<T> all) {
+    if (!given_.contains(key)) return;
+    const auto word = given_[key].cast<std::string>();
+    std::string listed;
+    for (const T one : all) {
+      if (word == tools::to_string(one)) {
+        value = one;
+        return;
+      }
+      listed += (listed.empty() ? "" : " or ") + std::string(tools::to_string(one));
+    }
+    throw core::InvalidArgument(std::string(key) + " must be " + listed + ", not \"" + word + "\"");
+  }
+
+  StabilityRequest& request_;
+  py::dict given_;
+};
+
+StabilityHandle stability(const MeshHandle& mesh, const FieldHandle& values, const py::dict& given,
+                          const tools::Registry& registry, const py::object& report) {
+  StabilityRequest request;
+  RequestReader(request, given).read();
+  FieldHandle field;
+  if (values) {
+    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
+    request.fields = {function_text(plain->story)};
+    if (plain->story.function.empty()) field = plain;
+  }
+  tools::StabilityPlan plan = tools::prepare(request, registry);
+  return compute(report, [&](const core::Progress& progress) {
+    const auto data = std::make_shared<StabilityData>(
+        StabilityData{{mesh, field}, tools::with_defaults(request), std::move(plan), {}});
+    data->result = tools::run_stability(data->input.loaded(), data->plan, progress);
+    return data;
+  });
+}
+
+/// (mean, half width of the confidence interval, count)
+py::tuple estimate(const tools::Estimate& of) {
+  return py::make_tuple(of.mean, of.half_width ? py::cast(*of.half_width) : py::none(), of.count);
+}
+
+/// A dict for each outcome and perturbation.
+py::list rows(const StabilityHandle& stability) {
+  py::list list;
+  for (const tools::StabilityOutcome& outcome : stability->result.outcomes)
+    for (const tools::PerturbationOutcome& p : outcome.perturbations) {
+      py::dict row;
+      row["field"] = text(stability->request.fields[outcome.field]);
+      row["method"] = text(stability->request.methods[outcome.method]);
+      row["target"] = outcome.target ? py::cast(*outcome.target) : py::none();
+      row["perturbation"] = text(tools::to_string(p.perturbation.kind));
+      row["amount"] = p.perturbation.amount;
+      row["trials"] = p.trials.size();
+      row["clean"] = outcome.points.total();
+      row["agreement"] = outcome.agreement();
+      row["recall"] = estimate(p.recall());
+      row["precision"] = estimate(p.precision());
+      row["f_score"] = estimate(p.f_score());
+      row["chance"] = estimate(p.chance());
+      row["drift"] = estimate(p.drift());
+      row["found"] = estimate(p.found());
+      list.append(row);
+    }
+  return list;
+}
+
+}  // namespace
+
+void add_stability(py::module_& m) {
+  py::class_<StabilityData, StabilityHandle>(m, "Stability")
+      .def("rows", &rows)
+      .def_property_readonly("values", [](const StabilityData& s) { return s.input.values; })
+      .def_property_readonly("mesh", [](const StabilityData& s) { return s.input.mesh; })
+      .def_property_readonly("field_texts", [](const StabilityData& s) { return texts(s.request.fields); })
+      .def_property_readonly("seed", [](const StabilityData& s) { return s.request.seed; })
+      .def_property_readonly("radius", [](const StabilityData& s) { return s.result.radius; })
+      .def_property_readonly("mean_edge_length",
+                             [](const StabilityData& s) { return s.result.mean_edge_length; })
+      .def("warnings", [](const StabilityHandle& s) {
+        py::list list;
+        for (const tools::FieldOutcome& field : s->result.fields)
+          list.append(py::make_tuple(text(field.name), texts(field.warnings)));
+        return list;
+      });
+  m.def("stability", &stability);
+}
+
+}  // namespace morsel::python

@@ -1,0 +1,92 @@
+/// Sweeps over parameters.
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "morsel/core/text/specification.h"
+#include "morsel/python/binding/data.h"
+#include "morsel/python/binding/job.h"
+#include "morsel/python/binding/text.h"
+#include "morsel/python/library/module.h"
+#include "morsel/tools/study/sweep.h"
+
+namespace morsel::python {
+namespace {
+
+/// `values` is a field, or None where the request names a Morse function.
+SweepHandle sweep(const MeshHandle& mesh, const FieldHandle& values, const std::string& field,
+                  const std::string& method, const std::vector<std::string>& vary,
+                  const tools::Registry& registry, const py::object& report) {
+  tools::SweepRequest request{field, method, vary};
+  FieldHandle given;
+  if (values) {
+    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
+    request.field = function_text(plain->story);
+    if (plain->story.function.empty()) given = plain;
+  }
+  tools::SweepPlan plan = tools::prepare(request, registry);
+  return compute(report, [&](const core::Progress& progress) {
+    const auto data =
+        std::make_shared<SweepData>(SweepData{{mesh, given}, std::move(request), std::move(plan), {}});
+    data->rows = tools::run_sweep(data->input.loaded(), data->plan, {}, progress);
+    return data;
+  });
+}
+
+py::dict row_dict(const SweepHandle& sweep, std::size_t i) {
+  if (i >= sweep->rows.size()) throw py::index_error("there is no such row");
+  const tools::SweepRow& row = sweep->rows[i];
+  const tools::Combination& combination = sweep->plan.combinations[i];
+  py::dict result;
+  for (std::size_t k = 0; k < combination.choices.size(); ++k) {
+    const tools::Variation& variation = sweep->plan.variations[k];
+    result[text(variation.key)] = text(variation.values[combination.choices[k]]);
+  }
+  result["field"] = text(core::to_string(combination.field));
+  result["method"] = text(core::to_string(combination.steps));
+  result["minima"] = row.critical_points.minima;
+  result["saddles"] = row.critical_points.saddles;
+  result["saddle_multiplicity"] = row.critical_points.saddle_multiplicity;
+  result["maxima"] = row.critical_points.maxima;
+  result["total"] = row.critical_points.total();
+  result["iterations_run"] = row.iterations_run ? py::cast(*row.iterations_run) : py::none();
+  result["pairs"] = row.persistence.pairs;
+  for (std::size_t k = 0; k < row.persistence.above.size(); ++k)
+    result[py::str("above_" + core::shortest(row.persistence.kPercents[k]) + "_percent")] =
+        row.persistence.above[k];
+  result["largest_persistence"] = row.persistence.largest ? py::cast(*row.persistence.largest) : py::none();
+  result["min"] = row.min;
+  result["max"] = row.max;
+  result["seconds"] = row.seconds.sum();
+  return result;
+}
+
+}  // namespace
+
+void add_sweep(py::module_& m) {
+  py::class_<SweepData, SweepHandle>(m, "Sweep")
+      .def("__len__", [](const SweepData& sweep) { return sweep.rows.size(); })
+      .def("row", &row_dict)
+      .def_property_readonly("values", [](const SweepData& s) { return s.input.values; })
+      .def_property_readonly("mesh", [](const SweepData& s) { return s.input.mesh; })
+      .def("warnings",
+           [](const SweepHandle& sweep, std::size_t i) { return texts(sweep->rows.at(i).field.warnings); })
+      .def_property_readonly("keys",
+                             [](const SweepData& sweep) {
+                               py::list keys;
+                               for (const tools::Variation& one : sweep.plan.variations)
+                                 keys.append(text(one.key));
+                               return keys;
+                             })
+      .def_property_readonly("field_text", [](const SweepData& s) { return text(s.request.field); })
+      .def_property_readonly("method_text", [](const SweepData& s) { return text(s.request.method); });
+  m.def("sweep", &sweep);
+}
+
+}  // namespace morsel::python

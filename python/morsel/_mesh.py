@@ -1,0 +1,242 @@
+"""Triangle meshes."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _interop, _library
+from ._errors import Defect
+from ._progress import Progress, reporting
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+def path_bytes(path: PathLike) -> bytes:
+    """A path as the library takes it."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError("a path has no null character")
+    return name
+
+
+class Mesh:
+    """A triangle surface: manifold, oriented, every vertex used. Immutable.
+
+    Parameters
+    ----------
+    vertices : array_like (n, 3), or a mesh of another package
+        Positions; any real numbers, which become float64. A trimesh, pyvista, VTK, meshio or Open3D mesh, a
+        pair (vertices, faces) or a path may be given in place of both.
+    faces : array_like (m, 3) or (m, k), or a list of faces of several sizes
+        Numbers of vertices, from 0 on, counter-clockwise seen from outside. Polygons are cut into triangles.
+    repair : bool
+        Mend what breaks the rules instead of refusing it; `repairs` then tells what was done.
+    progress : bool or callable
+        True shows a bar; a function is called with the step's name and the fraction done.
+
+    Raises MeshError, with all defects, where a rule is broken; ValueError for arrays of other shapes or
+    types, negative or fractional numbers of vertices. Time O(n). Positions are copied once.
+
+    >>> mesh = ms.Mesh(V, F)
+    >>> mesh = ms.Mesh(trimesh.load("scan.stl"), repair=True)
+    """
+
+    __slots__ = ("_data", "__weakref__")
+
+    def __init__(self, vertices: Any, faces: Any = None, *, repair: bool = False,
+                 progress: Progress = None) -> None:
+        if faces is None:
+            if isinstance(vertices, Mesh):
+                self._data = vertices._data
+                return
+            if isinstance(vertices, (str, os.PathLike)):
+                self._data = read(vertices, repair=repair, progress=progress)._data
+                return
+            vertices, faces = _interop.arrays_of(vertices)
+        positions = _interop.array(vertices, "the vertices")
+        corners = _interop.faces_of(faces)
+        with reporting(progress) as report:
+            if isinstance(corners, _interop.Polygons):
+                self._data = _library.mesh_from_polygons(positions, corners.corners, corners.offsets,
+                                                         bool(repair), report)
+            else:
+                if corners.size == 0 and corners.dtype.kind == "f":
+                    corners = corners.astype(np.int64)  # what numpy makes of an empty list
+                self._data = _library.mesh_from_arrays(positions, corners, bool(repair), report)
+
+    @classmethod
+    def _of(cls, data: _library.Mesh) -> Mesh:
+        mesh = object.__new__(cls)
+        mesh._data = data
+        return mesh
+
+    def __repr__(self) -> str:
+        where = f" of {self.path}" if self.path else ""
+        return (f"<morsel.Mesh{where}: {self.vertex_count:,} vertices, {self.face_count:,} faces, genus "
+                f"{self.genus}, {self.boundary_loop_count} boundary loops>")
+
+    def __eq__(self, other: object) -> bool:
+        """Whether both are the same mesh, not another one that looks the same."""
+        return isinstance(other, Mesh) and self._data.is_same(other._data)
+
+    def __hash__(self) -> int:
+        return hash((self.vertex_count, self.face_count))
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """Positions (n, 3), read-only, in the mesh's memory."""
+        return self._data.positions
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """Triangles (m, 3), read-only, in the mesh's memory."""
+        return self._data.faces
+
+    V = vertices
+    F = faces
+
+    @property
+    def edges(self) -> NDArray[np.uint32]:
+        """Edges (e, 2) as pairs of vertices, the smaller first, in lexicographic order."""
+        return self._data.edges()
+
+    @property
+    def vertex_count(self) -> int:
+        """Number of vertices n."""
+        return self._data.vertex_count
+
+    @property
+    def edge_count(self) -> int:
+        """Number of edges."""
+        return self._data.edge_count
+
+    @property
+    def face_count(self) -> int:
+        """Number of triangles m."""
+        return self._data.face_count
+
+    @property
+    def component_count(self) -> int:
+        """Number of connected components."""
+        return self._data.component_count
+
+    @property
+    def boundary_loop_count(self) -> int:
+        """Number of boundary loops; 0 for a closed surface."""
+        return self._data.boundary_loop_count
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether there is no boundary."""
+        return self.boundary_loop_count == 0
+
+    @property
+    def euler_characteristic(self) -> int:
+        """Vertices - edges + faces."""
+        return self._data.euler_characteristic
+
+    @property
+    def genus(self) -> int:
+        """Genus, the sum over the components."""
+        return self._data.genus
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the bounding box's diagonal, in the mesh's unit."""
+        return self._data.diagonal
+
+    @property
+    def epsilon(self) -> float:
+        """The paper's unit of length: 0.3 % of the diagonal."""
+        return self._data.epsilon
+
+    @property
+    def boundary_loops(self) -> list[NDArray[np.uint32]]:
+        """The vertices of each boundary loop, in order, from its smallest on."""
+        return self._data.boundary_loops()
+
+    @property
+    def components(self) -> NDArray[np.uint32]:
+        """Per vertex (n,): the number of its component. Components are ordered by their smallest vertex."""
+        return self._data.components()
+
+    @property
+    def properties(self) -> dict[str, NDArray[np.float64]]:
+        """Scalars that the file has for its vertices (of a PLY file), by name; in the file's numbers."""
+        return self._data.properties()
+
+    @property
+    def repairs(self) -> dict[str, int]:
+        """What repair did: how many elements of the input by the name of the repair."""
+        return self._data.repairs
+
+    @property
+    def input_vertices(self) -> NDArray[np.uint32]:
+        """Per vertex (n,): its number in the file or arrays that the mesh was made from."""
+        return self._data.input_vertices()
+
+    @property
+    def path(self) -> str:
+        """The file that it was read from; empty for a mesh made of arrays."""
+        return os.fsdecode(self._data.path)
+
+    def length(self, text: str | float) -> float:
+        """A length in the mesh's unit: of "8eps", "5%", "3edges", "0.02rootarea", or of a number.
+
+        >>> mesh.length("8eps") == 8 * mesh.epsilon
+        True
+        """
+        return self._data.length(text if isinstance(text, str) else repr(float(text)))
+
+    def with_vertices(self, vertices: ArrayLike) -> Mesh:
+        """The same triangles with other positions (n, 3), which must be finite. O(n)."""
+        return Mesh._of(self._data.with_positions(_interop.array(vertices, "the vertices")))
+
+    def subdivided(self, pieces: int) -> Mesh:
+        """The same surface, each edge cut into equal `pieces` and each triangle into their square; the
+        vertices of this mesh come first."""
+        return Mesh._of(self._data.subdivided(pieces))
+
+    def save(self, path: PathLike, *, properties: dict[str, ArrayLike] | None = None,
+             progress: Progress = None) -> None:
+        """Writes .off or .ply, in full precision: read() gets the same mesh, bit for bit.
+
+        `properties` are values for each vertex (n,), by name, which only .ply holds. The file is written
+        whole or not at all. Raises WriteError, and ArgumentError for other endings. """
+        named = [(str(name), _interop.array(values, f"the property {name}"))
+                 for name, values in (properties or {}).items()]
+        with reporting(progress) as report:
+            self._data.save(path_bytes(path), named, report)
+
+
+def read(path: PathLike, *, repair: bool = False, progress: Progress = None) -> Mesh:
+    """Reads a mesh: .off, .obj, .ply or .stl.
+
+    Raises MeshError, with all defects, for a mesh that breaks a rule (repair=True mends what can be mended),
+    InputError for a file that is missing, damaged or of another kind.
+
+    >>> mesh = ms.read("scan.ply")
+    """
+    with reporting(progress) as report:
+        return Mesh._of(_library.read_mesh(path_bytes(path), bool(repair), report))
+
+
+def as_mesh(mesh: Any) -> Mesh:
+    """What users may give for a mesh, as one."""
+    return mesh if isinstance(mesh, Mesh) else Mesh(mesh)
+
+
+def defects(vertices: ArrayLike, faces: ArrayLike) -> list[Defect]:
+    """All that keeps these arrays, as Mesh takes them, from being a mesh; empty if nothing does.
+
+    >>> [defect.description for defect in ms.defects(V, F)]
+    ['1 unreferenced vertex (the first: 4)']
+    """
+    corners = _interop.faces_of(faces)
+    if isinstance(corners, _interop.Polygons):
+        raise ValueError("defects() takes faces of one size; give Mesh polygons of several")
+    return [Defect(*defect) for defect in _library.defects(_interop.array(vertices, "the vertices"), corners)]

@@ -1,0 +1,31 @@
+"""The number of threads."""
+
+from __future__ import annotations
+
+from . import _library
+
+
+class threads:
+    """Limits the number of threads within a `with` block; no result depends on it.
+
+    Of nested blocks the smallest number holds. More threads than processors are allowed. Raises
+    ArgumentError for a number below 1.
+
+    >>> with ms.threads(4):
+    ...     g = ms.salient(f)
+    """
+
+    def __init__(self, count: int) -> None:
+        self._limit = _library.Threads(count)
+
+    def __enter__(self) -> threads:
+        self._limit.enter()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._limit.exit()
+
+
+def thread_count() -> int:
+    """The number of threads that computations may use now."""
+    return _library.thread_count()
