@@ -1,0 +1,229 @@
+"""Progress, cancellation, Ctrl-C, the interpreter lock, threads, exceptions."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import sample
+
+import morsel as ms
+
+
+@pytest.fixture(scope="module")
+def long_field():
+    """On which salient smoothing takes long: the lion subdivided to 300,000 vertices."""
+    mesh = ms.read(sample("lion-head.off")).subdivided(6)
+    return ms.field(mesh, np.sin(np.arange(mesh.vertex_count) % 1000))
+
+
+def long_work(f, **options):
+    """Minutes of work."""
+    return ms.salient(f, iterations=100000, sigma="20eps", **options)
+
+
+def test_progress(curvature):
+    seen = []
+    ms.salient(curvature, iterations=20, progress=lambda step, fraction: seen.append((step, fraction)))
+    assert seen and all(isinstance(step, str) and 0 <= fraction <= 1 for step, fraction in seen)
+    assert threading.current_thread() is threading.main_thread()
+
+
+def test_progress_is_told_on_the_thread_that_asked(long_field):
+    told = set()
+
+    def report(step, fraction):
+        told.add(threading.current_thread())
+        return len(told) < 1
+
+    with pytest.raises(ms.Cancelled):
+        long_work(long_field, progress=report)
+    assert told == {threading.current_thread()}
+
+
+def test_a_bar(curvature, capfd):
+    ms.salient(curvature, iterations=200, progress=True)
+    shown = capfd.readouterr()
+    assert shown.out == "" and "%" in shown.err and "\r" in shown.err
+    ms.salient(curvature, iterations=2)
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("progress", [3, "yes", object()])
+def test_what_is_no_progress(curvature, progress):
+    with pytest.raises(TypeError):
+        ms.salient(curvature, progress=progress)
+
+
+def test_cancelling(long_field):
+    start = time.monotonic()
+    with pytest.raises(ms.Cancelled) as caught:
+        long_work(long_field, progress=lambda step, fraction: False)
+    assert time.monotonic() - start < 20 and isinstance(caught.value, ms.Error)
+
+
+def test_exceptions_of_the_progress_function(long_field):
+    class Mine(Exception):
+        """Of the test."""
+
+    error = Mine("what the function says")
+
+    def report(step, fraction):
+        raise error
+
+    with pytest.raises(Mine) as caught:
+        long_work(long_field, progress=report)
+    assert caught.value is error and any(entry.name == "report" for entry in caught.traceback)
+
+
+def test_exceptions_of_the_iteration_function(curvature):
+    def each(number, f):
+        if number == 2:
+            raise KeyError("two")
+
+    with pytest.raises(KeyError, match="two"):
+        ms.salient(curvature, iterations=5, on_iteration=each)
+
+
+def test_python_goes_on_meanwhile(long_field):
+    count, ticks = [0], []
+
+    def tick():
+        while not ticks:
+            count[0] += 1
+            time.sleep(0.005)
+
+    other = threading.Thread(target=tick)
+    other.start()
+    seen = [0]
+
+    def report(step, fraction):
+        seen[0] += 1
+        return seen[0] < 10
+
+    with pytest.raises(ms.Cancelled):
+        long_work(long_field, progress=report)
+    ticks.append(True)
+    other.join()
+    assert count[0] > 10
+
+
+def test_from_several_threads(small):
+    f = ms.mean_curvature(small)
+    expected = ms.salient(f, iterations=3).values
+    results = [None] * 6
+
+    def work(i):
+        results[i] = ms.salient(f, iterations=3, progress=lambda step, fraction: None).values
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(len(results))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(result, expected) for result in results)
+
+
+SCRIPT = """
+    import sys, time
+    import numpy as np
+    import morsel as ms
+    mesh = ms.read({mesh!r}).subdivided(6)
+    f = ms.field(mesh, np.sin(np.arange(mesh.vertex_count) % 1000))
+    {define}
+    print("ready", flush=True)
+    try:
+        {work}
+    except KeyboardInterrupt:
+        print("interrupted", flush=True)
+"""
+
+WORK = {
+    "a method": ("", "ms.salient(f, iterations=100000, sigma='20eps')"),
+    "a comparison": ("", "ms.compare(f, methods=['salient:iterations=100000,sigma=20eps'])"),
+    "a study": ("",
+                "ms.stability(mesh, fields=['height'], methods=['salient:iterations=1000'], trials=1000)"),
+    "eigenfunctions": ("", "ms.eigenfunction(mesh, index=300)"),
+    "python in a method": ("""
+    @ms.method("slow")
+    def slow(f):
+        while True:
+            time.sleep(0.001)
+    """, "ms.compare(f, methods=['slow'])")}
+
+
+@pytest.mark.parametrize("what", list(WORK))
+def test_control_c(what):
+    define, work = WORK[what]
+    source = textwrap.dedent(SCRIPT).format(mesh=sample("lion-head.off"),
+                                            define=textwrap.dedent(define).strip(),
+                                            work=work)
+    with subprocess.Popen([sys.executable, "-c", source], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True,
+                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler)
+                          ) as process:
+        assert process.stdout.readline() == "ready\n", process.stderr.read()
+        time.sleep(1.5)
+        assert process.poll() is None
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "interrupted\n", process.stderr.read()
+        seconds = time.monotonic() - start
+        assert process.wait(60) == 0
+    assert seconds < (1 if os.environ.get("MORSEL_IDLE") else 20), seconds
+
+
+def test_threads():
+    usual = ms.thread_count()
+    with ms.threads(3):
+        assert ms.thread_count() == 3
+        with ms.threads(2):
+            assert ms.thread_count() == 2
+            with ms.threads(5):
+                assert ms.thread_count() == 2
+        assert ms.thread_count() == 3
+    assert ms.thread_count() == usual
+    for wrong in (0, -1):
+        with pytest.raises(ms.ArgumentError):
+            with ms.threads(wrong):
+                pass
+    with pytest.raises(TypeError):
+        ms.threads("many")
+    assert ms.thread_count() == usual
+    limit = ms.threads(2)
+    with limit:
+        with pytest.raises(ms.ArgumentError):
+            with limit:
+                pass
+    assert ms.thread_count() == usual
+
+
+def test_importing_is_light():
+    source = """if True:
+        import sys, numpy
+        before = set(sys.modules)
+        import morsel
+        made = set(sys.modules) - before
+        for heavy in ("matplotlib", "pandas", "networkx", "vtkmodules", "IPython", "tempfile", "html",
+                      "morsel._documents", "morsel._molecule"):
+            assert heavy not in sys.modules, heavy
+        libraries = {line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}
+        for heavy in ("libcrypto", "libopenvdb", "libcairo", "libembree"):
+            assert not any(heavy in library for library in libraries), heavy
+        print(len(made))
+    """
+    run = subprocess.run([sys.executable, "-c", source], capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+
+
+def test_no_source_is_long():
+    sources = pathlib.Path(os.environ["MORSEL_SOURCES"]) / "python"
+    for path in sorted(sources.rglob("*")):
+        if path.suffix in (".cpp", ".h", ".py"):
+            assert len(path.read_text().splitlines()) <= 400, path

@@ -1,0 +1,67 @@
+"""Surfaces of molecules."""
+
+import numpy as np
+import pytest
+from conftest import program
+
+import morsel as ms
+
+GLYCINE = [("N", 0.0, 0.0, 0.0), ("CA", 1.45, 0.0, 0.0), ("C", 2.0, 1.42, 0.0), ("O", 1.3, 2.42, 0.0)]
+
+
+def pdb(path, residues=6):
+    """A chain of glycines, and a water."""
+    lines, serial = [], 0
+    for residue in range(residues):
+        for name, x, y, z in GLYCINE:
+            serial += 1
+            lines.append(f"ATOM  {serial:5d}  {name:<3s} GLY A{residue + 1:4d}    {x + 3.3 * residue:8.3f}"
+                         f"{y:8.3f}{z + residue % 2:8.3f}  1.00  0.00          {name[0]:>2s}")
+    lines.append(f"HETATM{serial + 1:5d}  O   HOH B   1    {50:8.3f}{50:8.3f}{50:8.3f}"
+                 "  1.00  0.00           O")
+    path.write_text("\n".join(lines) + "\nEND\n")
+    return path
+
+
+@pytest.fixture
+def chain(tmp_path):
+    return pdb(tmp_path / "chain.pdb")
+
+
+def test_surface(chain, tmp_path):
+    m = ms.molecule(chain)
+    assert isinstance(m, ms.Mesh) and m.is_closed and m.genus == 0 and m.component_count == 1
+    assert len(m.atoms) == 24 and m.atoms["position"].shape == (24, 3)
+    assert m.atoms["element"][:4].tolist() == ["N", "C", "C", "O"] and m.atoms["name"][1] == "CA"
+    assert m.atoms["residue"][0] == "GLY" and m.atoms["sequence_id"][-1] == "6" and m.atoms["chain"][0] == "A"
+    assert m.atoms["radius"][0] == 1.55 and m.area > 0 and m.volume > 0 and m.cavities == 0
+    program("molecule", chain, "-o", tmp_path / "surface.off")
+    same = ms.read(tmp_path / "surface.off")
+    assert np.array_equal(same.vertices, m.vertices) and np.array_equal(same.faces, m.faces)
+
+
+def test_options(chain, tmp_path):
+    m = ms.molecule(chain, kind="ses", resolution=0.4, probe=1.6, waters=True, chains=["A", "B"])
+    assert m.component_count == 2 and len(m.atoms) == 25
+    program("molecule", chain, "--kind", "ses", "--resolution", "0.4", "--probe", "1.6", "--waters",
+            "--chains",
+            "A/B", "-o", tmp_path / "surface.off")
+    assert np.array_equal(ms.read(tmp_path / "surface.off").vertices, m.vertices)
+    assert len(ms.molecule(chain, chains="A").atoms) == 24
+    for wrong in ({"kind": "other"}, {"resolution": 0}, {"hetero": "some"}, {"blobbiness": 1000},
+                  {"model": 0}):
+        with pytest.raises(ms.ArgumentError):
+            ms.molecule(chain, **wrong)
+    for wrong in ({"chains": ["Z"]}, {"model": 9}, {"resolution": 10}):
+        with pytest.raises(ms.InputError):
+            ms.molecule(chain, **wrong)
+    with pytest.raises(ms.InputError):
+        ms.molecule(tmp_path / "none.pdb")
+
+
+def test_from_molecule_to_residues(chain):
+    m = ms.molecule(chain)
+    f = ms.atomic_density(m, structure=chain)
+    s = ms.segment(f, by="ascending", segments=4)
+    nearest = np.linalg.norm(m.atoms["position"] - m.vertices[s.minima[0]], axis=1).argmin()
+    assert len(s) <= 4 and m.atoms["residue"][nearest] == "GLY"

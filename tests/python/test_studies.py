@@ -1,0 +1,138 @@
+"""Comparisons, sweeps and stability in Python."""
+
+import math
+
+import numpy as np
+import pytest
+from conftest import OCTAHEDRON_F, OCTAHEDRON_V, sample
+
+import morsel as ms
+
+
+def test_comparison(lion, curvature, smooth):
+    r = ms.compare(lion)
+    assert [row.specification for row in r] == ["conventional", "salient", "tps:count=salient"]
+    assert r["conventional"].counts.total == 1895 and r["salient"].counts.total == 97
+    assert r["tps"].counts.total == 97 and r["tps:count=salient"] is r[2] and len(r[1:]) == 2
+    assert r["tps"].field.method == "tps:count=97"
+    assert np.array_equal(r.field.values, curvature.values)
+    assert np.array_equal(r["salient"].field.values, smooth.values)
+    assert r["salient"].numbers["above_1_percent"] == 24 and r["salient"].numbers["kept"] == 35
+    p = r["salient"].critical_points
+    assert p.origin.shape == (97,)
+    assert set(p.origin[p.origin >= 0].tolist()) <= set(r[0].critical_points.vertex.tolist())
+    assert len(r["salient"].persistence) == 48 and r["salient"].complex.saddle_count == 48
+    assert r["salient"].field.steps[0].iterations["iteration"].tolist() == list(range(11))
+    for wrong in ("gaussian", "x"):
+        with pytest.raises(KeyError):
+            r[wrong]
+    with pytest.raises(IndexError):
+        r[3]
+
+
+def test_what_may_be_compared(small, curvature):
+    by_text = ms.compare(small, field="height:axis=x", methods=["salient:iterations=2"])
+    by_function = ms.compare((small.vertices, small.faces), field=ms.height.spec(axis="x"),
+                             methods=[ms.salient.spec(iterations=2)])
+    by_field = ms.compare(ms.height(small, axis="x"), methods=["salient:iterations=2"])
+    for r in (by_function, by_field):
+        assert np.array_equal(r[0].field.values, by_text[0].field.values)
+    assert by_field.field.function == "height:axis=x"
+    assert ms.compare(small, field=ms.height(small), methods=[ms.conventional])[0].counts.total > 0
+    with pytest.raises(ValueError, match="another mesh"):
+        ms.compare(small, field=curvature)
+    for wrong in ({"methods": "salient"}, {"methods": [3]}, {"field": 3},
+                  {"preset": "noise", "methods": ["tps"]}):
+        with pytest.raises(TypeError):
+            ms.compare(small, **wrong)
+    for wrong in ({"methods": ["none"]}, {"methods": ["tps:count=salient"]}, {"field": "none"}, {"target": 0},
+                  {"preset": "none"}):
+        with pytest.raises(ms.ArgumentError):
+            ms.compare(small, **wrong)
+
+
+def test_presets(small):
+    assert set(ms.presets()) == {"paper", "noise", "resampled", "landmarks", "molecule"}
+    r = ms.compare(small, preset="paper")
+    assert r.field.function == ms.presets()["paper"][1]
+    assert [row.specification for row in r] == ms.presets()["paper"][2]
+
+
+def test_frames(small):
+    r = ms.compare(small)
+    frame = r.to_pandas()
+    assert frame.index.tolist() == ["conventional", "salient", "tps:count=salient"]
+    assert frame["total"].tolist() == [row.counts.total for row in r] and "seconds" in frame
+    points = r[1].critical_points.to_pandas()
+    assert points.columns.tolist() == ["vertex", "type", "multiplicity", "value", "persistence", "x", "y",
+                                       "z"]
+    assert len(r[1].persistence.to_pandas()) == len(r[1].persistence)
+    assert len(ms.segment(r[1].field).to_pandas()) == len(ms.segment(r[1].field))
+    assert len(ms.points(small, 5).to_pandas()) == 5
+
+
+def test_graph_and_vtk(smooth):
+    c = ms.morse_smale(smooth)
+    graph = c.to_networkx()
+    assert graph.number_of_nodes() == len(c.nodes) and graph.number_of_edges() == len(c.arcs)
+    assert graph.nodes[0]["kind"] == "minimum" and graph.nodes[0]["vertex"] == c.nodes["vertex"][0]
+    assert all(graph.degree(i) == 4 for i in graph if graph.nodes[i]["kind"] == "saddle")
+    data = c.to_vtk()
+    points, offsets = c.polylines
+    assert data.GetNumberOfVerts() == len(c.nodes) and data.GetNumberOfLines() == len(c.arcs)
+    assert data.GetNumberOfPoints() == len(c.nodes) + len(points)
+    last = data.GetCell(len(c.nodes) + len(c.arcs) - 1)
+    assert last.GetNumberOfPoints() == offsets[-1] - offsets[-2]
+    assert last.GetPoints().GetPoint(0) == tuple(points[offsets[-2]])
+    kinds = data.GetCellData().GetArray("kind")
+    assert [kinds.GetValue(i) for i in (0, len(c.nodes), len(c.nodes) + 1)] == [0, 4, 5]
+
+
+def test_sweep(small):
+    s = ms.sweep(small, {"iterations": "1..3", "sigma": ["4eps", "8eps"]})
+    assert s.keys == ["iterations", "sigma"] and len(s) == 6
+    assert s[0]["iterations"] == "1" and s[0]["total"] >= s[5]["total"] and s[0]["iterations_run"] == 1
+    assert "iterations" in s.table()
+    frame = s.to_pandas()
+    assert frame["iterations"].tolist() == [1, 1, 2, 2, 3, 3] and frame["sigma"][0] == "4eps"
+    f = ms.salient(ms.mean_curvature(small), iterations=3, sigma="8eps")
+    assert s[5]["total"] == ms.critical_points(f).counts.total and (s[5]["min"], s[5]["max"]) == (f.min,
+                                                                                                  f.max)
+    given = ms.sweep(ms.field(small, small.vertices[:, 0]), {"threshold": ["1%", "10%"]}, method=ms.tps)
+    assert given[0]["total"] >= given[1]["total"]
+    for wrong in ({}, {"none": [1]}, {"iterations": []}, {"iterations": [1, 1]}, {"iterations": [-1]}):
+        with pytest.raises(ms.ArgumentError):
+            ms.sweep(small, wrong)
+
+
+def test_stability(small):
+    t = ms.stability(small, methods=["conventional", "salient"], noise=[0.05, 0.3], trials=3, seed=5)
+    assert len(t) == 4 and t.seed == 5 and t[0]["method"] == "conventional" and t[0]["amount"] == 0.05
+    estimate = t[0]["recall"]
+    assert 0 < estimate.mean <= 1 and estimate.count == 3 and estimate.half_width >= 0
+    assert t[0]["recall"].mean >= t[1]["recall"].mean and "noise" in t.table()
+    frame = t.to_pandas()
+    assert frame["recall"].tolist() == [row["recall"].mean for row in t] and "f_score_half_width" in frame
+    again = ms.stability(small, methods=["conventional", "salient"], noise=[0.05, 0.3], trials=3, seed=5)
+    assert list(again) == list(t)
+    assert t.radius == pytest.approx(0.02 * small.diagonal)
+    given = ms.stability(ms.field(small, small.vertices[:, 0]), methods=["conventional"], noise=[0.1],
+                         trials=1)
+    assert given[0]["recall"].mean > 0 and given[0]["recall"].half_width is None
+    for wrong in ({"kind": "other"}, {"points": "some"}, {"trials": 0}, {"noise": [-1]}, {"decimate": [2]},
+                  {"radius": "far"}, {"subdivide": [1.5]}):
+        with pytest.raises(ms.ArgumentError):
+            ms.stability(small, **wrong)
+
+
+def test_of_a_constant_field():
+    flat = ms.field(ms.Mesh(OCTAHEDRON_V, OCTAHEDRON_F), np.zeros(6))
+    with pytest.warns(ms.MorselWarning, match="constant"):
+        r = ms.compare(flat, methods=["conventional"])
+    assert r[0].counts.total == 2
+    assert math.isinf(r[0].critical_points.persistence[0])
+
+
+def test_of_paths():
+    assert ms.compare(sample("sphere.off"), methods=["conventional"]).mesh.path == sample("sphere.off")
+    assert len(ms.points(sample("eight.off"), 3)) == 3
