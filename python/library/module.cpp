@@ -10,15 +10,15 @@
 namespace morsel::python {
 namespace {
 
-/// `with`: limits the number of threads between enter and exit.
+/// `with`: limits the number of threads between begin and end.
 class Threads {
  public:
   explicit Threads(int count) : count_(count) {}
-  void enter() {
+  void begin() {
     if (limit_) throw core::InvalidArgument("these threads are in use already");
     limit_ = std::make_unique<core::ThreadLimit>(count_);
   }
-  void exit() { limit_.reset(); }
+  void end() { limit_.reset(); }
 
  private:
   int count_;
@@ -36,8 +36,8 @@ PYBIND11_MODULE(_library, m) {
   m.attr("none") = morsel::core::kNone;
   py::class_<Threads>(m, "Threads")
       .def(py::init<int>())
-      .def("enter", &Threads::enter)
-      .def("exit", &Threads::exit);
+      .def("begin", &Threads::begin)
+      .def("end", &Threads::end);
   m.def("thread_count", &morsel::core::thread_count);
   add_registry(m);
   add_mesh(m);

@@ -19,11 +19,11 @@ class threads:
         self._limit = _library.Threads(count)
 
     def __enter__(self) -> threads:
-        self._limit.enter()
+        self._limit.begin()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._limit.exit()
+        self._limit.end()
 
 
 def thread_count() -> int:

@@ -21,6 +21,7 @@ MAY_INCLUDE = {
     "persistence": {"core", "persistence"},
     "mscomplex": {"core", "persistence", "mscomplex"},
     "tools": {*LIBRARY, "tools"},
+    "python": {*LIBRARY, "tools", "python"},
 }
 # The rooms of tools, from the lowest floor up.
 FLOORS = (
@@ -33,6 +34,14 @@ FLOORS = (
     ("commands",),
     ("manual", "main.cpp"),
 )
+# The rooms of python, and which rooms of tools each may include: what `import morsel` loads stays light. Each
+# may include itself and binding.
+PYTHON_ROOMS = {
+    "binding": {"study"},
+    "library": {"study"},
+    "documents": {"study", "formats", "results", "report", "export", "html"},
+    "molecule": {"study", "molecule"},
+}
 FLOOR_OF = {room: floor for floor, rooms in enumerate(FLOORS) for room in rooms}
 MAY_PRINT = ("commands", "manual", "main.cpp", "batch")  # batch: its children between fork and exec
 # What a study does without, so that Python and a browser can be built on it.
@@ -84,7 +93,7 @@ def check_source(module, text, is_header, own_header=None, room=None):
     """Yields (line, complaint) for one header or source of `module`, and of the `room` within tools;
     `own_header` is the header of its name."""
     code = without(text, ("//", "/*", "R"))
-    foreign = NOT_IN_TOOLS if module == "tools" else NOT_IN_LIBRARY
+    foreign = NOT_IN_TOOLS if module in ("tools", "python") else NOT_IN_LIBRARY
     for match in INCLUDE.finditer(code):
         quote, path = match.groups()
         line = line_of(code, match.start())
@@ -92,6 +101,10 @@ def check_source(module, text, is_header, own_header=None, room=None):
         if parts[0] == "morsel":
             if len(parts) < 3 or parts[1] not in MAY_INCLUDE[module]:
                 yield line, f'{module} may not include "{path}"'
+            elif module == "python":
+                allowed = {"binding", room} if parts[1] == "python" else PYTHON_ROOMS[room]
+                if parts[1] in ("python", "tools") and parts[2] not in allowed:
+                    yield line, f'{room} may not include "{path}"'
             elif room is not None and parts[1] == "tools":
                 if parts[2] not in FLOOR_OF:
                     yield line, f'"{path}": no floor of tools has the room {parts[2]}'
@@ -173,8 +186,11 @@ def check(root):
     complaints, files = [], 0
     for module in MAY_INCLUDE:
         for path in sorted((root / module).rglob("*")):
-            room = path.relative_to(root / module).parts[0] if module == "tools" else None
-            if room is not None and room not in FLOOR_OF:
+            room = path.relative_to(root / module).parts[0] if module in ("tools", "python") else None
+            if module == "python":
+                if room not in PYTHON_ROOMS:
+                    continue
+            elif room is not None and room not in FLOOR_OF:
                 if path.suffix in (".h", ".cpp"):
                     complaints.append(f"{path.relative_to(root)}:1: no floor of tools has the room {room}")
                 room = None

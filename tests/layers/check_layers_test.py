@@ -108,6 +108,25 @@ class CheckLayers(unittest.TestCase):
                                      "tools/plot/CMakeLists.txt":
                                          "x(DEPENDS morsel::report morsel::core)\n"}), [])
 
+    def test_rooms_of_python(self):
+        """What `import morsel` loads does without documents and molecules; nothing of the library knows of
+        Python."""
+        for name, code, said in (
+                ("python/library/a.cpp", '#include "morsel/tools/report/b.h"', "library may not include"),
+                ("python/library/a.cpp", '#include "morsel/python/documents/b.h"', "library may not include"),
+                ("python/binding/a.cpp", '#include "morsel/tools/html/b.h"', "binding may not include"),
+                ("python/molecule/a.cpp", '#include "morsel/tools/export/b.h"', "molecule may not include"),
+                ("python/library/a.cpp", "#include <cstdio>\nvoid f() { puts(\"x\"); }", "may not print"),
+                ("tools/study/a.cpp", '#include "morsel/python/binding/b.h"', "tools may not include")):
+            with self.subTest(code=code):
+                found = complaints({name: code + "\n"})
+                self.assertEqual(len(found), 1, found)
+                self.assertIn(said, found[0])
+        self.assertEqual(complaints({
+            "python/documents/a.cpp": '#include "morsel/tools/html/b.h"\n#include "morsel/python/binding/c.h"\n',
+            "python/library/a.cpp": '#include "morsel/tools/study/b.h"\n#include <pybind11/stl.h>\n',
+            "python/CMakeLists.txt": "x(LINKS morsel::export)\n"}), [])
+
     def test_public_headers(self):
         """Listed headers are there, once, and include none that is not listed, in whatever module."""
         listing = ("morsel_add_module(\n  core\n  PUBLIC_HEADERS a.h  # the first\n    deep/b.h\n"

@@ -18,6 +18,12 @@ OCTAHEDRON_F = np.array([[0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 2], [1, 3, 2], 
                          [1, 2, 5]])
 
 
+def pytest_configure(config):
+    """What Python warns of is an error, but for what the library tells of meshes."""
+    config.addinivalue_line("filterwarnings", "error")
+    config.addinivalue_line("filterwarnings", "default::morsel.MorselWarning")
+
+
 def sample(name):
     """The path of a sample mesh; a test does not pass by skipping."""
     path = SAMPLES / name

@@ -90,6 +90,7 @@ unlock_build() { exec {build_lock}>&-; }
 configure() {
   note "configuring build/$1"
   cmake -S "$root" --preset "$1" --log-level=NOTICE -DMORSEL_BUILD_TOOLS=ON -DMORSEL_BUILD_TESTS=ON \
+    -DMORSEL_BUILD_PYTHON=OFF \
     -DMORSEL_SAMPLES="$root/build/samples" -DCMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" \
     "${@:2}" >&2
 }
