@@ -74,7 +74,7 @@ class Points:
     @property
     def is_fill(self) -> NDArray[np.bool_]:
         """Which are of the field that fills up (k,)."""
-        return self._data.source != 0
+        return np.asarray(self._data.source != 0)
 
     @property
     def position(self) -> NDArray[np.float64]:
@@ -99,8 +99,8 @@ class Points:
         return pandas.DataFrame({
             "vertex": self.vertex, "type": [TYPE_NAMES[of] for of in self.type.tolist()],
             "value": self.value, "persistence": self.persistence, "rank": self.rank,
-            "distance": self.distance, "percentile": self.percentile, "is_fill": self.is_fill, "x": position[:, 0], "y": position[:, 1],
-            "z": position[:, 2]})
+            "distance": self.distance, "percentile": self.percentile, "is_fill": self.is_fill,
+            "x": position[:, 0], "y": position[:, 1], "z": position[:, 2]})
 
     def save(self, path: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
         """Writes .csv, .json, .ply or .vtp as `morsel points` does.

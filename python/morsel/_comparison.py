@@ -63,12 +63,14 @@ class Row:
     def numbers(self) -> dict[str, Any]:
         """The table's other numbers: pairs, those above 0.1, 1 and 5 % of the input field's range, arcs,
         cells, kept, moved, added, removed, seconds."""
-        return self._made["summary"]
+        made: dict[str, Any] = self._made["summary"]
+        return made
 
     @property
     def timings(self) -> dict[str, float]:
         """Seconds by step."""
-        return self._made["timings"]
+        made: dict[str, float] = self._made["timings"]
+        return made
 
 
 class Comparison(Sequence[Row]):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +17,8 @@ NODE_KINDS = ("minimum", "saddle", "maximum", "cap")
 ARC_KINDS = ("descending", "ascending")
 
 
-class Labels(NamedTuple):
+@dataclass(frozen=True)
+class Labels:
     """A label for each vertex and each triangle, from 0 on."""
 
     vertex: NDArray[np.uint32]

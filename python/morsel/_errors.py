@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 
 class Error(Exception):
@@ -25,7 +25,8 @@ class Cancelled(Error):
     """A computation whose progress function returned False."""
 
 
-class Defect(NamedTuple):
+@dataclass(frozen=True)
+class Defect:
     """One kind of defect of a mesh."""
 
     kind: str

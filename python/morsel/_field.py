@@ -217,13 +217,14 @@ class Field:
 def apply(field: Field, methods: str, target: int | None, count_iterations: bool,
           on_iteration: OnIteration | None, progress: Progress, level: int) -> Field:
     """Field.apply(); `level` as of warnings.warn() in the caller."""
-    called = None
-    if on_iteration is not None:
-        def called(number: int, data: _library.Field) -> bool | None:
-            return on_iteration(number, Field._of(data, field.mesh))
+    def called(number: int, data: _library.Field) -> bool | None:
+        assert on_iteration is not None
+        return on_iteration(number, Field._of(data, field.mesh))
+
     with reporting(progress) as report:
-        made = Field._of(_library.apply(field._data, methods, target, bool(count_iterations), called,
-                                        registry(), report), field.mesh)
+        made = Field._of(_library.apply(field._data, methods, target, bool(count_iterations),
+                                        None if on_iteration is None else called, registry(), report),
+                         field.mesh)
     for step in made.steps[len(field._data.steps):]:
         warn(step.name, step.warnings, level + 1)
     return made

@@ -96,15 +96,14 @@ def make_function(name: str, summary: str, rows: Rows, module: str = "morsel") -
     signature = _signature("mesh", "function", parameters)
 
     def call(*args: Any, **keys: Any) -> Field:
-        bound = _bind(function, signature, args, keys)
+        bound = _bind(call.__name__, signature, args, keys)
         progress: Progress = bound.pop("progress", None)
         mesh = bound.pop("mesh")
         return evaluate(mesh, specification(name, parameters, bound), progress, 2)
 
     doc = _FUNCTION_DOC.format(summary=_sentence(summary), parameters=_described(parameters), name=name,
                                python=python_name(name))
-    function = _finished(call, name, doc, signature, parameters, module)
-    return function
+    return _finished(call, name, doc, signature, parameters, module)
 
 
 def make_method(name: str, summary: str, rows: Rows, module: str = "morsel") -> Callable[..., Field]:
@@ -113,32 +112,31 @@ def make_method(name: str, summary: str, rows: Rows, module: str = "morsel") -> 
     signature = _signature("f", "method", parameters)
 
     def call(*args: Any, **keys: Any) -> Field:
-        bound = _bind(function, signature, args, keys)
+        bound = _bind(call.__name__, signature, args, keys)
         options = {key: bound.pop(key, None) for key in _ON_METHODS}
         field = bound.pop("f")
         if not isinstance(field, Field):
-            raise TypeError(f"{function.__name__}() takes a Field, not a {type(field).__name__}; make one by "
+            raise TypeError(f"{call.__name__}() takes a Field, not a {type(field).__name__}; make one by "
                             "a Morse function or ms.field(mesh, values)")
         return apply(field, specification(name, parameters, bound), options["target"],
                      options["count_iterations"], options["on_iteration"], options["progress"], 2)
 
     doc = _METHOD_DOC.format(summary=_sentence(summary), parameters=_described(parameters), name=name,
                              python=python_name(name))
-    function = _finished(call, name, doc, signature, parameters, module)
-    return function
+    return _finished(call, name, doc, signature, parameters, module)
 
 
-def _bind(function: Callable[..., Field], signature: inspect.Signature, args: tuple[Any, ...],
+def _bind(name: str, signature: inspect.Signature, args: tuple[Any, ...],
           keys: dict[str, Any]) -> dict[str, Any]:
     """The arguments by name; a TypeError that lists the valid ones for an unknown one."""
     unknown = [key for key in keys if key not in signature.parameters]
     if unknown:
-        raise TypeError(f"{function.__name__}() has no argument {unknown[0]}; it takes "
+        raise TypeError(f"{name}() has no argument {unknown[0]}; it takes "
                         + ", ".join(signature.parameters))
     try:
         return dict(signature.bind(*args, **keys).arguments)
     except TypeError as error:
-        raise TypeError(f"{function.__name__}(): {error}") from None
+        raise TypeError(f"{name}(): {error}") from None
 
 
 def _finished(call: Callable[..., Field], name: str, doc: str, signature: inspect.Signature,

@@ -54,32 +54,38 @@ class Level:
     @property
     def name(self) -> str:
         """As asked for: "5", "0.1%", "150"."""
-        return self._made["name"]
+        made: str = self._made["name"]
+        return made
 
     @property
     def note(self) -> str:
         """Why it is another level than was asked for; empty if it is not."""
-        return self._made["note"]
+        made: str = self._made["note"]
+        return made
 
     @property
     def iteration(self) -> int | None:
         """The number of the iteration, by iteration."""
-        return self._made["iteration"]
+        made: int | None = self._made["iteration"]
+        return made
 
     @property
     def cancellations(self) -> int | None:
         """How many pairs are cancelled, by persistence."""
-        return self._made["cancellations"]
+        made: int | None = self._made["cancellations"]
+        return made
 
     @property
     def largest_persistence(self) -> float | None:
         """The largest persistence among those, in the field's unit."""
-        return self._made["largest_persistence"]
+        made: float | None = self._made["largest_persistence"]
+        return made
 
     @property
     def persistence(self) -> NDArray[np.float64]:
         """Per critical point (k,): that at which it goes; infinite for what stays."""
-        return self._made["persistence"]
+        made: NDArray[np.float64] = self._made["persistence"]
+        return made
 
     @property
     def status(self) -> NDArray[np.str_]:
@@ -107,7 +113,8 @@ class Level:
     @property
     def cell_count(self) -> int:
         """Quads of the complex that have area."""
-        return self._made["cell_count"]
+        made: int = self._made["cell_count"]
+        return made
 
     def links(self, kind: str = "morse_smale") -> Links:
         """The links of the cells: "descending", "ascending" or "morse_smale"."""

@@ -8,17 +8,18 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 class Polygons:
     """Faces of several sizes: face i has corners[offsets[i]:offsets[i + 1]]."""
 
-    def __init__(self, corners: np.ndarray, offsets: np.ndarray) -> None:
+    def __init__(self, corners: NDArray[Any], offsets: NDArray[Any]) -> None:
         self.corners = corners
         self.offsets = offsets
 
 
-def array(given: Any, what: str) -> np.ndarray:
+def array(given: Any, what: str) -> NDArray[Any]:
     """`given` as an array; a ValueError where it is none, or has masked or ragged elements."""
     if isinstance(given, np.ma.MaskedArray):
         raise ValueError(f"{what} are a masked array; fill or drop the masked elements first")
@@ -32,7 +33,7 @@ def array(given: Any, what: str) -> np.ndarray:
     return made
 
 
-def faces_of(given: Any) -> np.ndarray | Polygons:
+def faces_of(given: Any) -> NDArray[Any] | Polygons:
     """Faces as an array (m, k), or as polygons where a list has faces of several sizes."""
     if isinstance(given, Polygons):
         return given
@@ -44,7 +45,7 @@ def faces_of(given: Any) -> np.ndarray | Polygons:
     return array(given, "the faces")
 
 
-def _counted(cells: np.ndarray) -> Polygons | np.ndarray:
+def _counted(cells: NDArray[Any]) -> Polygons | NDArray[Any]:
     """VTK's list of cells: [k, corners of a face, k, …]."""
     cells = np.asarray(cells).ravel()
     if len(cells) % 4 == 0 and len(cells) and (cells[::4] == 3).all():
@@ -52,6 +53,8 @@ def _counted(cells: np.ndarray) -> Polygons | np.ndarray:
     starts, at = [], 0
     while at < len(cells):
         starts.append(at)
+        if not cells[at] >= 1:
+            raise ValueError(f"a cell of {cells[at]} corners is no face")
         at += int(cells[at]) + 1
     if at != len(cells):
         raise ValueError("the list of cells ends within a cell")

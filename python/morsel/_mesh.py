@@ -46,6 +46,7 @@ class Mesh:
     """
 
     __slots__ = ("_data", "__weakref__")
+    _data: _library.Mesh
 
     def __init__(self, vertices: Any, faces: Any = None, *, repair: bool = False,
                  progress: Progress = None) -> None:

@@ -54,7 +54,7 @@ class Diagram:
     @property
     def dimension(self) -> NDArray[np.int64]:
         """The dimension of each pair's class (k,): 0 of minima, 1 of maxima and caps."""
-        return (self.pairs["kind"] != MINIMUM_SADDLE).astype(np.int64)
+        return np.asarray(self.pairs["kind"] != MINIMUM_SADDLE, np.int64)
 
     @property
     def finite(self) -> NDArray[np.float64]:

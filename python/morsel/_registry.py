@@ -21,7 +21,7 @@ def add(kind: str, name: str, summary: str, parameters: list[tuple[str, str, Any
     they added before is replaced, so that a notebook's cell may be run again. Raises ArgumentError for a
     name that ships with the library or is none."""
     global _registry
-    own = {**_own, (kind, name): (summary, parameters, call)}
+    own: dict[tuple[str, str], tuple[Any, ...]] = {**_own, (kind, name): (summary, parameters, call)}
     made = _library.Registry()
     for (of, what), entry in own.items():
         (made.add_function if of == "function" else made.add_method)(what, *entry)

@@ -77,7 +77,7 @@ def _word(parameter: Parameter, value: Any) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return str(os.fspath(value))
     try:
         return str(operator.index(value))
     except TypeError:

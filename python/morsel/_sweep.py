@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, Mapping, NamedTuple, Sequence, Union
+from dataclasses import dataclass
+from typing import Any, Dict, Iterator, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -34,7 +35,7 @@ def _variation(key: str, values: Values) -> str:
     return f"{key}={values}"
 
 
-class Sweep(Sequence[dict]):
+class Sweep(Sequence[Dict[str, Any]]):
     """The results of a sweep, a dict for each combination; made by sweep()."""
 
     def __init__(self, data: _library.Sweep) -> None:
@@ -119,7 +120,8 @@ def sweep(mesh: Any, vary: Mapping[str, Values], *, field: Field | Named | None 
     return made
 
 
-class Estimate(NamedTuple):
+@dataclass(frozen=True)
+class Estimate:
     """The mean of a quantity over trials."""
 
     mean: float
@@ -131,7 +133,7 @@ class Estimate(NamedTuple):
 _ESTIMATES = ("recall", "precision", "f_score", "chance", "drift", "found")
 
 
-class Stability(Sequence[dict]):
+class Stability(Sequence[Dict[str, Any]]):
     """How well critical points repeat on perturbed surfaces; made by stability().
 
     A dict for each field, method, count and perturbation: field, method, target, perturbation, amount,

@@ -46,6 +46,8 @@ def test_refused():
         ms.Mesh(SimpleNamespace(points=OCTAHEDRON_V, cells=cells))
     with pytest.raises(ValueError, match="no faces"):
         ms.Mesh(SimpleNamespace(points=OCTAHEDRON_V, cells=[]))
+    with pytest.raises(ValueError, match="no face"):
+        ms.Mesh(SimpleNamespace(points=OCTAHEDRON_V, faces=np.array([-1, 0, 1, 2, 3])))
     with pytest.raises(ValueError, match="ends within"):
         ms.Mesh(SimpleNamespace(points=OCTAHEDRON_V, faces=np.array([3, 0, 1])))
 
