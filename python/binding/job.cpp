@@ -28,6 +28,7 @@ class Job {
   void run(const std::function<void(const core::Progress&)>& work);
   /// Called by the threads of the work.
   void call(const std::function<void()>& function);
+  double seconds() const { return seconds_; }
   bool is_of(const std::stop_token& token) const { return stop_.get_token() == token; }
 
  private:
@@ -53,6 +54,7 @@ class Job {
   double fraction_ = 0;
   bool has_news_ = false;  // progress that was not told yet
   bool is_over_ = false;
+  double seconds_ = 0;
   std::exception_ptr work_error_;
   std::exception_ptr python_error_;  // the first; of the waiting thread alone
 };
@@ -82,6 +84,11 @@ class Jobs {
   std::mutex mutex_;
   std::vector<Job*> jobs_;
 };
+
+double& last_seconds() {
+  thread_local double seconds = 0;
+  return seconds;
+}
 
 Jobs& jobs() {
   static Jobs all;
@@ -123,11 +130,13 @@ void Job::work_on(const std::function<void(const core::Progress&)>& work) {
       fraction_ = fraction;
       has_news_ = true;
     };
+  const auto start = std::chrono::steady_clock::now();
   try {
     work(core::Progress(std::move(report), stop_.get_token()));
   } catch (...) {
     work_error_ = std::current_exception();
   }
+  seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::lock_guard lock(mutex_);
   is_over_ = true;
   news_.notify_all();
@@ -212,8 +221,12 @@ void Job::call(const std::function<void()>& function) {
 }  // namespace
 
 void run_job(const py::object& report, const std::function<void(const core::Progress&)>& work) {
-  Job(report).run(work);
+  Job job(report);
+  job.run(work);
+  last_seconds() = job.seconds();
 }
+
+double seconds_of_last_job() { return last_seconds(); }
 
 void call_python(const std::function<void()>& call) {
   if (Job* const job = jobs().current()) return job->call(call);

@@ -26,6 +26,10 @@ namespace py = pybind11;
 /// The calling thread must hold the interpreter lock. Jobs may be nested, by Python that a job calls.
 void run_job(const py::object& report, const std::function<void(const core::Progress&)>& work);
 
+/// The seconds that the work of the last job of this thread took on its own, for measuring what lies around
+/// it.
+double seconds_of_last_job();
+
 /// run_job() with a result.
 template <class Work>
 auto compute(const py::object& report, const Work& work) {

@@ -6,6 +6,7 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/types.h"
 #include "morsel/python/binding/errors.h"
+#include "morsel/python/binding/job.h"
 
 namespace morsel::python {
 namespace {
@@ -39,6 +40,7 @@ PYBIND11_MODULE(_library, m) {
       .def("begin", &Threads::begin)
       .def("end", &Threads::end);
   m.def("thread_count", &morsel::core::thread_count);
+  m.def("seconds_of_last_job", &seconds_of_last_job);
   add_registry(m);
   add_mesh(m);
   add_field(m);
