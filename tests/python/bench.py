@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""bench.py [--subdivide N] [--repeats N]: what the Python package adds to the library's own time, how much memory
-arrays take, and the time of the same work by gudhi and scipy, where they are installed. On the lion's head, its
-edges cut into N pieces (4: 133,000 vertices).
+"""bench.py [--subdivide N] [--repeats N]: what the Python package adds to the library's own time, how much
+memory arrays take, and the time of the same work by gudhi and scipy, where they are installed. On the lion's head,
+its edges cut into N pieces (4: 133,000 vertices).
 
     PYTHONPATH=build/release/python MORSEL_SAMPLES=build/samples /usr/bin/python3 tests/python/bench.py
 
-"library" is the time between begin and end of the work within the library, "Python" that of the whole call; the
-smallest of the repeats' differences counts, since other programs only add to them.
+"library" is the time between begin and end of the work within the library, "Python" that of the whole call;
+the smallest of the repeats' differences counts, since other programs only add to them.
 """
 
 import argparse
@@ -32,7 +32,8 @@ def measured(name, call, repeats):
         del result
     best = min(range(repeats), key=lambda i: added[i])
     share = 100 * added[best] / library[best]
-    print(f"{name:<28} {1e3 * library[best]:10.2f} {1e3 * whole[best]:10.2f} {1e3 * added[best]:8.3f} {share:7.2f} %")
+    print(f"{name:<28} {1e3 * library[best]:10.2f} {1e3 * whole[best]:10.2f} {1e3 * added[best]:8.3f} "
+          f"{share:7.2f} %")
 
 
 def overheads(mesh, repeats):
@@ -105,7 +106,8 @@ def beside_gudhi(mesh):
     pairs = np.concatenate([tree.persistence_intervals_in_dimension(d) for d in (0, 1)])
     theirs = np.sort((pairs[:, 1] - pairs[:, 0])[np.isfinite(pairs[:, 1])])
     print(f"persistence: morsel {seconds(lambda: ms.persistence(f)):.4f} s, gudhi {gudhi.__version__} "
-          f"{seconds(lower_star, 1):.2f} s ({len(ms.persistence(f))} pairs, of gudhi {np.count_nonzero(theirs > 0)})")
+          f"{seconds(lower_star, 1):.2f} s ({len(ms.persistence(f))} pairs, of gudhi "
+          f"{np.count_nonzero(theirs > 0)})")
 
 
 def beside_scipy(mesh):
