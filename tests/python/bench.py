@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """bench.py [--subdivide N] [--repeats N]: what the Python package adds to the library's own time, how much
-memory arrays take, and the time of the same work by gudhi and scipy, where they are installed. On the lion's head,
-its edges cut into N pieces (4: 133,000 vertices).
+memory arrays take, and the time of the same work by gudhi and scipy, where they are installed. On the lion's
+head, its edges cut into N pieces (4: 133,000 vertices).
 
     PYTHONPATH=build/release/python MORSEL_SAMPLES=build/samples /usr/bin/python3 tests/python/bench.py
 
