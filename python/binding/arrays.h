@@ -60,6 +60,8 @@ py::array taken_points(Vector points) {
 std::vector<core::Point> points_from(const py::array& array, const char* what);
 std::vector<double> values_from(const py::array& array, const char* what);
 std::vector<core::Index> indices_from(const py::array& array, const char* what);
+/// Triangles, from an array (m, 3).
+std::vector<core::Triangle> triangles_from(const py::array& faces);
 /// Faces of three or more corners each, from an array (m, corners).
 core::PolygonSoup soup_from(const py::array& positions, const py::array& faces);
 

@@ -36,21 +36,24 @@ MeshHandle handle_of(core::BuiltMesh built, bool repair) {
       {std::move(built.mesh), {std::move(built.numbering), {}, std::move(built.repairs)}}, {}, repair});
 }
 
+/// Triangles that are a mesh as they are: with less memory than polygons.
+MeshHandle from_triangles(const py::array& positions, const py::array& faces) {
+  std::vector<core::Point> points = points_from(positions, "the vertices");
+  std::vector<core::Triangle> triangles = triangles_from(faces);
+  return compute(py::none(), [&](const core::Progress&) {
+    const std::size_t count = points.size();
+    return handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, false);
+  });
+}
+
 /// From arrays of vertices (n, 3) and faces (m, k).
 MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool repair,
                        const py::object& report) {
+  const bool are_triangles = faces.ndim() == 2 && faces.shape(1) == 3;
+  if (are_triangles && !repair) return from_triangles(positions, faces);
   core::PolygonSoup soup = soup_from(positions, faces);
-  const bool are_triangles = faces.shape(1) == 3;
   return compute(report, [&](const core::Progress& progress) {
-    if (!are_triangles || repair)
-      return handle_of(core::build_mesh(std::move(soup), {repair}, progress), repair);
-    // Triangles that are a mesh as they are: with less memory.
-    std::vector<core::Triangle> triangles(soup.polygon_count());
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      triangles[t] = {soup.corners[3 * t], soup.corners[3 * t + 1], soup.corners[3 * t + 2]};
-    const std::size_t count = soup.positions.size();
-    return handle_of({TriangleMesh(std::move(soup.positions), std::move(triangles)), {count, {}, {}}, {}},
-                     repair);
+    return handle_of(core::build_mesh(std::move(soup), {repair}, progress), repair);
   });
 }
 

@@ -131,8 +131,8 @@ def beside_scipy(mesh):
         return weights @ f.values / np.asarray(weights.sum(axis=1)).ravel()
 
     ours = ms.gaussian(f, sigma="2eps").values
-    print(f"gaussian: morsel {seconds(lambda: ms.gaussian(f, sigma='2eps')):.3f} s, scipy {scipy.__version__} "
-          f"{seconds(gaussian, 1):.3f} s (largest difference {np.abs(ours - gaussian()).max():.1e})")
+    print(f"gaussian: morsel {seconds(lambda: ms.gaussian(f, sigma='2eps')):.3f} s, "
+          f"scipy {scipy.__version__} {seconds(gaussian, 1):.3f} s (largest difference {np.abs(ours - gaussian()).max():.1e})")
 
     a, b, c = (v[mesh.faces[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
@@ -145,7 +145,8 @@ def beside_scipy(mesh):
             columns.append(y)
             entries.append(sign * cotangent)
     n = len(v)
-    laplacian = coo_matrix((np.concatenate(entries), (np.concatenate(rows), np.concatenate(columns))), (n, n)).tocsc()
+    places = (np.concatenate(rows), np.concatenate(columns))
+    laplacian = coo_matrix((np.concatenate(entries), places), (n, n)).tocsc()
     mass = diags(np.bincount(mesh.faces.ravel(), np.repeat(area / 3, 3), n)).tocsc()
 
     def eigenfunctions():
@@ -156,7 +157,8 @@ def beside_scipy(mesh):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--subdivide", type=int, default=4)
     parser.add_argument("--repeats", type=int, default=7)
     options = parser.parse_args()
