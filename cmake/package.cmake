@@ -28,4 +28,20 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 The C++20 library of the program morsel: static libraries, headers, the CMake package and pkg-config files.
 The components of documents, pictures and molecules need the suggested packages, what find_package(morsel)
 finds by default does not.")
+
+if(MORSEL_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  # It is built for one version of Python.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-morsel)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= ${MORSEL_PYTHON_VERSION}), python3 (<< ${MORSEL_PYTHON_NEXT_VERSION}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
+      "python3-matplotlib, python3-pandas, python3-networkx, python3-vtk9, jupyter-notebook")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+      "critical points of scalar fields on triangle meshes (Python)
+The package morsel for numpy: Morse functions, methods, critical points, persistence diagrams, Morse-Smale
+complexes, segments, comparisons of methods, and reports.")
+endif()
 include(CPack)

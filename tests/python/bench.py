@@ -132,7 +132,8 @@ def beside_scipy(mesh):
 
     ours = ms.gaussian(f, sigma="2eps").values
     print(f"gaussian: morsel {seconds(lambda: ms.gaussian(f, sigma='2eps')):.3f} s, "
-          f"scipy {scipy.__version__} {seconds(gaussian, 1):.3f} s (largest difference {np.abs(ours - gaussian()).max():.1e})")
+          f"scipy {scipy.__version__} {seconds(gaussian, 1):.3f} s (largest difference "
+          f"{np.abs(ours - gaussian()).max():.1e})")
 
     a, b, c = (v[mesh.faces[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
