@@ -148,7 +148,7 @@ std::vector<std::string> empty_ball_warnings(const core::TriangleMesh& mesh, dou
   });
   if (!is_most(empty)) return {};
   return {"of " + std::to_string(mesh.vertex_count()) + " vertices " + std::to_string(empty) +
-          " have no other within the radius of " + core::shortest(radius) +
+          " have no other within the radius of " + core::to_digits(radius) +
           ", and there smoothing does nothing; a sigma of 1edges or more reaches the neighbours"};
 }
 

@@ -9,13 +9,11 @@ namespace {
 
 /// What the columns mean that are about more than their own row.
 std::string foot(const MethodOutcome& first) {
-  const double radius = matching_radius(first.field.mesh());
-  return core::printable("kept: points of " + first.specification +
-                         " that have the same type at the same vertex; moved: those that have it within " +
-                         core::to_digits(radius) +
-                         " of theirs (2 % of the root of the area), one to one; "
-                         "added: points that are neither") +
-         "\n>1 %: pairs above 1 % of the input field's range\n";
+  return core::printable("kept: points of " + first.specification) +
+         " with the same type at the same vertex\nmoved: others of it with one of the same type within " +
+         core::to_digits(matching_radius(first.field.mesh())) +
+         " (2 % of the root of the area), one to one\nadded: points that are neither\n"
+         ">1 %: pairs above 1 % of the input field's range\n";
 }
 
 }  // namespace
