@@ -260,9 +260,35 @@ class Writing(ProgramTest):
         for folder in ("other", "more"):
             self.assertFalse((self.folder / folder).exists(), folder)
 
-    def test_a_picture_is_a_png(self):
-        self.assertIn(".png", self.morsel("render", self.mesh, "-o", "x.jpg", code=2).stderr)
-        self.assertFalse((self.folder / "x.jpg").exists())
+    def test_an_output_of_another_format_is_refused_in_one_wording(self):
+        for words, said in (
+                (("field", "m", "-o", "x.jpg"), "a field is written to .txt, .ply or .vtp"),
+                (("segment", "m", "-o", "x.jpg"), "labels are written to .ply, .vtp or .txt"),
+                (("points", "m", "-o", "x.jpg"), "points are written to .csv, .json, .ply or .vtp"),
+                (("cut", "m", "-o", "x.jpg"), "a cut mesh is written to .off or .ply"),
+                (("cut", "m", "-o", "x.off", "--graph", "x.jpg"), "a cut is written for ParaView to .vtp"),
+                (("quads", "m", "-o", "x.jpg"), "quads are written to .obj"),
+                (("render", "m", "-o", "x.jpg"), "a picture is written to .png"),
+                (("molecule", "m", "-o", "x.jpg"), "a surface is written to .off or .ply"),
+                (("stability", "m", "-o", "x.jpg"), "a table is written to .json or .csv"),
+                (("sweep", "m", "--vary", "iterations=1..2", "-o", "x.jpg"),
+                 "a table is written to .json or .csv")):
+            with self.subTest(words):
+                self.assertIn(f'morsel: {said}, not to "x.jpg"\n', self.morsel(*words, code=2).stderr)
+        self.assertEqual(os.listdir(self.folder), [self.mesh.name])
+
+    def test_an_ending_in_capital_letters_is_that_format(self):
+        plain = ("--field", "height", "--method", "conventional")
+        for words in (("field", self.mesh, *plain), ("segment", self.mesh, *plain),
+                      ("points", self.mesh, *plain), ("cut", self.mesh, *plain)):
+            for ending in (".ply", ".PLY"):
+                self.morsel(*words, "-o", f"{words[0]}{ending}")
+            small, capital = ((self.folder / f"{words[0]}{ending}").read_bytes()
+                              for ending in (".ply", ".PLY"))
+            self.assertEqual(capital, small, words)
+        self.morsel("cut", self.mesh, *plain, "-o", "c.OFF", "--graph", "c.VTP")
+        self.assertTrue((self.folder / "c.OFF").read_bytes().startswith(b"OFF"))
+        self.assertIn(b"VTKFile", (self.folder / "c.VTP").read_bytes())
 
     def test_a_full_device(self):
         if not pathlib.Path("/dev/full").exists():

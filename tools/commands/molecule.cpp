@@ -34,13 +34,6 @@ struct Options {
   core::Specification atoms{"molecule", {}};  ///< the rest of what chooses the atoms, as keys
 };
 
-bool is_ply(const std::filesystem::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension != ".off" && extension != ".ply")
-    throw core::InvalidArgument("a surface is written to .off or .ply, not to \"" + path.string() + "\"");
-  return extension == ".ply";
-}
-
 core::MoleculeOptions molecule_options(const Options& options) {
   core::Specification keys = options.atoms;
   if (options.waters) keys.given.emplace_back("waters", "yes");
@@ -84,7 +77,8 @@ Json request_section(const Options& options, const core::MoleculeOptions& atoms)
 
 int make(Options& options, const Run& run) {
   core::require_molecules("morsel molecule");
-  const bool ply = is_ply(options.output);
+  const std::string extension =
+      core::checked_extension(options.output, "a surface is written", {".off", ".ply"});
   const core::MoleculeOptions wanted = molecule_options(options);
   options.surface.kind =
       static_cast<SurfaceKind>(std::find(kKinds.begin(), kKinds.end(), options.kind) - kKinds.begin());
@@ -97,7 +91,7 @@ int make(Options& options, const Run& run) {
   const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
   const Provenance provenance(run.common.command, request_section(options, wanted),
                               {{options.structure, sha256_of_file(options.structure)}});
-  if (ply)
+  if (extension == ".ply")
     core::write_ply(options.output, surface.mesh, {}, provenance.lines(), progress);
   else
     core::write_off(options.output, surface.mesh, provenance.lines(), progress);

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/commands/document_target.h"
@@ -24,8 +23,7 @@ struct Options {
 int make(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.field, run);
   const QuadPlan quads = prepare(options.quads);
-  if (core::file_extension(options.output) != ".obj")
-    throw core::InvalidArgument("quads are written as .obj, not to " + options.output);
+  core::checked_extension(options.output, "quads are written", {".obj"});
   base.files().writes("-o", options.output).writes_document("--json", options.json).check();
   check_writable(options.output);
   DocumentTarget document(options.json);

@@ -53,8 +53,7 @@ int draw(const Options& options, const Run& run) {
     throw core::InvalidArgument("--close-up does not go with --inset or --frame");
   FieldRun base(options.mesh, options.field, run);
   base.files().writes("-o", options.output).check();
-  if (core::file_extension(options.output) != ".png")
-    throw core::InvalidArgument("a picture is written to .png, not to \"" + options.output + "\"");
+  core::checked_extension(options.output, "a picture is written", {".png"});
   core::FileWriter file(options.output);
 
   base.read();

@@ -1,6 +1,5 @@
 #include "morsel/tools/commands/table_target.h"
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 
 namespace morsel::tools {
@@ -13,8 +12,7 @@ bool is_csv(const std::string& path) { return core::file_extension(path) == ".cs
 
 /// The path, if it names no file or one of a kind that can be written.
 const std::string& checked(const std::string& path) {
-  if (!path.empty() && path != "-" && !is_csv(path) && core::file_extension(path) != ".json")
-    throw core::InvalidArgument("cannot write " + path + ": the output is a .json or a .csv file");
+  if (!path.empty() && path != "-") core::checked_extension(path, "a table is written", {".json", ".csv"});
   return path;
 }
 

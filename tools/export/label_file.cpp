@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
@@ -39,10 +38,7 @@ void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, c
 }  // namespace
 
 std::vector<fs::path> label_files(const fs::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension == ".ply" || extension == ".vtp") return {path};
-  if (extension != ".txt")
-    throw core::InvalidArgument("labels are written as .ply, .vtp or .txt, not as \"" + path.string() + "\"");
+  if (core::checked_extension(path, "labels are written", {".ply", ".vtp", ".txt"}) != ".txt") return {path};
   fs::path base = path;
   base.replace_extension();
   return {base.string() + ".vertices" + path.extension().string(),
