@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/nearest_name.h"
 
 namespace morsel::core {
@@ -136,14 +137,12 @@ bool ParameterReader::flag(std::string_view key, bool default_value, std::string
 std::string ParameterReader::choice(std::string_view key, std::string_view default_value,
                                     const std::vector<std::string_view>& choices,
                                     std::string_view description) {
-  std::string allowed;
-  for (const std::string_view c : choices) allowed += (allowed.empty() ? "" : ", ") + std::string(c);
+  const std::vector<std::string> allowed(choices.begin(), choices.end());
   const std::string* text =
-      declare(key, std::string(default_value), std::string(description) + " [" + allowed + "]");
+      declare(key, std::string(default_value), std::string(description) + " [" + listed(allowed) + "]");
   if (text == nullptr) return std::string(default_value);
   if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
-  throw InvalidArgument(owner() + ":" + std::string(key) + " must be one of " + allowed + ", not " +
-                        in_quotes(*text));
+  throw InvalidArgument(owner() + ":" + std::string(key) + " " + must_be_one_of(allowed, *text));
 }
 
 std::string ParameterReader::text(std::string_view key, const char* default_value,

@@ -80,7 +80,11 @@ TEST_CASE("bad values are refused with owner and key and what is allowed") {
 
   CHECK_THROWS_AS(reader({{"k", "true"}}).flag("k", true, ""), InvalidArgument);
   CHECK_THROWS_WITH(reader({{"k", "other"}}).choice("k", "a", {"a", "b"}, ""),
-                    "salient:k must be one of a, b, not \"other\"");
+                    "salient:k must be a or b, not \"other\"");
+  CHECK_THROWS_WITH(reader({{"k", "taubn"}}).choice("k", "quadric", {"cotangent", "quadric", "taubin"}, ""),
+                    "salient:k must be cotangent, quadric or taubin, not \"taubn\"; did you mean taubin?");
+  CHECK_THROWS_WITH(reader({{"k", "yess"}}).flag("k", true, ""),
+                    "salient:k must be yes or no, not \"yess\"; did you mean yes?");
 }
 
 TEST_CASE("a key that must be given is missed by name") {

@@ -45,9 +45,7 @@ void add_camera_options(Command& command, render::CameraText& camera) {
           "Where pictures are taken from: best shows most of the mesh saliency; azimuth and elevation are in "
           "degrees: 0/0 is the front, 90/0 the right");
   command
-      .choice("--up", camera.up,
-              std::vector<std::pair<std::string, render::UpAxis>>{
-                  {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}},
+      .choice("--up", camera.up, {render::UpAxis::x, render::UpAxis::y, render::UpAxis::z},
               "The axis that points up in pictures: x, y or z")
       .value("AXIS")
       .in_detail("The front is seen from +z (y up), -y (z up) or +y (x up)");

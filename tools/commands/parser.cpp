@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/text/listed.h"
 #include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
@@ -93,9 +92,7 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
     const auto word = std::ranges::find_if(words, [&](const std::string& given) {
       return std::ranges::find(option.choices, given) == option.choices.end();
     });
-    if (word != words.end())
-      refuse(command, name + " must be " + core::listed(option.choices, " or ") + ", not \"" + *word + "\"" +
-                          core::nearest_hint(*word, option.choices));
+    if (word != words.end()) refuse(command, name + " " + core::must_be_one_of(option.choices, *word));
   }
 }
 

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,7 +29,6 @@ struct Options {
   std::optional<bool> arcs;
   std::string size = "1200x900";
   render::CameraText camera;
-  std::string background = "white";
   std::string range = "2%";
   std::string caption;
   std::string frame;
@@ -41,11 +39,9 @@ int draw(const Options& options, const Run& run) {
   drawing::require_pictures("morsel render");
   render::PictureRequest request = options.picture;
   request.size = render::parse_size(options.size);
-  request.transparent = options.background == "transparent";
   const bool segments = request.show != render::Show::field && request.show != render::Show::plain;
   request.arcs = options.arcs.value_or(segments);
   render::parse_range(options.range, request.scale);
-  if (!request.scale.colormap.empty()) const render::Colormap known(request.scale.colormap);
   options.camera.check();
   for (const std::string& region : {options.frame, options.close_up})
     if (!region.empty()) render::parse_inset(region);
@@ -90,11 +86,6 @@ int draw(const Options& options, const Run& run) {
   return kDone;
 }
 
-std::string colormaps() {
-  const std::vector<std::string_view> names = render::colormap_names();
-  return core::listed(std::vector<std::string>(names.begin(), names.end()), " or ");
-}
-
 }  // namespace
 
 void add_render(Program& program) {
@@ -129,8 +120,10 @@ void add_render(Program& program) {
   command.switches("--legend", "--no-legend", picture.legend, "The colour bar").shows_default("yes");
   command.text("--caption", options->caption, "Text below the picture; auto is the method and its counts")
       .value("TEXT");
-  command.text("--background", options->background, "white or transparent")
-      .among({"white", "transparent"})
+  command
+      .choice("--background", picture.transparent,
+              std::vector<std::pair<std::string, bool>>{{"white", false}, {"transparent", true}},
+              "white or transparent")
       .value("GROUND");
   command.text("--size", options->size, "Width and height in pixels").value("WxH");
   command.number("--samples", picture.samples, "Samples a pixel, 1 to 1024").between(1, 1024);
@@ -145,7 +138,9 @@ void add_render(Program& program) {
       .in_detail("The radius is 15eps if it is not given");
 
   command.begin_group("Colours of the field");
-  command.text("--colormap", picture.scale.colormap, colormaps())
+  const std::vector<std::string> colormaps = render::colormap_names();
+  command.text("--colormap", picture.scale.colormap, core::listed(colormaps, " or "))
+      .among(colormaps)
       .value("NAME")
       .in_detail("By default blue-orange where the colours have a centre, else sand");
   command.text("--range", options->range, "Values at their ends, LOW/HIGH, or the percentage to cut off")

@@ -4,6 +4,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/steps.h"
@@ -18,7 +21,7 @@ namespace {
 struct Options {
   std::string mesh;
   FieldRequest request;
-  std::string by = to_string(mscomplex::SegmentKind::descending);
+  mscomplex::SegmentKind by = mscomplex::SegmentKind::descending;
   std::optional<std::size_t> segments;
   std::string persistence;
   std::string output;
@@ -27,7 +30,7 @@ struct Options {
 
 SegmentRequest segment_request(const Options& options) {
   SegmentRequest request;
-  request.kind = parse_segment_kind(options.by);
+  request.kind = options.by;
   request.segments = options.segments;
   if (!options.persistence.empty())
     request.persistence = persistence::parse_threshold(options.persistence, "--persistence");
@@ -81,7 +84,11 @@ void add_segment(Program& program) {
   Command& command = program.add(
       "segment", "Cut the surface into the segments of one field, small ones merged by persistence");
   add_field_options(command, options->mesh, options->request);
-  command.text("--by", options->by, "descending, ascending or morse-smale")
+  using mscomplex::SegmentKind;
+  std::vector<std::pair<std::string, SegmentKind>> kinds;
+  for (const SegmentKind kind : {SegmentKind::descending, SegmentKind::ascending, SegmentKind::morse_smale})
+    kinds.emplace_back(to_string(kind), kind);
+  command.choice("--by", options->by, std::move(kinds), "descending, ascending or morse-smale")
       .value("KIND")
       .in_detail(
           "descending: a segment for each maximum, the bumps of a curvature; ascending: for each minimum, "
