@@ -89,6 +89,12 @@ class Usage(ProgramTest):
                 (("comapre", "m.off"), "did you mean compare?"),
                 (("--threads", "3", "compare"), "--threads came before"),
                 (("help", "comapre"), "did you mean compare?"),
+                (("help", "compare", "field"), '"field" is one argument too many'),
+                (("help", "compare", "--x"), "help has no option --x"),
+                (("help", "--x"), "help has no option --x"),
+                (("--versoin",), "there is no option --versoin; did you mean --version?"),
+                (("--nonsense", "compare"), "there is no option --nonsense (morsel --help"),
+                (("compare", "m.off", "-z"), "there is no option -z (morsel compare --help"),
                 (("compare",), "compare needs MESH"),
                 (("cut", "m.off"), "cut needs -o OUT"),
                 (("compare", "m.off", "n.off"), "n.off"),
@@ -153,7 +159,8 @@ class Usage(ProgramTest):
         terminal."""
         text = self.morsel().stdout
         self.assertEqual(self.morsel("--help").stdout, text)
-        self.assertEqual(self.morsel("help").stdout, text)
+        for words in (("help",), ("help", "help"), ("help", "--help"), ("help", "help", "--help")):
+            self.assertEqual(self.morsel(*words).stdout, text)
         self.assertIn("compare", self.commands())
         for command in self.commands():
             text = self.morsel(command, "--help").stdout

@@ -56,7 +56,9 @@ std::vector<std::string> option_names(const Command& command) {
   if (!word.starts_with('-') || word.size() == 1)
     refuse(command, "\"" + word + "\" is one argument too many");
   const std::string name = word.substr(0, word.find('='));
-  refuse(command, "there is no option " + name + core::nearest_hint(name, option_names(command)));
+  const bool is_letter = name.size() == 2;  // which is near to every other
+  refuse(command,
+         "there is no option " + name + (is_letter ? "" : core::nearest_hint(name, option_names(command))));
 }
 
 /// What CLI11 has against the option that its message begins with.
