@@ -70,8 +70,11 @@ void add_comparison_options(Command& command, ComparisonRequest& request) {
 }
 
 void add_figure_options(Command& command, render::FigureText& figure) {
-  command.text("--size", figure.size, "Width and height of each method's picture in pixels").value("WxH");
+  command.text("--size", figure.size, "Width and height of each method's picture in pixels")
+      .value("WxH")
+      .needs("--figures");
   add_camera_options(command, figure.camera);
+  command.option("--inset").needs("--figures");
 }
 
 Option& add_output_option(Command& command, std::string& output, std::string help) {

@@ -239,6 +239,7 @@ void add_outputs(Command& command, Options& options) {
       .path("--html-place", options.page_place,
             "Where the page will be moved to, for the command that it shows")
       .value("PATH")
+      .needs("--html")
       .shapes_nothing();
 }
 
