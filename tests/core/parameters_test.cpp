@@ -87,6 +87,14 @@ TEST_CASE("bad values are refused with owner and key and what is allowed") {
                     "salient:k must be yes or no, not \"yess\"; did you mean yes?");
 }
 
+TEST_CASE("keys that are options of a command are named as such") {
+  ParameterReader options =
+      ParameterReader::of_options({"molecule", {{"hetero", "residue"}, {"model", "0"}}});
+  CHECK_THROWS_WITH(options.choice("hetero", "none", {"none", "residues", "all"}, ""),
+                    "--hetero must be none, residues or all, not \"residue\"; did you mean residues?");
+  CHECK_THROWS_WITH(options.count("model", 1, 1, 9, ""), "--model must be between 1 and 9, not 0");
+}
+
 TEST_CASE("a key that must be given is missed by name") {
   CHECK_THROWS_WITH(reader({}).text("file", nullptr, "the values"), Catch::Contains("salient needs file=…"));
   ParameterReader help = ParameterReader::for_help("salient");

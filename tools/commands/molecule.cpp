@@ -32,7 +32,7 @@ core::MoleculeOptions molecule_options(const Options& options) {
   core::Specification keys = options.atoms;
   if (options.waters) keys.given.emplace_back("waters", "yes");
   if (options.no_hydrogens) keys.given.emplace_back("hydrogens", "no");
-  core::ParameterReader reader(std::move(keys));
+  core::ParameterReader reader = core::ParameterReader::of_options(std::move(keys));
   return core::read_molecule_options(reader);
 }
 
