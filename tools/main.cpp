@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
-#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/parallel/stop.h"
 #include "morsel/core/text/nearest_name.h"
@@ -53,10 +53,10 @@ Command* find(std::deque<Command>& commands, const std::string& name) {
   return found == commands.end() ? nullptr : &*found;
 }
 
-/// Whether a word in a command's place is the file to compare: there is one, or it is named like one.
+/// Whether a word in a command's place is the file to compare: there is one, or it is named like a mesh.
 bool is_file(const std::string& word) {
   std::error_code error;
-  return !core::file_extension(word).empty() || std::filesystem::is_regular_file(word, error);
+  return core::has_mesh_extension(word) || std::filesystem::is_regular_file(word, error);
 }
 
 Command& chosen(std::deque<Command>& commands, const std::string& name) {

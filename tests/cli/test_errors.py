@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -87,6 +88,7 @@ class Usage(ProgramTest):
         for command, said in (
                 (("nonsense",), "no command \"nonsense\""),
                 (("comapre", "m.off"), "did you mean compare?"),
+                (("compare.d",), 'there is no command "compare.d"; did you mean compare?'),
                 (("--threads", "3", "compare"), "--threads came before"),
                 (("help", "comapre"), "did you mean compare?"),
                 (("help", "compare", "field"), '"field" is one argument too many'),
@@ -157,6 +159,12 @@ class Usage(ProgramTest):
             again.pop("timings")
             self.assertEqual(again, report, words)
         self.assertIn("vertices", self.morsel("info", "--", mesh.name).stdout)
+
+    def test_a_missing_file_named_like_a_mesh_is_one_to_compare(self):
+        for name in ("missing.off", "missing.PLY", "missing.stl", "missing.obj"):
+            self.assertIn(name, self.morsel(name, code=3).stderr)
+        shutil.copy(self.mesh, self.folder / "mesh.txt")  # there is one, whatever its name
+        self.assertIn("meshes are read from", self.morsel("mesh.txt", code=3).stderr)
 
     def test_help(self):
         """Without a command, with an option and as a command; the same text for each command, which fits a

@@ -19,7 +19,7 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
         .in_detail(
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");
-  command.flag("--quiet", common.quiet, "No progress, no messages").shapes_nothing();
+  command.flag("--quiet", common.quiet, "No progress, no messages, no warnings").shapes_nothing();
 }
 
 Option& add_target_option(Command& command, std::optional<std::size_t>& target) {
