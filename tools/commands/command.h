@@ -52,7 +52,7 @@ struct Option {
   Option& required();
   Option& shows_default(std::string text);
   Option& in_detail(std::string text);
-  /// Where outputs go, threads, messages: a provenance tells nothing of it.
+  /// Where outputs go, threads, messages: a provenance leaves it out.
   Option& shapes_nothing();
   Option& between(double low, double high);
   Option& above(double low);

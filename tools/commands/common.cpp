@@ -15,7 +15,9 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
       .shows_default("all")
       .shapes_nothing();
   if (with_repair)
-    command.flag("--repair", common.repair, "Mend what breaks the mesh's rules, instead of refusing the mesh")
+    command
+        .flag("--repair", common.repair,
+              "Repair what violates the mesh's rules, instead of refusing the mesh")
         .in_detail(
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");

@@ -101,7 +101,7 @@ void add_cut(Program& program) {
   command.flag("--no-shorten", options->no_shorten,
                "Cut along the complex's arcs as they are, which are longer");
   add_json_option(command, options->json, "Write what was cut here")
-      .in_detail("It tells which vertices the copies copy, too");
+      .in_detail("It lists, too, the vertex that each copy is of");
   command.path("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
       .value("FILE.vtp")
       .shapes_nothing();

@@ -1,18 +1,18 @@
 #pragma once
-/// What becomes of an error that nobody handled: one sentence on standard error and an exit code.
+/// How the program ends after an error that was not handled: one sentence on standard error and an exit code.
 
 namespace morsel::tools {
 
-/// To be called in a handler (catch): tells the exception that is being handled as `morsel: SENTENCE` and
-/// returns its exit code (commands.h). Needs no memory. An exception that no rule names is a defect of the
-/// program, and is told so. After a signal everything is taken for its consequence.
+/// To be called in a handler (catch): prints `morsel: SENTENCE` about the exception that is being handled and
+/// returns its exit code (commands.h). Needs no memory. An exception that no rule names is reported as a
+/// defect of the program. After a signal every exception is taken for its consequence.
 int tell_failure() noexcept;
 
 /// Exceptions and crashes in the static initialisation of libraries, before main(), end the process in the
 /// same way. To be called when main() begins: from here on a crash is the program's own.
 void begin_main() noexcept;
 
-/// Tells a sentence, by the system's own call.
+/// Prints a sentence on standard error by a system call.
 void tell(const char* sentence, const char* rest = "") noexcept;
 
 /// Whether operator new has failed in this process, or would fail now. Async-signal-safe.

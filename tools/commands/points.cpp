@@ -95,7 +95,9 @@ void add_points(Program& program) {
   Command& command =
       program.add("points", "Choose critical points of one field that stand out and lie apart");
   add_field_options(command, options->mesh, options->request);
-  command.number("--points", options->points.count, "How many, or the reason why there are fewer")
+  command
+      .number("--points", options->points.count,
+              "Number of points; where there are fewer, the reason is printed")
       .between(1, std::numeric_limits<double>::infinity())
       .value("K");
   using morse::PointKind;

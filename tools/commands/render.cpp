@@ -130,7 +130,7 @@ void add_render(Program& program) {
 
   command.begin_group("Where it is taken from");
   add_camera_options(command, options->camera);
-  command.text("--frame", options->frame, "Frame what --close-up shows")
+  command.text("--frame", options->frame, "Draw a frame around what --close-up shows")
       .value("VERTEX[:RADIUS]")
       .in_detail("The radius is 15eps if it is not given");
   command.text("--close-up", options->close_up, "Fill the picture with a vertex and what is around it")
@@ -143,16 +143,17 @@ void add_render(Program& program) {
       .among(colormaps)
       .value("NAME")
       .in_detail("By default blue-orange where the colours have a centre, else sand");
-  command.text("--range", options->range, "Values at their ends, LOW/HIGH, or the percentage to cut off")
+  command
+      .text("--range", options->range, "The range of values that the colours span: LOW/HIGH or a percentage")
       .value("RANGE")
-      .in_detail("So many of the vertices are beyond either end");
+      .in_detail("With a percentage, that share of the vertices lies below the range, and as many above");
   command
       .choice(
           "--center", picture.scale.center,
           std::vector<std::pair<std::string, ScaleRequest::Center>>{{"zero", ScaleRequest::Center::zero},
                                                                     {"median", ScaleRequest::Center::median},
                                                                     {"none", ScaleRequest::Center::none}},
-          "The value in their middle: zero, median or none")
+          "The value at the middle of the colours: zero, median or none")
       .value("CENTER")
       .in_detail("By default that of a field of both signs is zero, or the median where one sign is rare");
   add_common_options(command, program.common);

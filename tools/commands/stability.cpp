@@ -61,7 +61,8 @@ void add_perturbation_options(Command& command, StabilityRequest& request) {
   command.numbers("--subdivide", request.subdivide, "Numbers of equal pieces that every edge is cut into")
       .in_detail("The surface stays the same");
   command.number("--trials", request.trials, "Trials of each random perturbation").between(1, 1'000'000);
-  command.number("--seed", request.seed, "Of the random numbers: a trial depends on it and its number");
+  command.number("--seed", request.seed,
+                 "Seed of the random numbers; a trial depends on it and on its number");
 }
 
 void add_agreement_options(Command& command, StabilityRequest& request) {

@@ -1,7 +1,7 @@
 #pragma once
 /// The steps that commands on a mesh share, in their order: names are looked up, files checked and targets
-/// opened, so that what is wrong with them is told before the work; the mesh is read and its field made;
-/// results are written with their provenance and told.
+/// opened, so that what is wrong with them is reported before the work; the mesh is read and its field made;
+/// results are written with their provenance, and their paths printed.
 
 #include <memory>
 #include <optional>
@@ -58,7 +58,7 @@ class FieldRun {
   /// Of all vertices of the file, after read_whole().
   const std::vector<core::Point>& input_positions() const { return mesh_->input_positions; }
 
-  /// Makes the field on the mesh and tells what is to be told of it.
+  /// Makes the field on the mesh; prints why a wanted number of critical points was not reached.
   void make();
   const core::ScalarField& field() const { return made_->field(); }
   const MadeField& made() const { return *made_; }

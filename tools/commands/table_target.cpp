@@ -34,7 +34,7 @@ void TableTarget::tell_journal(std::size_t count, const std::string& of_what, Co
   if (!journal_) return;
   for (const std::string& warning : journal_->warnings()) console.warning(warning);
   if (count > 0)
-    console.message("going on with " + std::to_string(count) + of_what + ": " + journal_path(path()));
+    console.message("resuming with " + std::to_string(count) + of_what + ": " + journal_path(path()));
 }
 
 void TableTarget::write(const std::function<void(JsonSink&)>& as_json,

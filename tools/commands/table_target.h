@@ -26,7 +26,7 @@ class TableTarget : public DocumentTarget {
   /// OUT.journal, beside a file that is wanted: what the run has done so far, should it be interrupted. Takes
   /// what follows from the same `key` over. Throws as Journal.
   Journal* open_journal(const Json& key);
-  /// Warns of what is wrong with the journal, and tells how much of the work it holds, if any: `count`, and
+  /// Warns of what is wrong with the journal, and prints how much of the work it holds, if any: `count`, and
   /// of what (" trials done").
   void tell_journal(std::size_t count, const std::string& of_what, Console& console) const;
 

@@ -32,7 +32,7 @@ std::vector<std::string> values_of(const Command& command, const Option& option)
 }
 
 constexpr const char* kImplied = "compare";  // of which a file is, where a command is expected
-constexpr const char* kHelpText = "Tell about a command";
+constexpr const char* kHelpText = "Print help for a command";
 
 std::vector<std::string> command_names(const std::deque<Command>& commands) {
   std::vector<std::string> names = {"help"};
@@ -117,7 +117,7 @@ std::string zsh_completion(const std::deque<Command>& commands) {
   std::string cases;
   for (const Command& command : commands) {
     list += "    " + quoted_word(command.name + ":" + brief(command.summary)) + "\n";
-    cases += "    " + command.name + ")\n      _arguments '--help[Tell about this command]'";
+    cases += "    " + command.name + ")\n      _arguments '--help[Print help for this command]'";
     for (const Option& option : command.options()) {
       std::string line;
       if (option.is_argument()) {
@@ -164,7 +164,7 @@ std::string fish_completion(const std::deque<Command>& commands) {
   for (const Command& command : commands) offer_name(command.name, command.summary);
   for (const Command& command : commands) {
     const std::string begin = "complete -c morsel -n " + quoted_word("__morsel_is " + command.name);
-    text += begin + " -l help -d 'Tell about this command'\n";
+    text += begin + " -l help -d 'Print help for this command'\n";
     for (const Option& option : command.options()) {
       const std::vector<std::string> listed = values_of(command, option);
       const std::string offered = listed.empty() ? "" : " -f -a " + quoted_word(joined(listed, " "));
