@@ -35,8 +35,8 @@ Option& add_target_option(Command& command, std::optional<std::size_t>& target) 
 
 void add_field_options(Command& command, std::string& mesh, FieldRequest& request) {
   command.path("MESH", mesh, mesh_help()).required();
-  command.text("--field", request.field, "Morse function").value("F");
-  command.text("--method", request.method, "A method or chain of methods").value("M");
+  command.text("--field", request.field, "Morse function").is_function();
+  command.text("--method", request.method, "A method or chain of methods").is_method();
   add_target_option(command, request.target);
 }
 
@@ -58,12 +58,12 @@ void add_camera_options(Command& command, render::CameraText& camera) {
 
 void add_methods_option(Command& command, std::vector<std::string>& methods) {
   command.texts("--method", methods, "A method or chain; repeatable")
-      .value("M")
+      .is_method()
       .in_detail("May be given several times; what is given replaces the default");
 }
 
 void add_comparison_options(Command& command, ComparisonRequest& request) {
-  command.text("--field", request.field, "Morse function").value("F");
+  command.text("--field", request.field, "Morse function").is_function();
   add_methods_option(command, request.methods);
   add_target_option(command, request.target);
   command.flag("--snap", request.snap, "Report each critical point at its origin")

@@ -34,6 +34,7 @@ void add_field(Program& program) {
   add_field_options(command, options->mesh, options->request);
   add_output_option(command, options->output,
                     ".txt (a value a line), .ply or .vtp (the surface with the values)")
+      .shortly("The file to write")
       .in_detail("Vertices have the input's numbers");
   add_common_options(command, program.common);
   command.examples = {

@@ -115,7 +115,8 @@ void add_molecule(Program& program) {
   command
       .number("--blobbiness", options->surface.blobbiness,
               "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
-      .value("B");
+      .value("B")
+      .shortly("How smooth gaussian is");
   command
       .choice("--cavities", options->surface.cavities,
               std::vector<std::pair<std::string, bool>>{{"keep", true}, {"drop", false}},

@@ -122,7 +122,7 @@ void add_points(Program& program) {
           "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
           "shorter than geodesic ones, a few percent longer");
   command.text("--fill", options->fill, "A Morse function that fills up, or none")
-      .value("F")
+      .is_function()
       .in_detail(
           "Where the field has too few points, its points come after these, by their own rank and apart from "
           "those");
@@ -130,6 +130,7 @@ void add_points(Program& program) {
       .value("LENGTH")
       .shows_default("the method's sigma, or 8eps");
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
+      .shortly("The file to write")
       .in_detail("Points come in the order in which they were chosen, vertices have the input's numbers");
   add_common_options(command, program.common);
   command.examples = {

@@ -95,7 +95,7 @@ void add_render(Program& program) {
   render::PictureRequest& picture = options->picture;
   Command& command = program.add(
       "render",
-      "Take a picture (PNG) of a surface coloured by a field or its segments, with critical points and arcs");
+      "Take a picture of a surface coloured by a field or its segments, with critical points and arcs (PNG)");
   add_field_options(command, options->mesh, options->field);
   add_output_option(command, options->output, "The picture").value("OUT.png");
 

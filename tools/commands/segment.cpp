@@ -99,6 +99,7 @@ void add_segment(Program& program) {
       .in_detail("Those of least persistence first");
   command.text("--persistence", options->persistence, "Or: merge all of at most this persistence")
       .value("T")
+      .shortly("Merge all of at most this persistence")
       .shows_default("none")
       .in_detail("In the field's unit or, as in 0.1%, in percent of its extent");
   add_output_option(command, options->output, "Labels of vertices and triangles: .ply, .vtp or .txt")
