@@ -291,21 +291,43 @@ class Writing(ProgramTest):
             self.assertFalse((self.folder / folder).exists(), folder)
 
     def test_an_output_of_another_format_is_refused_in_one_wording(self):
+        """Before it is found to be the input, in every command."""
         for words, said in (
-                (("field", "m", "-o", "x.jpg"), "a field is written to .txt, .ply or .vtp"),
-                (("segment", "m", "-o", "x.jpg"), "labels are written to .ply, .vtp or .txt"),
-                (("points", "m", "-o", "x.jpg"), "points are written to .csv, .json, .ply or .vtp"),
-                (("cut", "m", "-o", "x.jpg"), "a cut mesh is written to .off or .ply"),
-                (("cut", "m", "-o", "x.off", "--graph", "x.jpg"), "a cut is written for ParaView to .vtp"),
-                (("quads", "m", "-o", "x.jpg"), "quads are written to .obj"),
-                (("render", "m", "-o", "x.jpg"), "a picture is written to .png"),
-                (("molecule", "m", "-o", "x.jpg"), "a surface is written to .off or .ply"),
-                (("stability", "m", "-o", "x.jpg"), "a table is written to .json or .csv"),
-                (("sweep", "m", "--vary", "iterations=1..2", "-o", "x.jpg"),
+                (("field", "x.jpg", "-o", "x.jpg"), "a field is written to .txt, .ply or .vtp"),
+                (("segment", "x.jpg", "-o", "x.jpg"), "labels are written to .ply, .vtp or .txt"),
+                (("points", "x.jpg", "-o", "x.jpg"), "points are written to .csv, .json, .ply or .vtp"),
+                (("cut", "x.jpg", "-o", "x.jpg"), "a cut mesh is written to .off or .ply"),
+                (("cut", "x.jpg", "-o", "x.off", "--graph", "x.jpg"), "a cut is written for ParaView to .vtp"),
+                (("quads", "x.jpg", "-o", "x.jpg"), "quads are written to .obj"),
+                (("render", "x.jpg", "-o", "x.jpg"), "a picture is written to .png"),
+                (("molecule", "x.jpg", "-o", "x.jpg"), "a surface is written to .off or .ply"),
+                (("stability", "x.jpg", "-o", "x.jpg"), "a table is written to .json or .csv"),
+                (("sweep", "x.jpg", "--vary", "iterations=1..2", "-o", "x.jpg"),
                  "a table is written to .json or .csv")):
             with self.subTest(words):
                 self.assertIn(f'morsel: {said}, not to "x.jpg"\n', self.morsel(*words, code=2).stderr)
         self.assertEqual(os.listdir(self.folder), [self.mesh.name])
+
+    def test_outputs_are_tried_before_the_mesh_is_read(self):
+        self.file("taken", "")
+        for command, (words, options) in ON_MESH.items():
+            for option, ending in options.items():
+                required = () if option == "-o" else ("-o", f"free{options['-o']}")
+                with self.subTest(command=command, option=option):
+                    self.morsel(*(word.format("missing.off") for word in words), *required, option,
+                                f"taken/x{ending}", code=4)
+
+    def test_a_pipe_gets_the_whole_file(self):
+        for words, ending in ((("field",), ".txt"), (("points",), ".csv"), (("cut",), ".off"),
+                              (("segment",), ".ply"), (("render", "--size", "40x30"), ".png")):
+            command = (words[0], self.mesh, "--field", "height", *words[1:], "-o")
+            pipe = self.folder / f"pipe-{words[0]}{ending}"
+            os.mkfifo(pipe)
+            with self.subTest(words), subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE) as reader:
+                self.morsel(*command, pipe)
+                read, _ = reader.communicate(timeout=60)
+                self.morsel(*command, f"file{ending}")
+                self.assertEqual(read, (self.folder / f"file{ending}").read_bytes())
 
     def test_an_ending_in_capital_letters_is_that_format(self):
         plain = ("--field", "height", "--method", "conventional")

@@ -50,16 +50,11 @@ std::string table(const CutOutcome& outcome) {
 
 int cut(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  check_cut_mesh_path(options.output);
-  if (!options.graph.empty()) check_cut_graph_path(options.graph);
-  base.files()
-      .writes("-o", options.output)
+  base.writes("-o", options.output, check_cut_mesh_path)
       .writes_document("--json", options.json)
-      .writes("--graph", options.graph)
-      .check();
+      .writes("--graph", options.graph, check_cut_graph_path)
+      .check_files();
   DocumentTarget document(options.json);
-  check_writable(options.output);
-  check_writable(options.graph);
 
   base.read();
   base.make();

@@ -16,8 +16,7 @@ struct Options {
 
 int write(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  base.files().writes("-o", options.output).check();
-  check_field_path(options.output);
+  base.writes("-o", options.output, check_field_path).check_files();
   base.read_whole();
   base.make();
   write_field(options.output, base.field(), base.loaded().source.numbering, base.input_positions(),

@@ -55,16 +55,13 @@ std::string described(const MadePoints& made, const PointsRequest& request) {
 int choose(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const PointsPlan plan = prepare(points_request(options));
-  RunFiles files = base.files();
-  if (plan.request.fill) files.reads_of_field(*plan.request.fill);
+  if (plan.request.fill) base.reads_of_field(*plan.request.fill);
   const bool wants_document = is_document(options.output);
-  if (wants_document) {
-    files.writes_document("-o", options.output).check();
-  } else {
-    files.writes("-o", options.output).check();
-    check_points_path(options.output);
-    check_writable(options.output);
-  }
+  if (wants_document)
+    base.writes_document("-o", options.output);
+  else
+    base.writes("-o", options.output, check_points_path);
+  base.check_files();
   DocumentTarget document(wants_document ? options.output : "");
 
   base.read();

@@ -1,5 +1,6 @@
 // morsel quads: from a field to an all-quad mesh.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -20,12 +21,14 @@ struct Options {
   std::string json;
 };
 
+void check_path(const std::filesystem::path& path) {
+  core::checked_extension(path, "quads are written", {".obj"});
+}
+
 int make(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.field, run);
   const QuadPlan quads = prepare(options.quads);
-  core::checked_extension(options.output, "quads are written", {".obj"});
-  base.files().writes("-o", options.output).writes_document("--json", options.json).check();
-  check_writable(options.output);
+  base.writes("-o", options.output, check_path).writes_document("--json", options.json).check_files();
   DocumentTarget document(options.json);
 
   base.read();

@@ -1,5 +1,6 @@
 // morsel render: a picture of a surface, its field and its critical points.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,10 @@ struct Options {
   std::string close_up;
 };
 
+void check_path(const std::filesystem::path& path) {
+  core::checked_extension(path, "a picture is written", {".png"});
+}
+
 int draw(const Options& options, const Run& run) {
   drawing::require_pictures("morsel render");
   render::PictureRequest request = options.picture;
@@ -48,9 +53,7 @@ int draw(const Options& options, const Run& run) {
   if (!options.close_up.empty() && !(options.frame.empty() && options.camera.inset.empty()))
     throw core::InvalidArgument("--close-up does not go with --inset or --frame");
   FieldRun base(options.mesh, options.field, run);
-  base.files().writes("-o", options.output).check();
-  core::checked_extension(options.output, "a picture is written", {".png"});
-  core::FileWriter file(options.output);
+  base.writes("-o", options.output, check_path).check_files();
 
   base.read();
   const core::LoadedMesh& loaded = base.loaded();
@@ -79,8 +82,7 @@ int draw(const Options& options, const Run& run) {
   Provenance provenance = base.provenance(request_section(options.field, run.common.repair));
   provenance.set("picture",
                  render::picture_section(request, options.camera, subject.caption, loaded.source.numbering));
-  file.write(drawing::with_png_comment(render::encode_png(image), provenance.json()));
-  file.commit();
+  core::write_file(options.output, drawing::with_png_comment(render::encode_png(image), provenance.json()));
   run.console.message(counts);
   run.console.message("picture: " + options.output);
   return kDone;

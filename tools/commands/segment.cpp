@@ -52,10 +52,8 @@ std::string described(const MadeSegments& made) {
 int segment(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const SegmentsRequest request{options.request, segment_request(options), run.common.repair};
-  RunFiles files = base.files();
-  for (const std::filesystem::path& file : label_files(options.output)) files.writes("-o", file);
-  files.writes_document("--json", options.json).check();
-  check_label_path(options.output);
+  for (const std::filesystem::path& file : label_files(options.output)) base.writes("-o", file);
+  base.writes_document("--json", options.json).check_files();
   DocumentTarget document(options.json);
 
   base.read_whole();

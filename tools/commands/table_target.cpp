@@ -10,20 +10,15 @@ std::string journal_path(const std::string& path) { return path + ".journal"; }
 
 bool is_csv(const std::string& path) { return core::file_extension(path) == ".csv"; }
 
-/// The path, if it names no file or one of a kind that can be written.
-const std::string& checked(const std::string& path) {
-  if (!path.empty() && path != "-") core::checked_extension(path, "a table is written", {".json", ".csv"});
-  return path;
-}
-
 }  // namespace
 
 RunFiles& write_table(RunFiles& files, const std::string& path) {
   if (path.empty() || path == "-") return files;
+  core::checked_extension(path, "a table is written", {".json", ".csv"});
   return files.writes("-o", path).writes("the journal of -o", journal_path(path));
 }
 
-TableTarget::TableTarget(const std::string& path) : DocumentTarget(checked(path)) {}
+TableTarget::TableTarget(const std::string& path) : DocumentTarget(path) {}
 
 Journal* TableTarget::open_journal(const Json& key) {
   if (is_file()) journal_.emplace(journal_path(path()), key);

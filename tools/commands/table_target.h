@@ -13,14 +13,14 @@
 
 namespace morsel::tools {
 
-/// Adds what a TableTarget at this path writes.
+/// Adds what a TableTarget at this path writes. Throws InvalidArgument on another extension.
 RunFiles& write_table(RunFiles& files, const std::string& path);
 
 /// A document that can be a table (.csv), too, and what an interrupted run leaves of it.
 class TableTarget : public DocumentTarget {
  public:
-  /// `path`: a file, "-" for JSON on standard output, nothing if it is empty. Throws InvalidArgument on
-  /// another ending and WriteFailed.
+  /// `path`: a file that write_table() takes, "-" for JSON on standard output, nothing if it is empty. Throws
+  /// WriteFailed.
   explicit TableTarget(const std::string& path);
 
   /// OUT.journal, beside a file that is wanted: what the run has done so far, should it be interrupted. Takes

@@ -45,12 +45,6 @@ std::vector<fs::path> label_files(const fs::path& path) {
           base.string() + ".faces" + path.extension().string()};
 }
 
-std::vector<fs::path> check_label_path(const fs::path& path) {
-  const std::vector<fs::path> files = label_files(path);
-  for (const fs::path& file : files) const core::FileWriter target(file);
-  return files;
-}
-
 std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, const core::ScalarField& field,
                                    const std::string& field_name, const core::VertexNumbering& numbering,
                                    std::span<const core::Point> input_positions,
