@@ -70,14 +70,21 @@ class ParameterReader {
 
   /// A reader that returns defaults (and empty text for mandatory keys), to list the declared keys.
   static ParameterReader for_help(std::string name);
+  /// A reader of keys that are options of a command: errors name them as such, "--model" for
+  /// "molecule:model".
+  static ParameterReader of_options(Specification specification);
 
  private:
   const std::string* declare(std::string_view key, std::string default_text, std::string_view description,
                              bool required = false);
 
+  /// A key as errors name it.
+  std::string shown(std::string_view key) const;
+
   Specification specification_;
   std::vector<ParameterInfo> declared_;
   bool for_help_ = false;
+  bool are_options_ = false;
 };
 
 /// The whole text as a finite number ("1e-3", "-2"); throws InvalidArgument naming `what` otherwise.

@@ -181,7 +181,7 @@ class Interruption(Stability):
                         lambda: journal.exists() and journal.read_bytes().count(b"\n") >= 5)
             self.assertFalse((self.folder / "s.json").exists())
             result = self.morsel("stability", *self.ARGUMENTS, "-o", "s.json")
-            self.assertRegex(result.stderr, r"going on with [0-9]+ perturbed surfaces done: s.json.journal")
+            self.assertRegex(result.stderr, r"resuming with [0-9]+ perturbed surfaces done: s.json.journal")
             document = json.loads((self.folder / "s.json").read_text())
             del document["timings"]
             self.assertEqual(document, whole)

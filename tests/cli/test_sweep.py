@@ -151,7 +151,7 @@ class Interruption(Sweep):
             self.assertGreaterEqual(done, 3)
             self.assertFalse((self.folder / "s.json").exists())
             result = self.morsel("sweep", *self.ARGUMENTS, "-o", "s.json")
-            self.assertRegex(result.stderr, r"going on with [3-7] of 8 combinations done: s.json.journal")
+            self.assertRegex(result.stderr, r"resuming with [3-7] of 8 combinations done: s.json.journal")
             document = json.loads((self.folder / "s.json").read_text())
             del document["timings"]
             self.assertEqual(document, whole)
@@ -169,7 +169,7 @@ class Interruption(Sweep):
         result = self.morsel("sweep", LION, "--method", "salient:iterations=100", "--vary", "sigma=8eps,9eps",
                              "-o",
                              "s.json")
-        self.assertIn("going on with 2 of 2", result.stderr)
+        self.assertIn("resuming with 2 of 2", result.stderr)
 
 
 class Refused(Sweep):

@@ -55,7 +55,10 @@ TEST_CASE("the published colour maps have their ends") {
   CHECK(hex_of(Colormap("cividis")(0)) == 0x00224e);
   CHECK(hex_of(Colormap("cividis")(1)) == 0xfee838);
   CHECK(hex_of(Colormap("cividis")(7)) == 0xfee838);  // beyond the end
-  CHECK_THROWS_WITH(Colormap("jet"), Catch::Contains("jet") && Catch::Contains("viridis"));
+  CHECK_THROWS_WITH(Colormap("jet"),
+                    "there is no colour map \"jet\"; there are: blue-orange, purple-green, "
+                    "viridis, cividis, sand");
+  CHECK_THROWS_WITH(Colormap("viridi"), Catch::Contains("\"viridi\"; did you mean viridis? There are: "));
 }
 
 TEST_CASE("lightness of colour maps runs one way, or both ways from the middle, in even steps") {

@@ -137,7 +137,12 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
   };
   refused({"height", "salient", {}}, "nothing varies");
   refused({"height", "salient", {"sgima=1,2"}},
-          "there are height: axis, direction; salient: preset, iterations");
+          "has it; did you mean sigma? There are height: axis, direction; salient: preset, iterations");
+  refused({"height", "salient", {"q=1,2"}}, "has it; there are height: axis, direction; salient: preset");
+  refused({"height", "salient", {"salient.iteratons=1,2"}},
+          "no key \"iteratons\"; did you mean iterations? It has: preset, iterations");
+  refused({"height", "conventional", {"conventional.q=1,2"}}, "no key \"q\"; it has none");
+  refused({"height", "salient", {"saliet.sigma=1,2"}}, "is called saliet; did you mean salient?");
   refused({"mean-curvature", "salient", {"scale=1,2"}}, "any of field.scale, salient.scale; write one");
   refused({"height", "gaussian+gaussian", {"sigma=1,2"}}, "any of 1.sigma, 2.sigma");
   refused({"height", "gaussian+gaussian", {"gaussian.sigma=1,2"}}, "any of 1.sigma, 2.sigma");

@@ -83,8 +83,8 @@ void add_sweep(Program& program) {
   Command& command = program.add(
       "sweep", "How the numbers of critical points depend on parameters: every combination of their values");
   command.path("MESH", options->mesh, mesh_help()).required();
-  command.text("--field", options->request.field, "Morse function").value("F");
-  command.text("--method", options->request.method, "A method or chain of methods").value("M");
+  command.text("--field", options->request.field, "Morse function").is_function();
+  command.text("--method", options->request.method, "A method or chain of methods").is_method();
   command
       .texts("--vary", options->request.vary,
              "A parameter and its values: LIST, A..B or A..B..STEP; repeatable")

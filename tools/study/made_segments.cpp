@@ -56,13 +56,6 @@ std::string why_more(SegmentKind kind) {
 
 std::string to_string(SegmentKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
-SegmentKind parse_segment_kind(const std::string& word) {
-  const auto found = std::find(kNames.begin(), kNames.end(), word);
-  if (found == kNames.end())
-    throw core::InvalidArgument("segments are descending, ascending or morse-smale, not \"" + word + "\"");
-  return static_cast<SegmentKind>(found - kNames.begin());
-}
-
 void check(const SegmentRequest& request) {
   if (request.segments && request.persistence)
     throw core::InvalidArgument(

@@ -23,8 +23,6 @@ struct SegmentRequest {
 
 /// "descending", "ascending", "morse-smale": as in the syntax of the command line.
 std::string to_string(mscomplex::SegmentKind kind);
-/// Throws InvalidArgument for another word.
-mscomplex::SegmentKind parse_segment_kind(const std::string& word);
 
 struct MadeSegments {
   mscomplex::PersistenceHierarchy hierarchy;

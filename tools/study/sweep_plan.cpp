@@ -7,6 +7,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/listed.h"
+#include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
 namespace {
@@ -36,8 +37,10 @@ class Links {
     Place found = dot == std::string::npos ? place_of(key)
                                            : Place{link_of(key, key.substr(0, dot)), key.substr(dot + 1)};
     if (std::ranges::count(keys_[found.link], found.key) == 0)
-      throw refused(key, links_[found.link].name + " has no key \"" + found.key +
-                             "\"; it has: " + names_text(keys_[found.link]));
+      throw refused(
+          key, links_[found.link].name + " has no key \"" + found.key + "\"" +
+                   (keys_[found.link].empty() ? "; it has none"
+                                              : core::nearest_of(found.key, keys_[found.link], "it has")));
     for (const auto& [given, value] : links_[found.link].given)
       if (given == found.key)
         throw refused(key, "it is given as " + value + " in \"" + to_string(links_[found.link]) +
@@ -84,9 +87,14 @@ class Links {
     if (ways.size() > 1)
       throw refused(key, "it could be any of " + core::listed(ways) + "; write one of these");
     std::string known;
-    for (std::size_t i = 0; i < links_.size(); ++i)
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
       known += (i == 0 ? "" : "; ") + links_[i].name + ": " + names_text(keys_[i]);
-    throw refused(key, "neither the field nor the method has it; there are " + known);
+      all.insert(all.end(), keys_[i].begin(), keys_[i].end());
+    }
+    const std::string hint = core::nearest_hint(key, all);
+    throw refused(key, "neither the field nor the method has it" +
+                           (hint.empty() ? "; there are " : hint + " There are ") + known);
   }
 
   std::size_t link_of(const std::string& key, const std::string& name) const {
@@ -107,7 +115,12 @@ class Links {
         found = i;
       }
     if (ways.size() == 1) return found;
-    if (ways.empty()) throw refused(key, "neither the field nor a step of the method is called " + name);
+    if (ways.empty()) {
+      std::vector<std::string> names;
+      for (const core::Specification& link : links_) names.push_back(link.name);
+      throw refused(key, "neither the field nor a step of the method is called " + name +
+                             core::nearest_hint(name, names));
+    }
     throw refused(key, "it could be any of " + core::listed(ways) + "; write one of these");
   }
 
