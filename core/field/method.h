@@ -31,12 +31,20 @@ struct FunctionContext {
   Progress progress;
 };
 
+/// Traits of a Morse function.
+struct FunctionTraits {
+  /// It has values for the vertices of the mesh's file alone: none for vertices that are added to the
+  /// surface.
+  bool needs_input_vertices = false;
+};
+
 /// A Morse function: a way to make a scalar field from a mesh alone (and its file's vertex data). Immutable,
 /// may be evaluated from several threads at once.
 class MorseFunction {
  public:
   virtual ~MorseFunction() = default;
   virtual FunctionResult evaluate(const TriangleMesh& mesh, const FunctionContext& context) const = 0;
+  virtual FunctionTraits traits() const { return {}; }
 };
 
 /// The critical points of one of the fields that an iterative method passes through (the field's `total` is
@@ -112,6 +120,9 @@ struct MethodTraits {
   /// The field that MethodContext::on_iteration receives for iteration i is, bit for bit, what this method
   /// returns with `iterations=i`: so one run gives the results for all smaller numbers.
   bool iterates_are_results = false;
+  /// What its values are ("saliency") if they are not of the input's quantity but a number without a unit;
+  /// otherwise empty.
+  std::string quantity = {};
 };
 
 /// A method: a function from a scalar field to a scalar field on the same mesh. It never measures, and what

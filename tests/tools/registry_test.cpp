@@ -1,12 +1,17 @@
 #include "morsel/tools/study/registry.h"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/specification.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/smoothing/conventional.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/stability.h"
 
 using namespace morsel;
 using Catch::Contains;
@@ -83,6 +88,45 @@ TEST_CASE("a user adds functions and methods of their own to a copy") {
   CHECK(registry.make_function("height-2:axis=x").name == "height-2");
   CHECK(registry.functions().size() == tools::Registry::standard().functions().size() + 1);
   CHECK(tools::prepare({.field = "height-2", .methods = {"own"}, .target = {}}, registry).chains.size() == 1);
+}
+
+TEST_CASE("a function of a user's own has a unit and files, and may need the vertices of the file") {
+  class Own : public core::MorseFunction {
+   public:
+    core::FunctionResult evaluate(const core::TriangleMesh& mesh,
+                                  const core::FunctionContext&) const override {
+      return {core::ScalarField(mesh, std::vector<double>(mesh.vertex_count())), {}};
+    }
+    core::FunctionTraits traits() const override { return {.needs_input_vertices = true}; }
+  };
+  tools::Registry registry = tools::Registry::standard();
+  registry.add(tools::FunctionEntry{"own", "mine",
+                                    [](core::ParameterReader& reader) {
+                                      reader.file("table", nullptr, "values");
+                                      return std::make_unique<Own>();
+                                    },
+                                    "K"});
+  const tools::NamedFunction function = registry.make_function("own:table=t.txt");
+  CHECK(function.unit == "K");
+  REQUIRE(function.files.size() == 1);
+  CHECK(function.files.front().key == "table");
+  CHECK(function.files.front().path == "t.txt");
+  tools::StabilityRequest request;
+  request.fields = {"own:table=t.txt"};
+  CHECK(tools::prepare(request, registry).functions.size() == 1);
+  request.subdivide = {2};
+  CHECK_THROWS_WITH(tools::prepare(request, registry), Contains("own has no values for the vertices"));
+
+  const std::filesystem::path table = std::filesystem::temp_directory_path() / "morsel-own-table.txt";
+  std::ofstream(table) << "1\n";
+  const std::string text = "own:table=" + core::escape(table.string());
+  CHECK(tools::named_files(text, registry) ==
+        std::vector<std::pair<std::string, std::string>>{{"--field own:table", table.string()}});
+  const std::vector<tools::HashedFile> hashed = tools::input_files({text, "height"}, registry);
+  REQUIRE(hashed.size() == 1);
+  CHECK(hashed.front().sha256 == tools::sha256_of_file(table));
+  CHECK_THROWS_AS(tools::input_files({text}), core::InvalidArgument);
+  std::filesystem::remove(table);
 }
 
 TEST_CASE("help names every key with its default") {

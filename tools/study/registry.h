@@ -19,7 +19,7 @@ struct FunctionEntry {
   std::string summary;  ///< one line for help
   /// Reads the keys, each with a default, and makes the function. Throws InvalidArgument.
   std::function<std::unique_ptr<core::MorseFunction>(core::ParameterReader&)> make;
-  std::string file_key = {};  ///< the key that names a file to read, if there is one
+  std::string unit = {};  ///< of its values, in terms of the mesh's ("1/length"); empty if none or unknown
 };
 
 struct MethodEntry {
@@ -33,7 +33,8 @@ struct NamedFunction {
   std::string specification;  ///< as given
   std::string name;
   std::unique_ptr<core::MorseFunction> function;
-  std::string file_key = {};  ///< its entry's
+  std::vector<core::FileParameter> files = {};  ///< that it is going to read
+  std::string unit = {};                        ///< its entry's
 };
 
 /// One step of a chain of methods.
@@ -47,6 +48,9 @@ struct MethodChain {
   std::string specification;  ///< as given
   std::string name;           ///< "salient+tps"
   std::vector<MethodStep> steps;
+
+  /// MethodTraits::quantity of the last step.
+  std::string quantity() const;
 };
 
 /// A value: copies are independent. Looking up is thread-safe, adding is not.

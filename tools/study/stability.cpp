@@ -303,8 +303,8 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
     plan.perturbations.push_back({PerturbationKind::subdivision, amount, NoiseKind::normal});
   for (const Perturbation& perturbation : plan.perturbations) check(perturbation);
   for (const NamedFunction& function : plan.functions)
-    if (!request.subdivide.empty() && function.name == "vertex-scalar")
-      throw core::InvalidArgument("vertex-scalar has no values for the vertices that --subdivide adds");
+    if (!request.subdivide.empty() && function.function->traits().needs_input_vertices)
+      throw core::InvalidArgument(function.name + " has no values for the vertices that --subdivide adds");
   return plan;
 }
 

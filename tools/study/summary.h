@@ -19,7 +19,7 @@ struct FieldSummary {
   core::Parameters parameters;
   double min = 0;
   double max = 0;
-  std::vector<FieldFile> files = {};
+  std::vector<core::FileParameter> files = {};
 };
 FieldSummary summary_of(const FieldOutcome& outcome);
 
