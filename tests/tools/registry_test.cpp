@@ -11,6 +11,7 @@
 #include "morsel/morse/smoothing/conventional.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/study/comparison.h"
+#include "morsel/tools/study/iteration_levels.h"
 #include "morsel/tools/study/stability.h"
 
 using namespace morsel;
@@ -127,6 +128,19 @@ TEST_CASE("a function of a user's own has a unit and files, and may need the ver
   CHECK(hashed.front().sha256 == tools::sha256_of_file(table));
   CHECK_THROWS_AS(tools::input_files({text}), core::InvalidArgument);
   std::filesystem::remove(table);
+}
+
+TEST_CASE("a method iterates if its traits say so, whatever its keys are called") {
+  tools::Registry registry = tools::Registry::standard();
+  registry.add(tools::MethodEntry{"own", "mine", [](core::ParameterReader& reader) {
+                                    reader.text("iterations", nullptr, "no number");
+                                    return morse::make_conventional(reader);
+                                  }});
+  CHECK_FALSE(registry.traits_of_method("own").iterates);
+  CHECK(registry.traits_of_method("salient").iterates);
+  CHECK_THROWS_WITH(tools::with_iterations("own:iterations=many", 3, registry),
+                    Contains("own has no iterations") && Contains("gaussian, laplacian, salient"));
+  CHECK_THROWS_AS(registry.traits_of_method("none"), core::InvalidArgument);
 }
 
 TEST_CASE("help names every key with its default") {

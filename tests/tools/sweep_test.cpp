@@ -189,7 +189,9 @@ TEST_CASE("the iterates of a method are the results of fewer iterations, bit by 
   // A new method that iterates belongs into the list above.
   for (const tools::MethodEntry& entry : tools::Registry::standard().methods()) {
     const Texts keys = tools::Registry::standard().keys_of_method(std::string(entry.name));
-    CHECK(std::ranges::count(keys, "iterations") == (seen.contains(std::string(entry.name)) ? 1 : 0));
+    const bool iterates = tools::Registry::standard().traits_of_method(entry.name).iterates;
+    CHECK(iterates == seen.contains(entry.name));
+    CHECK(std::ranges::count(keys, core::kIterationsKey) == (iterates ? 1 : 0));
   }
   CHECK_FALSE(tools::Registry::standard()
                   .make_method("salient:classify=saliency")

@@ -197,6 +197,11 @@ std::vector<std::string> Registry::keys_of_method(const std::string& name) const
   return keys_of(find_entry(methods_, name, "method"));
 }
 
+core::MethodTraits Registry::traits_of_method(const std::string& name) const {
+  core::ParameterReader reader = core::ParameterReader::for_help(name);
+  return find_entry(methods_, name, "method").make(reader)->traits();
+}
+
 std::string Registry::describe_function(const std::string& name) const {
   return describe(find_entry(functions_, name, "Morse function"));
 }

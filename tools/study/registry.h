@@ -75,6 +75,9 @@ class Registry {
   std::vector<std::string> keys_of_function(const std::string& name) const;
   std::vector<std::string> keys_of_method(const std::string& name) const;
 
+  /// The traits that a method has with its defaults. Throws InvalidArgument as above.
+  core::MethodTraits traits_of_method(const std::string& name) const;
+
   /// An entry with its keys, defaults and descriptions, as help shows it. Throw InvalidArgument as above.
   std::string describe_function(const std::string& name) const;
   std::string describe_method(const std::string& name) const;
