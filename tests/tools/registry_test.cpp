@@ -12,6 +12,7 @@
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/iteration_levels.h"
+#include "morsel/tools/study/made_points.h"
 #include "morsel/tools/study/stability.h"
 
 using namespace morsel;
@@ -75,6 +76,26 @@ TEST_CASE("unknown names and keys list the valid ones") {
   CHECK_THROWS_AS(tools::Registry::standard().make_function("height+height"), core::InvalidArgument);
 }
 
+TEST_CASE("errors of a specification say whose it is") {
+  const tools::Registry& registry = tools::Registry::standard();
+  CHECK_THROWS_WITH(registry.make_function("height+height"),
+                    Catch::StartsWith("the Morse function \"height+height\" is a chain"));
+  CHECK_THROWS_WITH(registry.make_method(":"), Catch::StartsWith("the method \":\" has an empty name"));
+  tools::PointsRequest points;
+  points.fill = "a+b";
+  CHECK_THROWS_WITH(tools::prepare(points),
+                    Catch::StartsWith("the Morse function that fills up \"a+b\" is a chain"));
+  tools::StabilityRequest request;
+  request.reference = ":";
+  CHECK_THROWS_WITH(tools::prepare(request), Catch::StartsWith("the reference method \":\""));
+  request = {};
+  request.reference_field = ":";
+  CHECK_THROWS_WITH(tools::prepare(request), Catch::StartsWith("the reference Morse function \":\""));
+  request = {};
+  request.fields = {":"};
+  CHECK_THROWS_WITH(tools::prepare(request), Catch::StartsWith("the Morse function \":\""));
+}
+
 TEST_CASE("a user adds functions and methods of their own to a copy") {
   tools::Registry registry = tools::Registry::standard();
   registry.add(tools::MethodEntry{
@@ -122,7 +143,7 @@ TEST_CASE("a function of a user's own has a unit and files, and may need the ver
   std::ofstream(table) << "1\n";
   const std::string text = "own:table=" + core::escape(table.string());
   CHECK(tools::named_files(text, registry) ==
-        std::vector<std::pair<std::string, std::string>>{{"--field own:table", table.string()}});
+        std::vector<std::pair<std::string, std::string>>{{"own:table", table.string()}});
   const std::vector<tools::HashedFile> hashed = tools::input_files({text, "height"}, registry);
   REQUIRE(hashed.size() == 1);
   CHECK(hashed.front().sha256 == tools::sha256_of_file(table));

@@ -97,7 +97,7 @@ TEST_CASE("an invalid variation is refused with its text") {
        {"sigma", "=1", "k=", "k=1,,2", "k=1,1", "k=1..3,2", "k=1..", "k=1..x", "k=1..2..0", "k=1..2..3..4",
         "k=1eps..2edges", "k=-1..1..x2", "k=1..8..x1", "k=1..8..x2eps", "k=0..1..1e-9", "k=1..1e300"})
     CHECK_THROWS_WITH(parse_variation(text),
-                      Contains("--vary \"" + text.substr(0, 12)) && Contains("it is written"));
+                      Contains("the variation \"" + text.substr(0, 12)) && Contains("it is written"));
 }
 
 TEST_CASE("numbers have one unit") {

@@ -56,7 +56,7 @@ int choose(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const PointsPlan plan = prepare(points_request(options));
   RunFiles files = base.files();
-  if (plan.request.fill) files.reads_of_field(*plan.request.fill);
+  if (plan.request.fill) files.reads_of_field(*plan.request.fill, "--fill");
   const bool wants_document = is_document(options.output);
   if (wants_document) {
     files.writes_document("-o", options.output).check();

@@ -11,7 +11,7 @@ std::vector<std::pair<std::string, std::string>> named_files(const std::string& 
   std::vector<std::pair<std::string, std::string>> files;
   const NamedFunction function = registry.make_function(field);
   for (const core::FileParameter& file : function.files)
-    files.emplace_back("--field " + function.name + ":" + file.key, file.path);
+    files.emplace_back(function.name + ":" + file.key, file.path);
   return files;
 }
 

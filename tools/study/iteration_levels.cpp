@@ -104,7 +104,7 @@ class LevelCollector {
 
 std::string with_iterations(const std::string& method, int needed, const Registry& registry) {
   const bool iterates = registry.make_method(method).steps.back().method->traits().iterates;
-  const std::vector<core::Specification> chain = core::parse_chain(method, "--method");
+  const std::vector<core::Specification> chain = core::parse_chain(method, "the method");
   const core::Specification& last = chain.back();
   if (!iterates)
     throw InvalidArgument(last.name + " has no iterations that could be levels; the methods that have: " +

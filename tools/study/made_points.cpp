@@ -73,7 +73,7 @@ PointsPlan prepare(const PointsRequest& request, const Registry& registry) {
     throw core::InvalidArgument("the scale of salience must be above 0, not " +
                                 core::to_string(*request.scale));
   PointsPlan plan{request, std::nullopt};
-  if (request.fill) plan.fill = registry.make_function(*request.fill);
+  if (request.fill) plan.fill = registry.make_function(*request.fill, "the Morse function that fills up");
   return plan;
 }
 

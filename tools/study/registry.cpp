@@ -164,17 +164,17 @@ Registry& Registry::add(MethodEntry entry) {
   return *this;
 }
 
-NamedFunction Registry::make_function(std::string_view specification) const {
-  core::Specification parsed = core::parse_specification(specification, "--field");
+NamedFunction Registry::make_function(std::string_view specification, std::string_view what) const {
+  core::Specification parsed = core::parse_specification(specification, what);
   const FunctionEntry& entry = find_entry(functions_, parsed.name, "Morse function");
   core::ParameterReader reader(std::move(parsed));
   auto function = make_entry(entry, reader);
   return {std::string(specification), entry.name, std::move(function), reader.files(), entry.unit};
 }
 
-MethodChain Registry::make_method(std::string_view specification) const {
+MethodChain Registry::make_method(std::string_view specification, std::string_view what) const {
   MethodChain chain{std::string(specification), "", {}};
-  for (core::Specification& link : core::parse_chain(specification, "--method")) {
+  for (core::Specification& link : core::parse_chain(specification, what)) {
     const MethodEntry& entry = find_entry(methods_, link.name, "method");
     const std::string text = core::to_string(link);
     core::ParameterReader reader(std::move(link));

@@ -67,9 +67,10 @@ class Registry {
   std::span<const MethodEntry> methods() const { return methods_; }
 
   /// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch
-  /// no file.
-  NamedFunction make_function(std::string_view specification) const;
-  MethodChain make_method(std::string_view specification) const;
+  /// no file. `what` names the text in errors.
+  NamedFunction make_function(std::string_view specification,
+                              std::string_view what = "the Morse function") const;
+  MethodChain make_method(std::string_view specification, std::string_view what = "the method") const;
 
   /// The keys that a Morse function or method has. Throw InvalidArgument if there is none of that name.
   std::vector<std::string> keys_of_function(const std::string& name) const;

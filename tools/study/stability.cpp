@@ -229,7 +229,7 @@ std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const Stabilit
 }
 
 MatchingRadius parse_radius(const std::string& text) {
-  constexpr const char* kWhat = "--radius";
+  constexpr const char* kWhat = "the matching radius";
   if (!text.ends_with('%')) return {core::parse_length(text, kWhat), {}};
   return {{}, core::parse_number(text.substr(0, text.size() - 1), kWhat) / 100};
 }
@@ -287,11 +287,13 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
                      request.seed,
                      parse_radius(request.radius),
                      request.points,
-                     registry.make_function(request.reference_field),
-                     registry.make_method(request.reference)};
+                     registry.make_function(request.reference_field, given.reference_field.empty()
+                                                                         ? "the Morse function"
+                                                                         : "the reference Morse function"),
+                     registry.make_method(request.reference, "the reference method")};
   const MatchingRadius& radius = plan.radius;
   if (!(radius.share.value_or(radius.length.value) >= 0))
-    throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
+    throw core::InvalidArgument("the matching radius must be 0 or more, not " + request.radius);
   if (request.target) plan.targets.push_back(request.target);
   for (const std::string& field : request.fields) plan.functions.push_back(registry.make_function(field));
   for (const std::string& method : request.methods) plan.chains.push_back(registry.make_method(method));
@@ -304,7 +306,7 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
   for (const Perturbation& perturbation : plan.perturbations) check(perturbation);
   for (const NamedFunction& function : plan.functions)
     if (!request.subdivide.empty() && function.function->traits().needs_input_vertices)
-      throw core::InvalidArgument(function.name + " has no values for the vertices that --subdivide adds");
+      throw core::InvalidArgument(function.name + " has no values for the vertices that subdivision adds");
   return plan;
 }
 
