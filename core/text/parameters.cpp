@@ -163,6 +163,13 @@ std::string ParameterReader::text(std::string_view key, const char* default_valu
   return text == nullptr ? fallback : unescape(*text);
 }
 
+std::string ParameterReader::file(std::string_view key, const char* default_value,
+                                  std::string_view description) {
+  std::string path = text(key, default_value, description);
+  if (!path.empty()) files_.push_back({std::string(key), path});
+  return path;
+}
+
 std::vector<std::string> ParameterReader::list(std::string_view key, const char* default_value,
                                                std::string_view description) {
   const bool required = default_value == nullptr;

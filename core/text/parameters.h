@@ -29,6 +29,12 @@ struct ParameterInfo {
   std::string description;
 };
 
+/// A file that a key names, to be read besides the mesh's.
+struct FileParameter {
+  std::string key;
+  std::string path;
+};
+
 /// Inclusive or exclusive lower bound and inclusive upper bound of a number.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -56,6 +62,9 @@ class ParameterReader {
                      const std::vector<std::string_view>& choices, std::string_view description);
   /// Free text; a null default makes the key mandatory.
   std::string text(std::string_view key, const char* default_value, std::string_view description);
+  /// The path of a file that is going to be read, as text(); files() then lists it, so that reports hash it
+  /// and no output may overwrite it.
+  std::string file(std::string_view key, const char* default_value, std::string_view description);
   /// Texts separated by "/"; the default is given in the same form, null makes the key mandatory.
   std::vector<std::string> list(std::string_view key, const char* default_value,
                                 std::string_view description);
@@ -67,6 +76,8 @@ class ParameterReader {
 
   const std::string& owner() const { return specification_.name; }
   const std::vector<ParameterInfo>& declared() const { return declared_; }
+  /// The files that file() has returned, but for empty paths.
+  const std::vector<FileParameter>& files() const { return files_; }
 
   /// A reader that returns defaults (and empty text for mandatory keys), to list the declared keys.
   static ParameterReader for_help(std::string name);
@@ -83,6 +94,7 @@ class ParameterReader {
 
   Specification specification_;
   std::vector<ParameterInfo> declared_;
+  std::vector<FileParameter> files_;
   bool for_help_ = false;
   bool are_options_ = false;
 };

@@ -56,12 +56,14 @@ class Salient final : public core::Method {
     if (!salient.reason.empty()) details.emplace_back("exact_because", salient.reason);
     core::MethodResult result = control.result(std::move(parameters), std::move(details));
     result.field = std::move(salient.field);
+    result.sigma = salient.sigma;
     return result;
   }
 
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
     return {.reevaluates_function = retakes(),
+            .iterates = true,
             .iterates_are_results = !options_.return_saliency && options_.accuracy == 0};
   }
 

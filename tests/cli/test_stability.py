@@ -204,7 +204,7 @@ class Refused(Stability):
         self.refuse("--subdivide", "1.5", naming=["1.5", "whole"])
         self.refuse("--trials", "0", naming=["trials"])
         self.refuse("--target", "0", naming=["target"])
-        self.refuse("--radius", "far", naming=["--radius", "far"])
+        self.refuse("--radius", "far", naming=["radius", "far"])
         self.refuse("--radius=-2%", naming=["-2%"])
         self.refuse("--kind", "odd", naming=["odd", "isotropic"])
         self.refuse("--points", "odd", naming=["odd", "extrema"])
@@ -212,7 +212,7 @@ class Refused(Stability):
         self.refuse("--field", "nonsense", naming=["nonsense", "height"])
         self.refuse("--reference", "nonsense", naming=["nonsense"])
         self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2",
-                    naming=["vertex-scalar", "--subdivide"])
+                    naming=["vertex-scalar", "subdivision"])
 
     def test_files(self):
         self.refuse("-o", "s.txt", naming=["s.txt", ".json", ".csv"])

@@ -102,6 +102,20 @@ TEST_CASE("a key that must be given is missed by name") {
   CHECK(help.declared().front().default_value.empty());
 }
 
+TEST_CASE("files that keys name are listed") {
+  ParameterReader given = reader({{"file", "a\\,b.txt"}, {"word", "c.txt"}});
+  CHECK(given.file("file", nullptr, "the values") == "a,b.txt");
+  CHECK(given.file("other", "", "none by default").empty());
+  CHECK(given.text("word", "", "no file") == "c.txt");
+  REQUIRE(given.files().size() == 1);
+  CHECK(given.files().front().key == "file");
+  CHECK(given.files().front().path == "a,b.txt");
+  ParameterReader help = ParameterReader::for_help("salient");
+  help.file("file", nullptr, "the values");
+  CHECK(help.files().empty());
+  CHECK(help.declared().front().key == "file");
+}
+
 TEST_CASE("unknown and doubled keys are refused with the known ones listed") {
   ParameterReader unknown = reader({{"sigma", "8eps"}, {"sgima", "1"}});
   unknown.length("sigma", Length::epsilons(8), core::kPositive, "");

@@ -60,7 +60,9 @@ class Scripted final : public core::Method {
     iteration = 0;
     for (const ScalarField& field : fields_)
       if (!context.on_iteration(++iteration, field)) break;
-    return {fields_[static_cast<std::size_t>(iteration) - 1], {}, {{"stopped_by", std::string("script")}}};
+    core::MethodResult result{fields_[static_cast<std::size_t>(iteration) - 1], {}, {}};
+    result.end = {iteration, "script"};
+    return result;
   }
 
  private:
@@ -378,7 +380,8 @@ TEST_CASE("a method that restarts leaves no levels of its first attempt") {
       if (i > 0) CHECK(levels[i].count(PointStatus::kept) == levels[i].points.total());
     }
   }
-  CHECK_THROWS_AS(by_script(field, method, {2, 5}), core::InvalidArgument);
+  CHECK_THROWS_WITH(by_script(field, method, {2, 5}),
+                    Catch::Contains("iterations (script), so that level 5"));
 }
 
 TEST_CASE("a method's text with the iterations that levels need") {

@@ -315,8 +315,17 @@ TEST_CASE("ticks are round and few") {
   }
   CHECK(tick_text(-20, 20) == "\u221220");
   CHECK(tick_text(0.5, 0.25) == "0.5");
-  CHECK(quantity_of("mean-curvature").unit == "1/length");
-  CHECK(quantity_of("mean-curvature", "saliency").unit.empty());
+  const auto quantity = [](const char* field, const char* method) {
+    const tools::NamedFunction function = tools::Registry::standard().make_function(field);
+    return quantity_of(function.name, function.unit,
+                       tools::Registry::standard().make_method(method).quantity());
+  };
+  CHECK(quantity("mean-curvature", "conventional").words == "mean curvature");
+  CHECK(quantity("mean-curvature", "conventional").unit == "1/length");
+  CHECK(quantity("gaussian-curvature", "salient+tps").unit == "1/length²");
+  CHECK(quantity("shape-index", "salient").unit.empty());
+  CHECK(quantity("mean-curvature", "saliency").words == "saliency of mean curvature");
+  CHECK(quantity("mean-curvature", "saliency").unit.empty());
 }
 
 TEST_CASE("requests are read from text") {

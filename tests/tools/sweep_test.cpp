@@ -97,7 +97,7 @@ TEST_CASE("an invalid variation is refused with its text") {
        {"sigma", "=1", "k=", "k=1,,2", "k=1,1", "k=1..3,2", "k=1..", "k=1..x", "k=1..2..0", "k=1..2..3..4",
         "k=1eps..2edges", "k=-1..1..x2", "k=1..8..x1", "k=1..8..x2eps", "k=0..1..1e-9", "k=1..1e300"})
     CHECK_THROWS_WITH(parse_variation(text),
-                      Contains("--vary \"" + text.substr(0, 12)) && Contains("it is written"));
+                      Contains("the variation \"" + text.substr(0, 12)) && Contains("it is written"));
 }
 
 TEST_CASE("numbers have one unit") {
@@ -194,7 +194,9 @@ TEST_CASE("the iterates of a method are the results of fewer iterations, bit by 
   // A new method that iterates belongs into the list above.
   for (const tools::MethodEntry& entry : tools::Registry::standard().methods()) {
     const Texts keys = tools::Registry::standard().keys_of_method(std::string(entry.name));
-    CHECK(std::ranges::count(keys, "iterations") == (seen.contains(std::string(entry.name)) ? 1 : 0));
+    const bool iterates = tools::Registry::standard().traits_of_method(entry.name).iterates;
+    CHECK(iterates == seen.contains(entry.name));
+    CHECK(std::ranges::count(keys, core::kIterationsKey) == (iterates ? 1 : 0));
   }
   CHECK_FALSE(tools::Registry::standard()
                   .make_method("salient:classify=saliency")

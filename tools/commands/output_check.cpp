@@ -15,8 +15,8 @@ RunFiles& RunFiles::reads(const std::string& option, const std::filesystem::path
   return *this;
 }
 
-RunFiles& RunFiles::reads_of_field(const std::string& specification) {
-  for (const auto& [key, file] : named_files(specification)) add(inputs_, key, file);
+RunFiles& RunFiles::reads_of_field(const std::string& specification, const std::string& option) {
+  for (const auto& [key, file] : named_files(specification)) add(inputs_, option + " " + key, file);
   return *this;
 }
 

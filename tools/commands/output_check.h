@@ -14,8 +14,8 @@ namespace morsel::tools {
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
-  /// The files that keys of a Morse function name.
-  RunFiles& reads_of_field(const std::string& specification);
+  /// The files that keys of a Morse function, given by `option`, name.
+  RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field");
   RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
   RunFiles& writes(const std::string& option, const std::filesystem::path& file);
   RunFiles& writes_document(const std::string& option, const std::filesystem::path& file);

@@ -55,7 +55,7 @@ std::string described(const MadePoints& made, const PointsRequest& request) {
 int choose(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const PointsPlan plan = prepare(points_request(options));
-  if (plan.request.fill) base.reads_of_field(*plan.request.fill);
+  if (plan.request.fill) base.reads_of_field(*plan.request.fill, "--fill");
   const bool wants_document = is_document(options.output);
   if (wants_document)
     base.writes_document("-o", options.output);

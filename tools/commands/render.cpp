@@ -73,9 +73,9 @@ int draw(const Options& options, const Run& run) {
   const morse::CriticalPoints& points = measurement.critical_points;
   const std::string counts = render::counts_line(points.minima, points.saddles, points.maxima);
   const MethodChain& chain = base.plan().chain;
-  render::Subject subject{base.field(), &measurement,
-                          render::quantity_of(base.made().input.name, chain.steps.back().name),
-                          options.caption};
+  render::Subject subject{
+      base.field(), &measurement,
+      render::quantity_of(base.made().input.name, base.made().input.unit, chain.quantity()), options.caption};
   if (subject.caption == "auto") subject.caption = chain.name + "\n" + counts;
   const render::Image image =
       studio.take(studio.view(options.camera.view, options.camera.up, progress), subject, request, progress);

@@ -28,7 +28,7 @@ int measure_stability(const Options& options, const Run& run) {
   RunFiles files;
   files.reads("MESH", options.mesh);
   for (const std::string& field : request.fields) files.reads_of_field(field);
-  if (!request.reference_field.empty()) files.reads_of_field(request.reference_field);
+  if (!request.reference_field.empty()) files.reads_of_field(request.reference_field, "--reference-field");
   write_table(files, options.output).check();
   TableTarget target(options.output);
 

@@ -48,8 +48,8 @@ FieldRun& FieldRun::writes_document(const std::string& option, const std::filesy
   return *this;
 }
 
-FieldRun& FieldRun::reads_of_field(const std::string& specification) {
-  files_.reads_of_field(specification);
+FieldRun& FieldRun::reads_of_field(const std::string& specification, const std::string& option) {
+  files_.reads_of_field(specification, option);
   return *this;
 }
 

@@ -58,7 +58,7 @@ class FieldRun {
   /// Adds a document, which a DocumentTarget opens.
   FieldRun& writes_document(const std::string& option, const std::filesystem::path& path);
   /// Adds the files that keys of another field name.
-  FieldRun& reads_of_field(const std::string& specification);
+  FieldRun& reads_of_field(const std::string& specification, const std::string& option);
   /// To be called when all of them are added. Throws as RunFiles::check(), then as check_writable() for those
   /// of writes().
   void check_files() const;

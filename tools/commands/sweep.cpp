@@ -51,7 +51,7 @@ int sweep(const Options& options, const Run& run) {
   TableTarget target(options.output);
 
   const MeshInput input = read_input(options.mesh, run);
-  const std::vector<HashedFile> files = input_files(fields_of(prepared));
+  const std::vector<HashedFile> files = input_files(fields_of(prepared), prepared.registry);
   std::optional<RowJournal> done;
   if (Journal* journal = target.open_journal(rows_key(input.about, files)))
     done.emplace(*journal, prepared, files);

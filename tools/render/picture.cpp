@@ -48,9 +48,8 @@ void color_surface(Scene& scene, const Subject& subject, Show show, const ValueS
 
 }  // namespace
 
-Subject subject_of(const MethodOutcome& outcome, const std::string& field_name) {
-  return {outcome.field, &outcome.measurement,
-          quantity_of(field_name, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
+Subject subject_of(const MethodOutcome& outcome, const std::string& field_name, const std::string& unit) {
+  return {outcome.field, &outcome.measurement, quantity_of(field_name, unit, outcome.quantity), "",
           outcome.places};
 }
 

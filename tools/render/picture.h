@@ -54,7 +54,7 @@ struct Subject {
 };
 
 /// What a picture of a method shows. `field_name`: of the field before the method. Refers to the outcome.
-Subject subject_of(const MethodOutcome& outcome, const std::string& field_name);
+Subject subject_of(const MethodOutcome& outcome, const std::string& field_name, const std::string& unit);
 
 /// One surface from one side, for any number of pictures. Holds the mesh by value.
 class Studio {

@@ -102,6 +102,8 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
     watcher.finish(result.field);
     outcome.steps.push_back(
         {step.name, std::move(result.parameters), std::move(result.details), std::move(result.iterations)});
+    outcome.steps.back().end = std::move(result.end);
+    outcome.steps.back().sigma = result.sigma;
     if (!search) {
       outcome.field = std::move(result.field);
       continue;

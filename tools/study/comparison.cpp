@@ -6,25 +6,12 @@
 #include "morsel/core/error.h"
 
 namespace morsel::tools {
-namespace {
-
-std::vector<FieldFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
-  std::vector<FieldFile> files;
-  for (const auto& [key, value] : parameters)
-    if (!function.file_key.empty() && key == function.file_key)
-      files.push_back({key, std::get<std::string>(value)});
-  return files;
-}
-
-}  // namespace
-
 FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
                             const core::Progress& progress) {
   const Stopwatch watch;
   core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
-  std::vector<FieldFile> files = files_of(function, result.parameters);
-  return {function.name, std::move(result.field), std::move(result.parameters), watch.seconds(),
-          std::move(files)};
+  return {function.name,   std::move(result.field), std::move(result.parameters),
+          watch.seconds(), function.files,          function.unit};
 }
 
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress) {
@@ -80,7 +67,8 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                                 std::move(made.steps),  std::move(made.field),
                                 std::move(made.target), std::move(measurement),
                                 std::move(origins),     std::move(places),
-                                std::move(matching),    std::move(timings)};
+                                std::move(matching),    std::move(timings),
+                                chain.quantity()};
     for (ComparisonSink* sink : sinks) sink->method(outcome);
   }
 }

@@ -40,15 +40,6 @@ struct StabilityRequest {
 /// reference field.
 StabilityRequest with_defaults(StabilityRequest request);
 
-/// A length or a share of the bounding box's diagonal.
-struct MatchingRadius {
-  core::Length length;
-  std::optional<double> share;  ///< in place of the length
-  double on(const core::TriangleMesh& mesh) const {
-    return share ? *share * mesh.bounding_box().diagonal() : length.on(mesh);
-  }
-};
-
 /// A request whose names and numbers have been looked up.
 struct StabilityPlan {
   std::vector<NamedFunction> functions;
@@ -57,7 +48,7 @@ struct StabilityPlan {
   std::vector<std::optional<std::size_t>> targets;  ///< none: the method's own count
   std::size_t trials = 1;
   std::uint64_t seed = 1;
-  MatchingRadius radius;
+  core::Length radius;
   PointChoice points = PointChoice::all;
   NamedFunction reference_function;
   MethodChain reference;

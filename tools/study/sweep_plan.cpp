@@ -25,8 +25,8 @@ struct Place {
 class Links {
  public:
   Links(const SweepRequest& request, const Registry& registry) {
-    links_ = {core::parse_specification(request.field, "--field")};
-    for (core::Specification& step : core::parse_chain(request.method, "--method"))
+    links_ = {core::parse_specification(request.field, "the Morse function")};
+    for (core::Specification& step : core::parse_chain(request.method, "the method"))
       links_.push_back(std::move(step));
     keys_ = {registry.keys_of_function(links_.front().name)};
     for (std::size_t i = 1; i < links_.size(); ++i) keys_.push_back(registry.keys_of_method(links_[i].name));
@@ -60,7 +60,7 @@ class Links {
 
  private:
   static InvalidArgument refused(const std::string& key, const std::string& why) {
-    return InvalidArgument("--vary cannot vary \"" + key + "\": " + why);
+    return InvalidArgument("the key \"" + key + "\" cannot be varied: " + why);
   }
 
   static std::string names_text(const std::vector<std::string>& names) {
@@ -133,7 +133,7 @@ class Links {
 SweepPlan prepare(const SweepRequest& request, const Registry& registry) {
   if (request.vary.empty())
     throw InvalidArgument(
-        "nothing varies: say what, as in --vary iterations=1..20 or --vary sigma=4eps,8eps,16eps");
+        "nothing varies: give a key and its values, such as iterations=1..20 or sigma=4eps,8eps,16eps");
   const Links links(request, registry);
   SweepPlan plan{{}, {}, registry};
   std::vector<Place> places;
@@ -143,12 +143,12 @@ SweepPlan prepare(const SweepRequest& request, const Registry& registry) {
     const Variation& variation = plan.variations.back();
     Place place = links.place(variation.key);
     if (std::ranges::count(places, place) > 0)
-      throw InvalidArgument("--vary varies \"" + variation.key + "\" twice: give all its values at once");
+      throw InvalidArgument("the key \"" + variation.key + "\" is varied twice: give all its values at once");
     places.push_back(std::move(place));
     count = std::min(count * variation.values.size(), kMostCombinations + 1);
   }
   if (count > kMostCombinations)
-    throw InvalidArgument("--vary makes more than " + std::to_string(kMostCombinations) +
+    throw InvalidArgument("the sweep has more than " + std::to_string(kMostCombinations) +
                           " combinations; sweep in parts");
   std::vector<std::size_t> choices(places.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {
