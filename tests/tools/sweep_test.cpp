@@ -151,7 +151,7 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
   refused({"height", "gaussian", {"gaussian.count=1,2"}},
           "gaussian has no key \"count\"; it has: iterations");
   refused({"height", "gaussian:sigma=3", {"sigma=1,2"}}, "given as 3 in \"gaussian:sigma=3\": leave it out");
-  refused({"height", "gaussian", {"sigma=1,2", "1.sigma=3"}}, "varies \"1.sigma\" twice");
+  refused({"height", "gaussian", {"sigma=1,2", "1.sigma=3"}}, "\"1.sigma\" is varied twice");
   refused({"height", "gaussian", {"sigma=1,-2"}}, "gaussian:sigma");
   refused({"hieght", "gaussian", {"sigma=1"}}, "there is no Morse function \"hieght\"");
   refused({"height", "gausian", {"sigma=1"}}, "there is no method \"gausian\"");
