@@ -140,7 +140,7 @@ TEST_CASE("pairs above 1 % of the range are those of the summary, infinite ones 
   CHECK(last.summary.above_one_percent() == last.large);
   std::istringstream lines(table.text());
   std::string line;
-  for (int skipped = 0; skipped < 3; ++skipped) std::getline(lines, line);
+  for (int number = 0; number < 4; ++number) std::getline(lines, line);  // headline, head, rule, row
   std::istringstream row(line);
   std::vector<std::string> cells(8);
   for (std::string& cell : cells) row >> cell;
