@@ -172,13 +172,14 @@ TEST_CASE("segments have one colour each and their neighbours others") {
     for (const auto& [kind, field] : field_zoo(mesh, 3)) {
       const mscomplex::DiscreteGradient gradient(field);
       const mscomplex::Segmentation segments = mscomplex::segment(field, gradient);
-      for (const Segments which : {Segments::descending, Segments::ascending, Segments::morse_smale}) {
+      for (const mscomplex::SegmentKind which : mscomplex::kSegmentKinds) {
         CAPTURE(name, kind, static_cast<int>(which));
         const RegionColors colors = color_segments(mesh, segments, which);
         REQUIRE(colors.corner.size() == mesh.halfedge_count());
         const auto label = [&, &mesh = mesh](Index h) {
-          return std::pair(which == Segments::descending ? 0 : segments.ascending.vertex[mesh.origin(h)],
-                           which == Segments::ascending ? 0 : segments.descending.triangle[h / 3]);
+          return std::pair(
+              which == mscomplex::SegmentKind::descending ? 0 : segments.ascending.vertex[mesh.origin(h)],
+              which == mscomplex::SegmentKind::ascending ? 0 : segments.descending.triangle[h / 3]);
         };
         std::map<std::pair<Index, Index>, std::uint32_t> of_label;
         bool one_each = true, others = true;

@@ -328,6 +328,16 @@ TEST_CASE("ticks are round and few") {
   CHECK(quantity("mean-curvature", "saliency").unit.empty());
 }
 
+TEST_CASE("what a picture shows is named as the segments are") {
+  CHECK(to_string(Show::field) == "field");
+  CHECK(to_string(Show::plain) == "plain");
+  CHECK(to_string(Show::morse_smale) == "morse-smale");
+  CHECK_FALSE(segments_of(Show::field));
+  CHECK_FALSE(segments_of(Show::plain));
+  CHECK(segments_of(Show::descending) == mscomplex::SegmentKind::descending);
+  CHECK(segments_of(Show::ascending) == mscomplex::SegmentKind::ascending);
+}
+
 TEST_CASE("requests are read from text") {
   CHECK(parse_size("1200x900") == Size{1200, 900});
   for (const char* wrong :

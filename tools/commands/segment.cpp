@@ -84,8 +84,7 @@ void add_segment(Program& program) {
   add_field_options(command, options->mesh, options->request);
   using mscomplex::SegmentKind;
   std::vector<std::pair<std::string, SegmentKind>> kinds;
-  for (const SegmentKind kind : {SegmentKind::descending, SegmentKind::ascending, SegmentKind::morse_smale})
-    kinds.emplace_back(to_string(kind), kind);
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) kinds.emplace_back(to_string(kind), kind);
   command.choice("--by", options->by, std::move(kinds), "descending, ascending or morse-smale")
       .value("KIND")
       .in_detail(

@@ -58,9 +58,9 @@ void HierarchyExport::write_surface(const std::filesystem::path& path, const Lev
     persistence[point.vertex] = level.persistence[i];
   }
   std::vector<VtpArray> links;
-  links.reserve(2 * kCellKinds.size());
-  for (const CellKind kind : kCellKinds) {
-    const std::string name(to_string(kind));
+  links.reserve(2 * mscomplex::kSegmentKinds.size());
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) {
+    const std::string name = key_of(kind);
     const std::vector<Index>& labels = level.cells(kind).triangle;
     links.push_back(linked_cells(name + "_parent", labels, level.cell_links(kind).parents));
     links.push_back(linked_cells(name + "_merges_into", labels, level.cell_links(kind).merges_into));

@@ -133,7 +133,7 @@ class LinkCounter : public HierarchySink {
  public:
   void begin(const HierarchyBasis&) override {}
   void level(const Level& level) override {
-    levels.push_back({level.points.total(), level.cells(CellKind::morse_smale).count,
+    levels.push_back({level.points.total(), level.cells(SegmentKind::morse_smale).count,
                       level.count(PointStatus::kept), level.count(PointStatus::moved),
                       level.count(PointStatus::fresh)});
   }

@@ -1,7 +1,6 @@
 #include "morsel/tools/study/made_segments.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,8 +16,6 @@ using mscomplex::Segmenter;
 using mscomplex::SegmentKind;
 
 namespace {
-
-constexpr std::array<const char*, 3> kNames = {"descending", "ascending", "morse-smale"};  // as SegmentKind
 
 core::Index level_for(const Segmenter& segmenter, const SegmentRequest& request,
                       const core::ScalarField& field) {
@@ -53,8 +50,6 @@ std::string why_more(SegmentKind kind) {
 }
 
 }  // namespace
-
-std::string to_string(SegmentKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
 
 void check(const SegmentRequest& request) {
   if (request.segments && request.persistence)

@@ -21,9 +21,6 @@ struct SegmentRequest {
   std::optional<persistence::Threshold> persistence;
 };
 
-/// "descending", "ascending", "morse-smale": as in the syntax of the command line.
-std::string to_string(mscomplex::SegmentKind kind);
-
 struct MadeSegments {
   mscomplex::PersistenceHierarchy hierarchy;
   mscomplex::Segments segments = {};
