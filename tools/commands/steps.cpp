@@ -30,7 +30,7 @@ void tell_target(const MadeField& made, Console& console) {
 }
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
-    : request_(request), run_(run), plan_(prepare(request)), file_{mesh, {}} {
+    : run_(run), plan_(prepare(request)), file_{mesh, {}} {
   files_.reads("MESH", mesh).reads_of_field(request.field);
 }
 

@@ -84,7 +84,6 @@ class FieldRun {
   Timings timings(const Timings& more) const;
 
  private:
-  const FieldRequest& request_;
   const Run& run_;
   FieldPlan plan_;
   HashedFile file_;
