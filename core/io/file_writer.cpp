@@ -45,7 +45,7 @@ fs::path followed(fs::path path) {
 }  // namespace
 
 struct FileWriter::Output {
-  Output(const fs::path& target, Sync sync);
+  Output(const FileTarget& file_target, Sync sync);
   ~Output() {
     if (device >= 0) ::close(device);
     temporary.discard();
@@ -88,6 +88,7 @@ struct FileWriter::Output {
   };
 
   fs::path shown;  // as the caller named it
+  std::function<void(int)> before_appearing;
   TemporaryFile temporary;
   int device = -1;   // written to instead, if there is one
   MadeFolders made;  // removed without commit()
@@ -98,7 +99,9 @@ struct FileWriter::Output {
   std::ostream stream{&stream_buffer};
 };
 
-FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), buffer(kBufferSize) {
+FileWriter::Output::Output(const FileTarget& file_target, Sync sync)
+    : shown(file_target.path), before_appearing(file_target.before_appearing), buffer(kBufferSize) {
+  const fs::path& target = shown;
   if (!target.has_filename()) fail(shown, "that is not the name of a file");
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -141,6 +144,7 @@ void FileWriter::Output::write_out(const char* data, std::size_t size) {
 void FileWriter::Output::commit() {
   if (file() < 0) return;
   flush();
+  if (device < 0 && before_appearing) before_appearing(temporary.descriptor());
   int error = 0;
   if (device < 0)
     error = temporary.publish(synced);
@@ -150,7 +154,8 @@ void FileWriter::Output::commit() {
   made.keep();
 }
 
-FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}
+FileWriter::FileWriter(const FileTarget& target, Sync sync)
+    : output_(std::make_unique<Output>(target, sync)) {}
 
 FileWriter::~FileWriter() = default;
 
@@ -168,8 +173,8 @@ std::ostream& FileWriter::stream() { return output_->stream; }
 
 void FileWriter::commit() { output_->commit(); }
 
-void write_file(const fs::path& path, std::string_view contents, Sync sync) {
-  FileWriter writer(path, sync);
+void write_file(const FileTarget& target, std::string_view contents, Sync sync) {
+  FileWriter writer(target, sync);
   writer.write(contents);
   writer.commit();
 }
