@@ -69,6 +69,7 @@ struct FileWriter::Output {
   void flush() { write_out(buffer.data(), std::exchange(used, 0)); }
   void write_out(const char* data, std::size_t size);
   void commit();
+  int publish();
   void open_temporary(const fs::path& target);
   int file() const { return device >= 0 ? device : temporary.descriptor(); }
 
@@ -91,6 +92,7 @@ struct FileWriter::Output {
   std::function<void(int)> before_appearing;
   TemporaryFile temporary;
   int device = -1;   // written to instead, if there is one
+  fs::path folder;   // of the target
   MadeFolders made;  // removed without commit()
   bool synced = false;
   std::vector<char> buffer;
@@ -122,8 +124,14 @@ FileWriter::Output::Output(const FileTarget& file_target, Sync sync)
 }
 
 void FileWriter::Output::open_temporary(const fs::path& target) {
-  static_cast<void>(made.make(target.parent_path()));  // if this fails, open() reports the reason
-  if (const int error = temporary.open(target); error != 0) {
+  constexpr int kTries = 3;  // another run may remove the folder that it made, too
+  folder = target.parent_path();
+  int error = ENOENT;
+  for (int i = 0; i < kTries && error == ENOENT; ++i) {
+    static_cast<void>(made.make(folder));  // if this fails, open() reports the reason
+    error = temporary.open(target);
+  }
+  if (error != 0) {
     made.remove();
     fail(shown, error);
   }
@@ -141,13 +149,20 @@ void FileWriter::Output::write_out(const char* data, std::size_t size) {
   }
 }
 
+/// A file without a name does not keep its folder: another run that made the folder may have removed it.
+int FileWriter::Output::publish() {
+  const int error = temporary.publish(synced);
+  if (error != ENOENT || made.make(folder)) return error;
+  return temporary.publish(synced);
+}
+
 void FileWriter::Output::commit() {
   if (file() < 0) return;
   flush();
   if (device < 0 && before_appearing) before_appearing(temporary.descriptor());
   int error = 0;
   if (device < 0)
-    error = temporary.publish(synced);
+    error = publish();
   else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
     error = errno;
   if (error != 0) fail(shown, error);
