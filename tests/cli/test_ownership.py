@@ -466,6 +466,16 @@ class Folders(OwnershipTest):
                 self.morsel(*command, code=4)
                 self.assertEqual((self.folder / "d" / removed).read_text(), "the only copy")
 
+    def test_a_run_that_fails_leaves_no_journal_and_no_folder(self):
+        self.file("bad.off", "junk")
+        for output in ("a/../b/r.json", "c/./d/r.json"):
+            self.refused("compare", "bad.off", *QUICK, "-o", output, code=3)
+        words = ("bash", "-c", 'ulimit -f 0; exec "$@"', "-", PROGRAM, "sweep", "m.off", "--field", "height",
+                 "--vary", "iterations=1..3", "-o", "s.json")
+        failed = subprocess.run(words, cwd=self.folder, check=False, capture_output=True)
+        self.assertEqual(failed.returncode, 4, failed.stderr)
+        self.assertFalse((self.folder / "s.json.journal").exists())
+
     def test_a_copy_of_a_folder_is_filled_again(self):
         command = ("compare", "m.off", *QUICK, *SMALL, "--figures")
         self.morsel(*command, "d")

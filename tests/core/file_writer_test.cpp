@@ -160,6 +160,11 @@ TEST_CASE("paths at which no file can be written are refused with a reason") {
   CHECK_THROWS_WITH(FileWriter(scratch.path()), Catch::Contains("Is a directory"));
   CHECK_THROWS_AS(FileWriter(""), WriteFailed);
   CHECK_THROWS_AS(FileWriter(scratch.path() / ""), WriteFailed);
+  for (const char* name : {"x/../b/a.txt", "x/./d/a.txt", "x/y/../../x/z/a.txt"}) {  // bug: x stayed
+    { FileWriter writer(scratch / name); }
+    CHECK_FALSE(fs::exists(scratch / "x"));
+    CHECK_FALSE(fs::exists(scratch / "b"));
+  }
   core::write_file(scratch / "file", "");
   CHECK_THROWS_WITH(FileWriter(scratch / "file" / "a.txt"), Catch::Contains("Not a directory"));
   if (::geteuid() != 0) {
