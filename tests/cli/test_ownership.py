@@ -476,6 +476,11 @@ class Folders(OwnershipTest):
         self.assertEqual(failed.returncode, 4, failed.stderr)
         self.assertFalse((self.folder / "s.json.journal").exists())
 
+    def test_a_long_chain_has_figures_and_exports(self):
+        """The names of its files were too long, which was found after the work and told otherwise."""
+        self.morsel("compare", "m.off", "--method", "+".join(["conventional"] * 41), *SMALL, "--figures", "f",
+                    "--export", "e")
+
     def test_a_copy_of_a_folder_is_filled_again(self):
         command = ("compare", "m.off", *QUICK, *SMALL, "--figures")
         self.morsel(*command, "d")

@@ -16,6 +16,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/results/result_folder.h"
 #include "support/scratch.h"
 
@@ -234,6 +235,16 @@ TEST_CASE("unlisted files are neither replaced nor removed", "[results]") {
   // A removed file is no longer listed.
   scratch.file("out/mine/a.txt", "theirs");
   CHECK_THROWS_AS(folder.claim("mine/a.txt"), core::WriteFailed);
+}
+
+TEST_CASE("bug: a name that is too long was said to be that of something else", "[results]") {
+  const test::Scratch scratch;
+  ResultFolder folder(scratch / "out");
+  CHECK(has(said<core::WriteFailed>([&] { folder.claim(std::string(256, 'a')); }), "File name too long"));
+  FileNames names;
+  CHECK(names.next(std::string(200, 'a')) == std::string(200, 'a'));
+  CHECK(names.next(std::string(300, 'a')) == std::string(200, 'a') + "-2");
+  CHECK(names.next(std::string(199, 'b') + "\u00e9") == std::string(199, 'b'));
 }
 
 TEST_CASE("a listed file that has become a link is not followed", "[results]") {

@@ -187,7 +187,8 @@ std::optional<FileIdentity> ResultFolder::made_at(const fs::path& file) const {
   if (!folder.is_open()) return std::nullopt;
   const std::optional<FileIdentity> there = identity_of(folder.number(), file.filename());
   if (!there && errno == ENOENT) return std::nullopt;
-  if (!there || !there->is_regular || !list_->has(file.native(), *there))
+  if (!there) fail_to_write(place, errno);
+  if (!there->is_regular || !list_->has(file.native(), *there))
     throw core::WriteFailed(
         "cannot write " + place.string() +
         ": something is there that morsel did not make; move it away or choose another folder");
