@@ -429,6 +429,21 @@ TEST_CASE("work folders belong to their process and are removed with it", "[resu
   CHECK(test::contents(scratch / "kept/a.txt") == "theirs");
 }
 
+TEST_CASE("bug: a folder of results that was removed was made again without its list", "[results]") {
+  const test::Scratch scratch;
+  for (const bool has_other : {false, true}) {
+    ResultFolder folder(scratch / "out");
+    {
+      const ResultFolder::Work work(folder, "work");
+      fs::remove_all(scratch / "out");
+      core::write_file(work.path() / "0/report.json", "late");
+      if (has_other) scratch.file("out/thesis.txt", "theirs");
+    }
+    CHECK_FALSE(fs::exists(scratch / "out/work"));
+    CHECK(fs::exists(scratch / "out") == has_other);
+  }
+}
+
 TEST_CASE("work folders of a killed run are removed, and nothing else", "[results]") {
   const test::Scratch scratch;
   { const ResultFolder made(scratch / "out"); }

@@ -285,6 +285,7 @@ ResultFolder::Work::Work(ResultFolder& folder, const fs::path& around) : folder_
 }
 
 ResultFolder::Work::~Work() {
+  folder_.remove_remade(relative_);
   constexpr int kTries = 2;  // another thread may hold descriptors for a moment
   for (int i = 0; i < kTries; ++i) {
     try {
@@ -292,6 +293,23 @@ ResultFolder::Work::~Work() {
       if (folder_.remove_listed_work(relative_.parent_path(), folder_entry(relative_))) return;
     } catch (const std::exception&) {  // the next run removes it
     }
+  }
+}
+
+/// If the user has removed the folder of results, a process that was still writing into a work folder has
+/// made it again, without a list: what the user removed is not left there.
+void ResultFolder::remove_remade(const fs::path& work) noexcept {
+  struct stat status {};
+  if (::fstat(root_.number(), &status) != 0 || status.st_nlink > 0) return;
+  try {
+    const Descriptor again(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!again.is_open()) return;
+    const fs::path around = work.parent_path();
+    const Descriptor outer = open_below(again.number(), around, Missing::tell, path_);
+    if (!outer.is_open() || !remove_tree(outer.number(), work.filename())) return;
+    ::unlinkat(again.number(), around.c_str(), AT_REMOVEDIR);  // unless something else is in it
+    ::rmdir(path_.c_str());
+  } catch (const std::exception&) {  // it is a folder of the user's now
   }
 }
 

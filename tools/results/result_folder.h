@@ -105,6 +105,7 @@ class ResultFolder {
   /// The file in a place if the program made it, none if nothing is there. Throws as claim().
   std::optional<FileIdentity> made_at(const std::filesystem::path& file) const;
   void list(const std::filesystem::path& file, const FileIdentity& made);
+  void remove_remade(const std::filesystem::path& work) noexcept;
   bool is_abandoned(const std::filesystem::path& work) const;
   bool remove_listed_work(const std::filesystem::path& around, const std::string& entry);
 
