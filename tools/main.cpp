@@ -20,6 +20,7 @@
 #include "morsel/tools/commands/help.h"
 #include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/signals.h"
+#include "morsel/tools/commands/standard_streams.h"
 #include "morsel/tools/commands/threads.h"
 #include "morsel/tools/formats/version.h"
 
@@ -129,6 +130,7 @@ int run(std::vector<std::string> words, std::stop_token stop) {
 int main(int argc, char** argv) {
   begin_main();
   try {
+    occupy_standard_descriptors();
     const SignalWatch watch;
     return run({argv + std::min(argc, 1), argv + argc}, watch.token());
   } catch (...) {
