@@ -10,6 +10,7 @@ std::vector<std::pair<std::string, std::string>> named_files(const std::string& 
                                                              const Registry& registry) {
   std::vector<std::pair<std::string, std::string>> files;
   const NamedFunction function = registry.make_function(field);
+  files.reserve(function.files.size());
   for (const core::FileParameter& file : function.files)
     files.emplace_back(function.name + ":" + file.key, file.path);
   return files;
