@@ -36,8 +36,7 @@ bool take(std::string_view& text, Int& number, bool is_first = false) {
 }  // namespace
 
 bool FileIdentity::is_that_of(const FileIdentity& other) const {
-  return (inode == other.inode && made == other.made) ||
-         (bytes == other.bytes && changed == other.changed);
+  return (inode == other.inode && made == other.made) || (bytes == other.bytes && changed == other.changed);
 }
 
 std::string FileIdentity::text() const {
