@@ -309,6 +309,25 @@ class Writing(ProgramTest):
                 self.assertIn(f'morsel: {said}, not to "x.jpg"\n', self.morsel(*words, code=2).stderr)
         self.assertEqual(os.listdir(self.folder), [self.mesh.name])
 
+    def test_a_document_does_not_replace_a_mesh(self):
+        """`morsel compare a.off -o b.off` once replaced the second scan by a report."""
+        meshes = [self.file(f"scan{ending}", "the only copy") for ending in (".off", ".OBJ", ".ply", ".stl")]
+        for command, (words, options) in ON_MESH.items():
+            if command in ("field", "points", "render"):
+                continue  # of which a mesh is a format, or that name theirs
+            for option in options.keys() & {"-o", "--html", "--json"}:
+                if option == "-o" and command in ("segment", "cut", "quads"):
+                    continue
+                for mesh in meshes:
+                    required = () if option == "-o" else ("-o", f"free{options['-o']}")
+                    with self.subTest(command=command, option=option, mesh=mesh.name):
+                        result = self.morsel(*(word.format(self.mesh) for word in words), *required, option,
+                                             mesh.name, code=2)
+                        self.assertIn(mesh.name, result.stderr)
+                        self.assertEqual(mesh.read_text(), "the only copy")
+        self.assertEqual(sorted(os.listdir(self.folder)),
+                         sorted([self.mesh.name, *(mesh.name for mesh in meshes)]))
+
     def test_outputs_are_tried_before_the_mesh_is_read(self):
         self.file("taken", "")
         for command, (words, options) in ON_MESH.items():

@@ -169,7 +169,7 @@ class Outputs {
   static RunFiles checked_files(const Options& options) {
     RunFiles files;
     files.reads("MESH", options.mesh).reads_of_field(options.request.field);
-    files.writes_document("-o", options.report).writes("--html", options.page);
+    files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
     if (!options.thumbnails.empty())
       for (const char* which : {"first", "last"})
         files.writes("--thumbnails", render::thumbnail_path(options.thumbnails, which));

@@ -1,6 +1,7 @@
 #include "morsel/tools/commands/output_check.h"
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/results/file_list.h"
 
@@ -31,7 +32,15 @@ RunFiles& RunFiles::writes(const std::string& option, const std::filesystem::pat
 }
 
 RunFiles& RunFiles::writes_document(const std::string& option, const std::filesystem::path& file) {
-  return file == "-" ? *this : writes(option, file);
+  return file == "-" ? *this : writes_no_mesh(option, file);
+}
+
+RunFiles& RunFiles::writes_no_mesh(const std::string& option, const std::filesystem::path& file) {
+  if (core::has_mesh_extension(file))
+    throw core::InvalidArgument("the output " + option + " " + file.string() +
+                                " is no mesh and is not written to " + core::mesh_extensions() +
+                                "; give another name");
+  return writes(option, file);
 }
 
 RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path& folder) {

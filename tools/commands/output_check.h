@@ -18,6 +18,10 @@ class RunFiles {
   RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field");
   RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
   RunFiles& writes(const std::string& option, const std::filesystem::path& file);
+  /// A file of a format that is no mesh's. Throws InvalidArgument if it is named as a mesh: it could replace
+  /// one that was meant to be read.
+  RunFiles& writes_no_mesh(const std::string& option, const std::filesystem::path& file);
+  /// The same for a document.
   RunFiles& writes_document(const std::string& option, const std::filesystem::path& file);
   /// A folder of results (result_folder.h).
   RunFiles& fills(const std::string& option, const std::filesystem::path& folder);

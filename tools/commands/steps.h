@@ -55,7 +55,7 @@ class FieldRun {
   /// `check_path`.
   FieldRun& writes(const std::string& option, const std::filesystem::path& path,
                    CheckPath check_path = nullptr);
-  /// Adds a document, which a DocumentTarget opens.
+  /// Adds a document, which a DocumentTarget opens. Throws InvalidArgument if it is named as a mesh.
   FieldRun& writes_document(const std::string& option, const std::filesystem::path& path);
   /// Adds the files that keys of another field name.
   FieldRun& reads_of_field(const std::string& specification, const std::string& option);
