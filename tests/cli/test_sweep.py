@@ -114,7 +114,8 @@ class Files(Sweep):
             self.morsel("sweep", SMALL, *GRID, "--threads", threads, "-o", "s.csv")
             tables.append([{key: value for key, value in row.items() if key != "seconds"}
                            for row in self.table("s.csv")])
-            plots.append({path.name: path.read_bytes() for path in (self.folder / "plots").iterdir()})
+            plots.append({path.name: path.read_bytes() for path in (self.folder / "plots").glob("[!.]*")})
+            self.assertTrue(plots[-1])
         for each in (documents, tables, plots):
             self.assertEqual(each[0], each[1])
             self.assertEqual(each[0], each[2])

@@ -36,10 +36,7 @@ RunFiles& RunFiles::writes_document(const std::string& option, const std::filesy
 }
 
 RunFiles& RunFiles::writes_no_mesh(const std::string& option, const std::filesystem::path& file) {
-  if (core::has_mesh_extension(file))
-    throw core::InvalidArgument("the output " + option + " " + file.string() +
-                                " is no mesh and is not written to " + core::mesh_extensions() +
-                                "; give another name");
+  add(no_meshes_, option, file);
   return writes(option, file);
 }
 
@@ -72,6 +69,10 @@ void RunFiles::check() const {
         throw core::InvalidArgument(
             "the folder of results " + folder.text() + " and " + input.text() +
             ", which is read, are one or lie in one another; choose a folder elsewhere");
+  for (const Named& output : no_meshes_)
+    if (core::has_mesh_extension(output.path))
+      throw core::InvalidArgument("the output " + output.text() + " is no mesh and is not written to " +
+                                  core::mesh_extensions() + "; give another name");
 }
 
 std::vector<std::filesystem::path> RunFiles::outputs() const {

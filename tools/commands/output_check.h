@@ -18,8 +18,7 @@ class RunFiles {
   RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field");
   RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
   RunFiles& writes(const std::string& option, const std::filesystem::path& file);
-  /// A file of a format that is no mesh's. Throws InvalidArgument if it is named as a mesh: it could replace
-  /// one that was meant to be read.
+  /// A file of a format that is no mesh's: named as a mesh, it could replace one that was meant to be read.
   RunFiles& writes_no_mesh(const std::string& option, const std::filesystem::path& file);
   /// The same for a document.
   RunFiles& writes_document(const std::string& option, const std::filesystem::path& file);
@@ -27,9 +26,9 @@ class RunFiles {
   RunFiles& fills(const std::string& option, const std::filesystem::path& folder);
 
   /// Throws InvalidArgument where an output is an input, or another output, by identity of the file
-  /// (file_place.h); and where a folder that is read and one that is filled lie in one another. Devices and
-  /// pipes may be named any number of times; two options may fill one folder, and an output file may lie in
-  /// it.
+  /// (file_place.h); where a folder that is read and one that is filled lie in one another; and where the
+  /// name of an output is that of a mesh but its format is not. Devices and pipes may be named any number of
+  /// times; two options may fill one folder, and an output file may lie in it.
   void check() const;
 
   /// Those of writes().
@@ -44,7 +43,7 @@ class RunFiles {
   };
   static void add(std::vector<Named>& list, const std::string& option, const std::filesystem::path& path);
 
-  std::vector<Named> inputs_, input_folders_, outputs_, folders_;
+  std::vector<Named> inputs_, input_folders_, outputs_, folders_, no_meshes_;
 };
 
 }  // namespace morsel::tools
