@@ -149,7 +149,9 @@ void ResultFolder::remove_if_unused() noexcept {
   try {
     if (list_ && list_->is_new()) {
       list_->lock({});
-      if (!list_->entries().empty() || ::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
+      // What was made but is not listed yet would make the folder look like somebody else's.
+      if (!list_->entries().empty() || first_entry(root_.number(), path_)) return;
+      if (::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
     }
     made_.remove();
   } catch (const std::exception&) {  // an empty list is harmless
