@@ -60,6 +60,7 @@ class Salient final : public core::Method {
     if (!salient.reason.empty()) details.emplace_back("exact_because", salient.reason);
     core::MethodResult result = control.result(std::move(parameters), std::move(details));
     result.field = std::move(salient.field);
+    result.sigma = salient.sigma;
     result.warnings = empty_ball_warnings(given.mesh(), options_.support * salient.sigma);
     return result;
   }
@@ -67,6 +68,7 @@ class Salient final : public core::Method {
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
     return {.reevaluates_function = retakes(),
+            .iterates = true,
             .iterates_are_results = !options_.return_saliency && options_.accuracy == 0,
             .returns_other = options_.return_saliency};
   }

@@ -3,6 +3,7 @@
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/study/summary.h"
 
 namespace morsel::tools {
 namespace {
@@ -39,7 +40,7 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
                    grouped(m.critical_points.saddles), grouped(m.critical_points.saddle_multiplicity),
                    grouped(m.critical_points.maxima), grouped(m.critical_points.total()),
                    grouped(m.diagram.pairs.size()),
-                   grouped(m.diagram.count_above(0.01 * outcome.input_extent) + m.diagram.cap_pairs().size()),
+                   grouped(summary_of(m.diagram, outcome.input_extent).above_one_percent()),
                    grouped(m.complex.arc_count()), grouped(m.cells), grouped(matching.kept.size()),
                    grouped(matching.moved.size()), grouped(matching.added), core::to_decimals(seconds, 2)});
   if (rows_.size() == 2) foot_ = foot(outcome);
