@@ -45,7 +45,7 @@ struct DiffusionOptions {
   bool implicit = false;
   EdgeWeights weights = EdgeWeights::uniform;
   double lambda = 0.5;
-  core::Length spread = core::Length::epsilons(2);
+  core::Length spread = core::Length::root_areas(0.006);
 };
 
 class LaplacianSmoothing final : public core::Method {
@@ -87,7 +87,7 @@ class LaplacianSmoothing final : public core::Method {
     return control.result(std::move(parameters));
   }
 
-  core::MethodTraits traits() const override { return {.iterates_are_results = true}; }
+  core::MethodTraits traits() const override { return {.iterates = true, .iterates_are_results = true}; }
 
  private:
   DiffusionOptions options_;

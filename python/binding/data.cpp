@@ -10,7 +10,7 @@ namespace morsel::python {
 FieldHandle given_field(const MeshHandle& mesh, core::ScalarField field, const std::string& name,
                         bool is_request) {
   const auto outcome = std::make_shared<const tools::FieldOutcome>(
-      tools::FieldOutcome{"vertex-scalar", std::move(field), {{"property", name}}, 0, {}, {}});
+      tools::FieldOutcome{"vertex-scalar", std::move(field), {{"property", name}}});
   FieldStory story;
   story.name = name;
   story.is_request = is_request;

@@ -19,7 +19,12 @@
 namespace morsel::python {
 namespace {
 
-using Default = std::variant<bool, std::int64_t, double, core::Length, std::string>;
+/// The path of a file that the function reads.
+struct Path {
+  std::string text;
+};
+
+using Default = std::variant<bool, std::int64_t, double, core::Length, Path, std::string>;
 
 struct OwnParameter {
   std::string key;
@@ -39,6 +44,8 @@ OwnParameter read_parameter(const py::tuple& given) {
     parameter.default_value = value.cast<double>();
   else if (kind == "length")
     parameter.default_value = core::parse_length(value.cast<std::string>(), parameter.key);
+  else if (kind == "file")
+    parameter.default_value = Path{value.cast<std::string>()};
   else
     parameter.default_value = value.cast<std::string>();
   return parameter;
@@ -66,6 +73,8 @@ Values read_values(core::ParameterReader& reader, const std::vector<OwnParameter
         return reader.number(p.key, fallback, {}, p.description);
       else if constexpr (std::is_same_v<T, core::Length>)
         return reader.length(p.key, fallback, {}, p.description);
+      else if constexpr (std::is_same_v<T, Path>)
+        return Path{reader.file(p.key, fallback.text.c_str(), p.description)};
       else
         return reader.text(p.key, fallback.c_str(), p.description);
     };
@@ -81,6 +90,8 @@ core::Parameters resolved(const Values& values, const core::TriangleMesh& mesh) 
                                  [&](const auto& held) -> core::ParameterValue {
                                    if constexpr (std::is_same_v<std::decay_t<decltype(held)>, core::Length>)
                                      return held.on(mesh);
+                                   else if constexpr (std::is_same_v<std::decay_t<decltype(held)>, Path>)
+                                     return held.text;
                                    else
                                      return held;
                                  },

@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -50,11 +51,21 @@ py::dict timings(const tools::Timings& all) {
   return result;
 }
 
+namespace {
+
+py::object end(const std::optional<core::IterationEnd>& reached) {
+  if (!reached) return py::none();
+  return py::make_tuple(reached->iterations_run, text(reached->stopped_by));
+}
+
+}  // namespace
+
 py::list steps(const std::vector<tools::StepOutcome>& all) {
   py::list list;
   for (const tools::StepOutcome& step : all)
     list.append(py::make_tuple(text(step.name), parameters(step.parameters), parameters(step.details),
-                               taken(step.iterations), texts(step.warnings)));
+                               taken(step.iterations), texts(step.warnings), end(step.end),
+                               py::cast(step.sigma)));
   return list;
 }
 

@@ -30,7 +30,8 @@ py::list defects(const std::vector<core::Defect>& all);
 /// A dict: seconds by step.
 py::dict timings(const tools::Timings& all);
 
-/// (name, parameters, details, iterations, warnings) of each; iterations are a structured array.
+/// (name, parameters, details, iterations, warnings, end, sigma) of each; iterations are a structured array,
+/// the end (iterations, what stopped them) or None.
 py::list steps(const std::vector<tools::StepOutcome>& all);
 
 /// How a wanted number was reached, as a dict; None if there was none.

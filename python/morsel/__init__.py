@@ -19,12 +19,12 @@ from ._comparison import Comparison, Difference, Row, check, compare
 from ._complex import ARC_KINDS, NODE_KINDS, Labels, MorseSmaleComplex, Segmentation, morse_smale
 from ._errors import (
     ArgumentError, Cancelled, Defect, Error, InputError, MeshError, MorselWarning, WriteError)
-from ._field import Field, Step, Target, field
+from ._field import End, Field, Step, Target, field
 from ._hierarchy import Level, Levels, Links, PersistenceHierarchy, hierarchy
 from ._library import version as __version__
 from ._mesh import Mesh, defects, read
 from ._molecules import Molecule, molecule
-from ._own import Length, function, functions, method, methods, presets
+from ._own import File, Length, function, functions, method, methods, presets
 from ._persistence import MINIMUM_SADDLE, SADDLE_CAP, SADDLE_MAXIMUM, Diagram, persistence
 from ._points import MAXIMUM, MINIMUM, SADDLE, Counts, CriticalPoints, critical_points
 from ._segments import Segments, segment
@@ -36,8 +36,8 @@ from ._threads import thread_count, threads
 
 __all__ = [
     "ARC_KINDS", "ArgumentError", "Cancelled", "Comparison", "Counts", "CriticalPoints", "Cut",
-    "Defect", "Diagram", "Difference", "Error", "Estimate", "Field", "InputError", "Labels", "Length",
-    "Level", "Levels", "Links", "MAXIMUM", "MINIMUM", "MINIMUM_SADDLE", "Mesh", "MeshError", "Molecule",
+    "Defect", "Diagram", "Difference", "End", "Error", "Estimate", "Field", "File", "InputError", "Labels",
+    "Length", "Level", "Levels", "Links", "MAXIMUM", "MINIMUM", "MINIMUM_SADDLE", "Mesh", "MeshError", "Molecule",
     "MorseSmaleComplex", "MorselWarning", "NODE_KINDS", "PersistenceHierarchy", "Points", "Quads",
     "Row", "SADDLE", "SADDLE_CAP", "SADDLE_MAXIMUM", "Segmentation", "Segments", "Stability", "Step",
     "Sweep", "Target", "WriteError", "check", "compare", "critical_points", "cut", "defects", "field",

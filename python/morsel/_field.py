@@ -17,6 +17,14 @@ from ._registry import registry
 OnIteration = Callable[[int, "Field"], Optional[bool]]
 
 
+class End(NamedTuple):
+    """How many iterations a method ran, and what ended them."""
+
+    iterations_run: int
+    stopped_by: str
+    """"iterations", the key of another condition ("change"), or "caller": what on_iteration returned."""
+
+
 class Step(NamedTuple):
     """What a method did."""
 
@@ -29,6 +37,12 @@ class Step(NamedTuple):
     """If they were counted, a record of each, from the input on: iteration, minima, saddles,
     saddle_multiplicity, maxima, change."""
     warnings: list[str]
+    """What the method could not do here."""
+    end: End | None
+    """Of a method that iterates."""
+    sigma: float | None
+    """The standard deviation of the weight of distances, in the mesh's unit, of a method that averages by
+    one."""
 
 
 class Target(NamedTuple):
@@ -161,7 +175,8 @@ class Field:
     @property
     def steps(self) -> list[Step]:
         """The methods that were applied, with their resolved parameters."""
-        return [Step(*step) for step in self._data.steps]
+        return [Step(*step[:5], None if step[5] is None else End(*step[5]), step[6])
+                for step in self._data.steps]
 
     @property
     def target(self) -> Target | None:
@@ -177,7 +192,7 @@ class Field:
     @property
     def warnings(self) -> list[str]:
         """What the values do not mean on this mesh, and what methods could not do."""
-        return self._data.warnings + [text for step in self._data.steps for text in step[4]]
+        return self._data.warnings + [text for step in self.steps for text in step.warnings]
 
     def apply(self, methods: str, *, target: int | None = None, count_iterations: bool = False,
               on_iteration: OnIteration | None = None, progress: Progress = None) -> Field:

@@ -14,7 +14,8 @@ Report = Callable[[str, float], bool | None] | None
 Doubles = NDArray[np.float64]
 Indices = NDArray[np.uint32]
 Records = NDArray[np.void]
-Steps = list[tuple[str, dict[str, Any], dict[str, Any], Records, list[str]]]
+Steps = list[tuple[str, dict[str, Any], dict[str, Any], Records, list[str], Optional[tuple[int, str]],
+                   Optional[float]]]
 Rows = list[tuple[str, str, str, str, list[str]]]
 Defects = list[tuple[str, int, list[int], str]]
 

@@ -18,11 +18,18 @@ class Length(str):
     """A length as the default of a parameter: Length("8eps"). The function gets it in the mesh's unit."""
 
 
+class File(str):
+    """A path as the default of a parameter: File(""). Reports hash the file, and no output may overwrite
+    it."""
+
+
 def _kind(key: str, default: Any) -> tuple[str, Any]:
     if isinstance(default, (bool, np.bool_)):
         return "flag", bool(default)
     if isinstance(default, Length):
         return "length", str(default)
+    if isinstance(default, File):
+        return "file", str(default)
     if isinstance(default, (int, np.integer)):
         return "count", int(default)
     if isinstance(default, (float, np.floating)):
@@ -64,7 +71,7 @@ def function(name: str, *, descriptions: dict[str, str] | None = None,
     The function gets a Mesh and the parameters as keywords, and returns an array (n,) of finite values, or
     a Field. It becomes a function like ms.height, and has a name for compare(), sweep(), stability() and
     the like. Adding one of the same name replaces it. The types of the parameters are those of their
-    defaults: numbers, True or False, texts, ms.Length("8eps").
+    defaults: numbers, True or False, texts, ms.Length("8eps"), ms.File("") for a file that it reads.
 
     >>> @ms.function("radius", power=1.0)
     ... def radius(mesh, power):

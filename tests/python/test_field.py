@@ -77,6 +77,8 @@ def test_methods_step_by_step_are_the_chain(curvature):
     assert [step.name for step in steps.steps] == ["salient", "tps"]
     assert steps.steps[0].parameters["sigma"] == pytest.approx(curvature.mesh.length("8eps"))
     assert steps.steps[0].details["iterations_run"] == 5
+    assert steps.steps[0].end == (5, "iterations") and steps.steps[1].end is None
+    assert steps.steps[0].sigma == steps.steps[0].parameters["sigma"] and steps.steps[1].sigma is None
     assert np.array_equal(steps.input.values, curvature.values) and steps.input.method == ""
     assert steps.function == curvature.function == "mean-curvature"
     assert ms.critical_points(steps).counts.total == 150 - ms.critical_points(steps).counts.total % 2

@@ -85,6 +85,24 @@ def test_reports_of_other_functions_are_refused(tmp_path):
         ms.check(tmp_path / "report.json")
 
 
+def test_files_are_hashed(tmp_path):
+    """A key that names a file: the report of another file's values does not pass."""
+    @ms.function("from-file", path=ms.File(""))
+    def from_file(mesh, path):
+        return np.loadtxt(path)
+
+    mesh = ms.read(sample("eight.off"))
+    values = tmp_path / "values.txt"
+    np.savetxt(values, mesh.vertices[:, 0])
+    r = ms.compare(mesh, field=f"from-file:path={values}", methods=["conventional"])
+    r.save(tmp_path / "report.json")
+    assert [file["path"] for file in json.loads((tmp_path / "report.json").read_text())["inputs"]] \
+        == [str(values)]
+    assert ms.check(tmp_path / "report.json") == []
+    with pytest.raises(ms.ArgumentError, match="values.txt"):
+        r.save(values)
+
+
 def test_in_sweeps_and_stability(small):
     s = ms.sweep(small, {"strength": [0.5, 1.0, 2.0]}, method="mine")
     assert [row["method"] for row in s] == [f"mine:strength={value}" for value in ("0.5", "1.0", "2.0")]

@@ -1,10 +1,12 @@
 #include "morsel/tools/study/comparison.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,9 +14,11 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/segments.h"
+#include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/study/level_builder.h"
 #include "morsel/tools/study/persistence_levels.h"
 #include "morsel/tools/study/presets.h"
+#include "morsel/tools/study/summary.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -275,6 +279,47 @@ TEST_CASE("regression: salient on a coarse mesh did nothing, silently") {
   CHECK(warnings("salient", core::ScalarField(fine, random_values(fine.vertex_count(), 3))).empty());
 }
 
+TEST_CASE("regression: default lengths other than the paper's sigma changed as the mesh was turned") {
+  const tools::Registry& registry = tools::Registry::standard();
+  const TriangleMesh mesh = jittered(torus(30, 20).mesh(), 0.03, 5);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Point(1, 2, -1).normalized()).toRotationMatrix();
+  const TriangleMesh turned = moved(mesh, turn, {3, -2, 1});
+  REQUIRE(turned.epsilon() != Approx(mesh.epsilon()).epsilon(1e-3));
+  const auto same = [](const core::Parameters& a, const core::Parameters& b) {
+    REQUIRE(a.size() == b.size());
+    bool all = true;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (const double* x = std::get_if<double>(&a[i].second))
+        all &= std::get<double>(b[i].second) == Approx(*x).epsilon(1e-6);
+    return all;
+  };
+  for (const char* text :
+       {"mean-curvature:estimator=quadric", "mean-curvature:estimator=diffused",
+        "gaussian-curvature:estimator=quadric", "principal-curvature", "curvedness", "shape-index",
+        "geodesic:source=3", "geodesic:mode=average", "heat-kernel-signature:modes=20"}) {
+    INFO(text);
+    const core::MorseFunction& function = *registry.make_function(text).function;
+    CHECK(same(function.evaluate(mesh, {}).parameters, function.evaluate(turned, {}).parameters));
+  }
+  const auto step = [&](const std::string& text, const TriangleMesh& on) {
+    return tools::apply_chain(registry.make_method(text), {on, {}}, registry.make_function("mean-curvature"),
+                              {on, random_values(on.vertex_count(), 3)})
+        .steps.front();
+  };
+  for (const char* text : {"laplacian:scheme=implicit", "saliency", "denoise", "denoise:kind=laplacian"}) {
+    INFO(text);
+    CHECK(same(step(text, mesh).parameters, step(text, turned).parameters));
+  }
+  for (const char* text : {"salient", "gaussian"}) {
+    CHECK(!same(step(text, mesh).parameters, step(text, turned).parameters));
+    for (const char* unit : {"2edges", "0.05rootarea"}) {
+      const std::string given = std::string(text) + ":sigma=" + unit;
+      CHECK(same(step(given, mesh).parameters, step(given, turned).parameters));
+    }
+  }
+  CHECK(tools::matching_radius(turned) == Approx(tools::matching_radius(mesh)).epsilon(1e-12));
+}
+
 TEST_CASE("every method gives the same bits at any number of threads") {
   const TriangleMesh mesh = torus(90, 80).mesh();
   const core::ScalarField input(mesh, smooth_values(mesh, 1, 3));
@@ -291,4 +336,33 @@ TEST_CASE("every method gives the same bits at any number of threads") {
     CHECK(run(2) == one);
     CHECK(run(7) == one);
   }
+}
+
+TEST_CASE("pairs above 1 % of the range are those of the summary, infinite ones included") {
+  struct Last : tools::ComparisonSink {
+    void field(const tools::FieldOutcome&) override {}
+    void method(const tools::MethodOutcome& outcome) override {
+      const double least = 0.01 * outcome.field.extent();
+      for (const auto& pair : outcome.measurement.diagram.pairs) large += pair.persistence() > least ? 1 : 0;
+      summary = tools::summary_of(outcome.measurement.diagram, outcome.field.extent());
+    }
+    std::size_t large = 0;
+    tools::PersistenceSummary summary;
+  };
+  const TriangleMesh mesh = grid(12, 12).mesh();
+  Last last;
+  tools::ComparisonTable table;
+  tools::ComparisonRequest request;
+  request.methods = {"tps:count=9"};
+  tools::run_comparison({jittered(mesh, 0.2, 5), {}}, tools::prepare(request), {&last, &table});
+  CHECK(last.large > 0);
+  CHECK(last.summary.above_one_percent() == last.large);
+  std::istringstream lines(table.text());
+  std::string line;
+  while (!line.starts_with("tps:count=9") && std::getline(lines, line)) {
+  }
+  std::istringstream row(line);
+  std::vector<std::string> cells(8);
+  for (std::string& cell : cells) row >> cell;
+  CHECK(cells[7] == std::to_string(last.large));
 }

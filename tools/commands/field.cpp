@@ -16,8 +16,7 @@ struct Options {
 
 int write(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  base.files().writes("-o", options.output).check();
-  check_field_path(options.output);
+  base.writes("-o", options.output, check_field_path).check_files();
   base.read_whole();
   base.make();
   write_field(options.output, base.field(), base.loaded().source.numbering, base.input_positions(),
@@ -34,6 +33,7 @@ void add_field(Program& program) {
   add_field_options(command, options->mesh, options->request);
   add_output_option(command, options->output,
                     ".txt (a value a line), .ply or .vtp (the surface with the values)")
+      .shortly("The file to write")
       .in_detail("Vertices have the input's numbers");
   add_common_options(command, program.common);
   command.examples = {

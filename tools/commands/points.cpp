@@ -55,16 +55,13 @@ std::string described(const MadePoints& made, const PointsRequest& request) {
 int choose(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const PointsPlan plan = prepare(points_request(options));
-  RunFiles files = base.files();
-  if (plan.request.fill) files.reads_of_field(*plan.request.fill);
+  if (plan.request.fill) base.reads_of_field(*plan.request.fill, "--fill");
   const bool wants_document = is_document(options.output);
-  if (wants_document) {
-    files.writes_document("-o", options.output).check();
-  } else {
-    files.writes("-o", options.output).check();
-    check_points_path(options.output);
-    check_writable(options.output);
-  }
+  if (wants_document)
+    base.writes_document("-o", options.output);
+  else
+    base.writes("-o", options.output, check_points_path);
+  base.check_files();
   DocumentTarget document(wants_document ? options.output : "");
 
   base.read();
@@ -96,7 +93,9 @@ void add_points(Program& program) {
   Command& command =
       program.add("points", "Choose critical points of one field that stand out and lie apart");
   add_field_options(command, options->mesh, options->request);
-  command.number("--points", options->points.count, "How many, or the reason why there are fewer")
+  command
+      .number("--points", options->points.count,
+              "Number of points; where there are fewer, the reason is printed")
       .between(1, std::numeric_limits<double>::infinity())
       .value("K");
   using morse::PointKind;
@@ -121,7 +120,7 @@ void add_points(Program& program) {
           "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
           "shorter than geodesic ones, a few percent longer");
   command.text("--fill", options->fill, "A Morse function that fills up, or none")
-      .value("F")
+      .is_function()
       .in_detail(
           "Where the field has too few points, its points come after these, by their own rank and apart from "
           "those");
@@ -129,6 +128,7 @@ void add_points(Program& program) {
       .value("LENGTH")
       .shows_default("the method's sigma, or 8eps");
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
+      .shortly("The file to write")
       .in_detail("Points come in the order in which they were chosen, vertices have the input's numbers");
   add_common_options(command, program.common);
   command.examples = {

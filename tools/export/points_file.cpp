@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
@@ -71,16 +70,12 @@ Columns columns_of(const MadePoints& made, const core::LoadedMesh& loaded) {
 }  // namespace
 
 void check_points_path(const std::filesystem::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension != ".csv" && extension != ".ply" && extension != ".vtp")
-    throw core::InvalidArgument("points are written as .csv, .json, .ply or .vtp, not as \"" + path.string() +
-                                "\"");
+  core::checked_extension(path, "points are written", {".csv", ".json", ".ply", ".vtp"});
 }
 
 void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
                   const std::string& field_name, const Provenance& provenance) {
-  check_points_path(path);
-  const std::string extension = core::file_extension(path);
+  const std::string extension = core::checked_extension(path, "points are written", {".csv", ".ply", ".vtp"});
   if (extension == ".csv") {
     write_table(path, made, loaded, field_name, provenance);
     return;

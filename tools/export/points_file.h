@@ -19,7 +19,8 @@ namespace morsel::tools {
 void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
                   const std::string& field_name, const Provenance& provenance);
 
-/// Throws InvalidArgument unless write_points() knows the path's ending; to be called before long work.
+/// Throws InvalidArgument unless write_points() knows the path's ending, or it is .json, whose document
+/// points_writer.h makes; to be called before long work.
 void check_points_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

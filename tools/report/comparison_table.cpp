@@ -3,19 +3,18 @@
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/study/summary.h"
 
 namespace morsel::tools {
 namespace {
 
 /// What the columns mean that are about more than their own row.
 std::string foot(const MethodOutcome& first) {
-  const double radius = matching_radius(first.field.mesh());
-  return core::printable("kept: points of " + first.specification +
-                         " that have the same type at the same vertex; moved: those that have it within " +
-                         core::to_digits(radius) +
-                         " of theirs (2 % of the root of the area), one to one; "
-                         "added: points that are neither") +
-         "\n>1 %: pairs above 1 % of the input field's range\n";
+  return core::printable("kept: points of " + first.specification) +
+         " with the same type at the same vertex\nmoved: others of it with one of the same type within " +
+         core::to_digits(matching_radius(first.field.mesh())) +
+         " (2 % of the root of the area), one to one\nadded: points that are neither\n"
+         ">1 %: pairs above 1 % of the input field's range\n";
 }
 
 }  // namespace
@@ -41,7 +40,7 @@ void ComparisonTable::method(const MethodOutcome& outcome) {
                    grouped(m.critical_points.saddles), grouped(m.critical_points.saddle_multiplicity),
                    grouped(m.critical_points.maxima), grouped(m.critical_points.total()),
                    grouped(m.diagram.pairs.size()),
-                   grouped(m.diagram.count_above(0.01 * outcome.input_extent) + m.diagram.cap_pairs().size()),
+                   grouped(summary_of(m.diagram, outcome.input_extent).above_one_percent()),
                    grouped(m.complex.arc_count()), grouped(m.cells), grouped(matching.kept.size()),
                    grouped(matching.moved.size()), grouped(matching.added), core::to_decimals(seconds, 2)});
   if (rows_.size() == 2) foot_ = foot(outcome);

@@ -12,8 +12,8 @@
 
 namespace morsel::tools {
 
-/// The files that keys of a Morse function, in the syntax of the command line, name: "--field NAME:KEY"
-/// and the path. Throws InvalidArgument as make_function().
+/// The files that keys of a Morse function, in the syntax of the command line, name: "NAME:KEY" and the path.
+/// Throws InvalidArgument as make_function().
 std::vector<std::pair<std::string, std::string>> named_files(const std::string& field,
                                                              const Registry& registry = Registry::standard());
 

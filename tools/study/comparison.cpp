@@ -12,14 +12,6 @@
 namespace morsel::tools {
 namespace {
 
-std::vector<FieldFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
-  std::vector<FieldFile> files;
-  for (const auto& [key, value] : parameters)
-    if (!function.file_key.empty() && key == function.file_key)
-      files.push_back({key, std::get<std::string>(value)});
-  return files;
-}
-
 /// Says so if most critical points come from the order of vertex numbers alone; else empty.
 std::string plateau_warning(const core::ScalarField& field, const core::Progress& progress) {
   const core::TriangleMesh& mesh = field.mesh();
@@ -109,7 +101,7 @@ MethodChain make_row(const std::vector<core::Specification>& steps, const std::s
 /// A row's chain with the counts of earlier rows, whose critical points are `totals`.
 MethodChain counted_row(const ComparisonPlan& plan, std::size_t row, const std::vector<std::size_t>& totals) {
   const std::string& specification = plan.chains[row].specification;
-  std::vector<core::Specification> steps = core::parse_chain(specification, "--method");
+  std::vector<core::Specification> steps = core::parse_chain(specification, "the method");
   for (const RowCount& count : plan.counts[row]) set_count(steps[count.step], totals[count.row]);
   return make_row(steps, specification, plan.registry);
 }
@@ -120,12 +112,11 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
                             const core::Progress& progress) {
   const Stopwatch watch;
   core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
-  std::vector<FieldFile> files = files_of(function, result.parameters);
   std::vector<std::string> warnings = std::move(result.warnings);
   if (std::string text = plateau_warning(result.field, progress.unreported()); !text.empty())
     warnings.push_back(std::move(text));
-  return {function.name,   std::move(result.field), std::move(result.parameters),
-          watch.seconds(), std::move(files),        std::move(warnings)};
+  return {function.name,  std::move(result.field), std::move(result.parameters), watch.seconds(),
+          function.files, function.unit,           std::move(warnings)};
 }
 
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress) {
@@ -152,7 +143,7 @@ ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registr
   check_target(request.target);
   ComparisonPlan plan{registry.make_function(request.field), {}, request.target, request.snap, {}, registry};
   for (const std::string& method : request.methods) {
-    std::vector<core::Specification> steps = core::parse_chain(method, "--method");
+    std::vector<core::Specification> steps = core::parse_chain(method, "the method");
     plan.counts.push_back(row_counts(steps, plan.chains));
     for (const RowCount& count : plan.counts.back()) set_count(steps[count.step], 1);  // to be replaced
     plan.chains.push_back(make_row(steps, method, registry));
@@ -188,10 +179,10 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
     for (std::size_t i = 0; i < places.size(); ++i)
       places[i] =
           plan.snap && origins[i] != core::kNone ? origins[i] : measurement.critical_points.points[i].vertex;
-    const auto outcome = std::make_shared<const MethodOutcome>(
-        MethodOutcome{chain.specification, chain.name, std::move(made.steps), std::move(made.field),
-                      input.field.extent(), std::move(made.target), std::move(measurement),
-                      std::move(origins), std::move(places), std::move(matching), std::move(timings)});
+    const auto outcome = std::make_shared<const MethodOutcome>(MethodOutcome{
+        chain.specification, chain.name, std::move(made.steps), std::move(made.field), input.field.extent(),
+        std::move(made.target), std::move(measurement), std::move(origins), std::move(places),
+        std::move(matching), std::move(timings), chain.quantity()});
     for (ComparisonSink* sink : sinks) sink->keep_method(outcome);
   }
 }

@@ -62,12 +62,7 @@ struct MethodOutcome {
   std::vector<core::Index> places;
   Matching compared_to_first;
   Timings timings;
-};
-
-/// A file that a Morse function read, besides the mesh's.
-struct FieldFile {
-  std::string key;  ///< of the function, which names it
-  std::string path;
+  std::string quantity = {};  ///< MethodChain::quantity()
 };
 
 /// The field before any method.
@@ -76,8 +71,9 @@ struct FieldOutcome {
   core::ScalarField field;
   core::Parameters parameters;
   double seconds = 0;
-  std::vector<FieldFile> files = {};
-  std::vector<std::string> warnings = {};  ///< the function's, and of critical points that mean nothing
+  std::vector<core::FileParameter> files = {};  ///< that the function read
+  std::string unit = {};                        ///< the function's, FunctionEntry::unit
+  std::vector<std::string> warnings = {};       ///< the function's, and of critical points that mean nothing
 };
 
 /// Evaluates a Morse function on a loaded mesh.

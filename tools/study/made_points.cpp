@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
-#include <variant>
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/numbers.h"
@@ -22,9 +21,7 @@ using morse::PointRank;
 /// σ of the last step of the method that has one.
 std::optional<double> sigma_of(const std::vector<StepOutcome>& steps) {
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-    for (const auto& [key, value] : step->parameters)
-      if (const double* sigma = std::get_if<double>(&value); key == "sigma" && sigma != nullptr)
-        return *sigma;
+    if (step->sigma) return step->sigma;
   return std::nullopt;
 }
 
@@ -76,7 +73,7 @@ PointsPlan prepare(const PointsRequest& request, const Registry& registry) {
     throw core::InvalidArgument("the scale of salience must be above 0, not " +
                                 core::to_string(*request.scale));
   PointsPlan plan{request, std::nullopt};
-  if (request.fill) plan.fill = registry.make_function(*request.fill);
+  if (request.fill) plan.fill = registry.make_function(*request.fill, "the Morse function that fills up");
   return plan;
 }
 
@@ -88,7 +85,10 @@ std::optional<double> MadePoints::mean_percentile() const {
 
 std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const core::Progress& progress) {
   if (mesh.bounding_box().diagonal() == 0) return std::vector<double>(mesh.vertex_count(), 0.5);
-  const core::ScalarField map = morse::saliency(morse::mean_curvature(mesh, progress), {}, progress).field;
+  morse::SaliencyOptions options;
+  options.scales = morse::published_scales();
+  const core::ScalarField map =
+      morse::saliency(morse::mean_curvature(mesh, progress), options, progress).field;
   const std::span<const Index> order = map.order();
   std::vector<double> percentiles(order.size());
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
