@@ -35,7 +35,7 @@ void write_field(const FieldHandle& field, const std::string& path, const tools:
 
 /// The words of the command line of a request.
 std::vector<std::string> words_of(const tools::SegmentRequest& request) {
-  std::vector<std::string> words = {"--by", tools::to_string(request.kind)};
+  std::vector<std::string> words = {"--by", mscomplex::to_string(request.kind)};
   if (request.segments) words.insert(words.end(), {"--segments", std::to_string(*request.segments)});
   if (request.persistence)
     words.insert(words.end(), {"--persistence", persistence::to_string(*request.persistence)});

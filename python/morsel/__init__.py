@@ -37,8 +37,8 @@ from ._threads import thread_count, threads
 __all__ = [
     "ARC_KINDS", "ArgumentError", "Cancelled", "Comparison", "Counts", "CriticalPoints", "Cut",
     "Defect", "Diagram", "Difference", "End", "Error", "Estimate", "Field", "File", "InputError", "Labels",
-    "Length", "Level", "Levels", "Links", "MAXIMUM", "MINIMUM", "MINIMUM_SADDLE", "Mesh", "MeshError", "Molecule",
-    "MorseSmaleComplex", "MorselWarning", "NODE_KINDS", "PersistenceHierarchy", "Points", "Quads",
+    "Length", "Level", "Levels", "Links", "MAXIMUM", "MINIMUM", "MINIMUM_SADDLE", "Mesh", "MeshError",
+    "Molecule", "MorseSmaleComplex", "MorselWarning", "NODE_KINDS", "PersistenceHierarchy", "Points", "Quads",
     "Row", "SADDLE", "SADDLE_CAP", "SADDLE_MAXIMUM", "Segmentation", "Segments", "Stability", "Step",
     "Sweep", "Target", "WriteError", "check", "compare", "critical_points", "cut", "defects", "field",
     "function", "functions", "hierarchy", "method", "methods", "molecule", "morse_smale", "persistence",

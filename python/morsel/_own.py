@@ -19,8 +19,7 @@ class Length(str):
 
 
 class File(str):
-    """A path as the default of a parameter: File(""). Reports hash the file, and no output may overwrite
-    it."""
+    """A path as the default of a parameter: File(""). Reports hash the file."""
 
 
 def _kind(key: str, default: Any) -> tuple[str, Any]:

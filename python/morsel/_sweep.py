@@ -210,7 +210,7 @@ class Stability(Sequence[Dict[str, Any]]):
 def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequence[Named] | None = None,
               noise: Sequence[float] = (), kind: str = "normal", decimate: Sequence[float] = (),
               subdivide: Sequence[int] = (), trials: int = 10, seed: int = 1, target: int | None = None,
-              radius: str | float = "2%", points: str = "all", reference: Named = "conventional",
+              radius: str | float | None = None, points: str = "all", reference: Named = "conventional",
               reference_field: Named | None = None, progress: Progress = None) -> Stability:
     """How well critical points repeat on perturbed surfaces, as `morsel stability`.
 
@@ -231,7 +231,7 @@ def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequ
     target : int
         Besides each method's own count: end with so many critical points.
     radius : str or float
-        Points match within this length; a percentage is of the bounding box's diagonal.
+        Points match within this length on the clean mesh, by default "0.02rootarea".
     points : "all" or "extrema"
     reference, reference_field
         The method that agreement is measured with, and its field, by default each row's own.
@@ -244,7 +244,9 @@ def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequ
     request: dict[str, Any] = {
         "noise": [float(one) for one in noise], "kind": kind, "decimate": [float(one) for one in decimate],
         "subdivide": [float(one) for one in subdivide], "trials": trials, "seed": seed, "target": target,
-        "radius": number_text(radius), "points": points, "reference": name_of(reference)}
+        "points": points, "reference": name_of(reference)}
+    if radius is not None:
+        request["radius"] = number_text(radius)
     if fields is not None:
         if values is not None:
             raise TypeError("give a mesh with fields, or a Field alone")
