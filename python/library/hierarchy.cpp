@@ -124,7 +124,7 @@ LevelsHandle iteration_levels(const FieldHandle& field, const std::string& metho
 }
 
 /// (areas, parents, merges_into) of cells of one kind.
-py::tuple links(const std::shared_ptr<const Level>& level, tools::CellKind kind) {
+py::tuple links(const std::shared_ptr<const Level>& level, mscomplex::SegmentKind kind) {
   const tools::CellLinks& of = level->cell_links(kind);
   return py::make_tuple(view_of(std::span<const double>(of.areas), level),
                         view_of(std::span<const mscomplex::Overlap>(of.parents), level),
@@ -156,8 +156,8 @@ py::dict level_dict(const LevelsHandle& levels, std::size_t place) {
   result["complex"] = complex_handle({level, &level->complex});
   result["segmentation"] = segmentation_dict({level, &level->segmentation});
   result["cell_count"] = level->quad_cells;
-  for (const tools::CellKind kind : tools::kCellKinds)
-    result[py::str("links_" + std::string(tools::to_string(kind)))] = links(level, kind);
+  for (const mscomplex::SegmentKind kind : mscomplex::kSegmentKinds)
+    result[py::str("links_" + tools::key_of(kind))] = links(level, kind);
   result["timings"] = timings(level->timings);
   return result;
 }

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/error.h"
+#include "morsel/core/text/nearest_name.h"
 #include "morsel/persistence/threshold.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
@@ -25,9 +27,18 @@ using mscomplex::Segment;
 using mscomplex::SegmentNeighbour;
 using mscomplex::Segments;
 
+mscomplex::SegmentKind kind_of(const std::string& by) {
+  std::vector<std::string> names;
+  for (const mscomplex::SegmentKind kind : mscomplex::kSegmentKinds) {
+    names.push_back(mscomplex::to_string(kind));
+    if (by == names.back()) return kind;
+  }
+  throw core::InvalidArgument("by " + core::must_be_one_of(names, by));
+}
+
 SegmentsHandle segment(const FieldHandle& field, const std::string& by, std::optional<std::size_t> segments,
                        const std::optional<std::string>& threshold, const py::object& report) {
-  tools::SegmentRequest request{tools::parse_segment_kind(by), segments, {}};
+  tools::SegmentRequest request{kind_of(by), segments, {}};
   if (threshold) request.persistence = persistence::parse_threshold(*threshold, "persistence");
   tools::check(request);
   return compute(report, [&](const core::Progress& progress) {
@@ -59,7 +70,7 @@ void add_segments(py::module_& m) {
                        mesh_boundary_length);
   PYBIND11_NUMPY_DTYPE(SegmentNeighbour, segment, edges, length);
   py::class_<SegmentsData, SegmentsHandle>(m, "Segments")
-      .def_property_readonly("by", [](const SegmentsData& s) { return tools::to_string(s.request.kind); })
+      .def_property_readonly("by", [](const SegmentsData& s) { return mscomplex::to_string(s.request.kind); })
       .def_property_readonly("vertex", part(&Segments::vertex))
       .def_property_readonly("face", part(&Segments::triangle))
       .def_property_readonly("table", part(&Segments::segments))
