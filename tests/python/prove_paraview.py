@@ -1,6 +1,6 @@
 """pvbatch tests/python/prove_paraview.py MESH.ply: the filters in ParaView itself, which the tests do not
-need. PYTHONPATH must lead to the package. Prints the outputs' arrays, and the numbers of critical points of the
-mean curvature before and after salient smoothing: 1,895 and 97 on lion-head.
+need. PYTHONPATH must lead to the package. Prints the outputs' arrays, and the numbers of critical points of
+the mean curvature before and after salient smoothing: 1,895 and 97 on lion-head.
 """
 
 import inspect
