@@ -1,5 +1,6 @@
 """The filters for ParaView in a pipeline of VTK. ParaView itself is not needed: a stand-in of the decorators
-that describe a filter to it keeps what they are given. tests/python/prove_paraview.py runs them in pvbatch."""
+that describe a filter to it keeps what they are given. tests/python/prove_paraview.py runs them in pvbatch.
+"""
 
 import importlib.util
 import os
