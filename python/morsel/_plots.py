@@ -39,7 +39,7 @@ def diagram(d: Diagram, ax: Any = None) -> Any:
                    label="boundary loop (infinite)")
     ax.set_xlabel("birth")
     ax.set_ylabel("death")
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_aspect("equal", adjustable="box")
     ax.legend(loc="lower right", frameon=False)
     return ax
 
