@@ -120,7 +120,8 @@ FieldHandle input_of(const FieldHandle& field) {
   story.steps.clear();
   story.reached.reset();
   story.method_seconds = 0;
-  return handle_of(field->mesh, {story.input, &story.input->field}, std::move(story));
+  std::shared_ptr<const ScalarField> input(story.input, &story.input->field);
+  return handle_of(field->mesh, std::move(input), std::move(story));
 }
 
 }  // namespace
