@@ -104,8 +104,8 @@ class Command {
   Option& choice(std::string names, Target& target, std::vector<std::pair<std::string, Value>> choices,
                  std::string help);
   /// The same for values that to_string() names.
-  template <class Value>
-  Option& choice(std::string names, Value& target, std::initializer_list<Value> values, std::string help) {
+  template <class Value, class Values = std::initializer_list<Value>>
+  Option& choice(std::string names, Value& target, const Values& values, std::string help) {
     std::vector<std::pair<std::string, Value>> choices;
     for (const Value value : values) choices.emplace_back(to_string(value), value);
     return choice(std::move(names), target, std::move(choices), std::move(help));

@@ -12,6 +12,7 @@
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/points_options.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/export/export_sink.h"
@@ -30,6 +31,7 @@ namespace {
 struct Options {
   std::string mesh;
   ComparisonRequest request;
+  PointsOptions points;  // which the request gets
   std::string report;
   bool no_items = false;
   std::string export_folder;
@@ -78,6 +80,10 @@ std::string page_command(const Options& options, const CommonOptions& common) {
   for (const std::string& method : request.methods) words.insert(words.end(), {"--method", method});
   if (request.target) words.insert(words.end(), {"--target", std::to_string(*request.target)});
   if (request.snap) words.emplace_back("--snap");
+  if (request.points) {
+    const std::vector<std::string> points = points_words(*request.points);
+    words.insert(words.end(), points.begin(), points.end());
+  }
   if (common.repair) words.emplace_back("--repair");
   words.insert(words.end(), {"--html", options.page_place.empty() ? options.page : options.page_place});
   return command_line(words);
@@ -169,6 +175,7 @@ class Outputs {
   static RunFiles checked_files(const Options& options) {
     RunFiles files;
     files.reads("MESH", options.mesh).reads_of_field(options.request.field);
+    reads_of_points(files, options.request.points);
     files.writes_document("-o", options.report).writes("--html", options.page);
     if (!options.thumbnails.empty())
       for (const char* which : {"first", "last"})
@@ -193,7 +200,8 @@ class Outputs {
   SideBySide files_;
 };
 
-int compare(const Options& options, const Run& run) {
+int compare(Options& options, const Run& run) {
+  options.request.points = options.points.request();
   if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   if (!options.thumbnails.empty()) drawing::require_pictures("--thumbnails");
   const ComparisonPlan comparison = prepare(options.request);
@@ -250,6 +258,7 @@ void add_compare(Program& program) {
       "compare", "Run methods on a field and compare their critical points, diagrams and complexes");
   command.path("MESH", options->mesh, mesh_help()).required();
   add_comparison_options(command, options->request);
+  add_points_options(command, options->points);
   add_outputs(command, *options);
   command.begin_group("Pictures");
   add_figure_options(command, options->figure);

@@ -49,9 +49,12 @@ void color_surface(Scene& scene, const Subject& subject, Show show, const ValueS
 }  // namespace
 
 Subject subject_of(const MethodOutcome& outcome, const std::string& field_name) {
-  return {outcome.field, &outcome.measurement,
-          quantity_of(field_name, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
-          outcome.places};
+  return {outcome.field,
+          &outcome.measurement,
+          quantity_of(field_name, outcome.steps.empty() ? "" : outcome.steps.back().name),
+          "",
+          outcome.shown_places(),
+          &outcome.shown_points()};
 }
 
 Studio::Studio(const core::TriangleMesh& mesh)
@@ -107,12 +110,14 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   Scene scene{body_};
   color_surface(scene, subject, request.show, scale);
   if (measured) {
-    GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
+    const morse::CriticalPoints& points =
+        subject.points != nullptr ? *subject.points : subject.measurement->critical_points;
+    GlyphSizes sizes = glyph_sizes(body_, points.total());
     if (request.close_up) {
       sizes.ball = std::min(sizes.ball, kCloseBall * radius_of(*request.close_up));
       sizes.tube = std::min(sizes.tube, 0.4 * sizes.ball);
     }
-    if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
+    if (request.points) add_points(scene, points, sizes.ball, subject.places);
     if (request.arcs) {
       const bool borders = request.show != Show::field && request.show != Show::plain;
       const double freedom = borders ? 0.7 * sizes.tube : std::numeric_limits<double>::infinity();

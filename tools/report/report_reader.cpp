@@ -6,6 +6,7 @@
 
 #include "morsel/core/parallel/exhaustion.h"
 #include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/report/points_writer.h"
 
 namespace morsel::tools {
 namespace {
@@ -45,6 +46,7 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
   if (const auto items = request.find("items")) report.items = items->truth();
   if (const auto target = request.find("target")) report.request.target = target->count();
   if (const auto snap = request.find("snap")) report.request.snap = snap->truth();
+  if (const auto points = request.find("points")) report.request.points = read_points_request(*points);
   report.mesh_path = head["mesh"]["path"].path();
   report.mesh_sha256 = head["mesh"]["sha256"].text();
   for (const JsonView& method : head["methods"].list(0, kMostMethods))

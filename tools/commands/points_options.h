@@ -1,0 +1,41 @@
+#pragma once
+/// The options of chosen points, the same in all commands that choose them.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "morsel/tools/commands/command.h"
+#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/study/made_points.h"
+
+namespace morsel::tools {
+
+/// What the options hold, and the defaults that a command gives them.
+struct PointsOptions {
+  /// --fill where no Morse function fills up.
+  static constexpr std::string_view kNoFill = "none";
+
+  std::optional<std::size_t> count = {};  ///< by default none: no points are chosen
+  PointsRequest chosen = {};              ///< what is read into it directly: kind, rank, percentiles
+  std::string spacing = core::to_string(PointsRequest().spacing);
+  std::string fill = std::string(kNoFill);
+  std::string scale = {};
+
+  /// The request, if points are wanted. Throws InvalidArgument on what is no length.
+  std::optional<PointsRequest> request() const;
+};
+
+/// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles, under a heading of their
+/// own. Without a default number of points the others are refused where --points is not given.
+void add_points_options(Command& command, PointsOptions& options);
+
+/// The words of the command line that make a request.
+std::vector<std::string> points_words(const PointsRequest& request);
+
+/// Names the files that the Morse function that fills up reads, if there is one.
+void reads_of_points(RunFiles& files, const std::optional<PointsRequest>& request);
+
+}  // namespace morsel::tools
