@@ -35,7 +35,8 @@ std::string resolved(std::string_view method, const FigureRecipe& recipe, Model&
     const std::size_t at = text.find(reference);
     if (at == std::string::npos) continue;
     const std::string other = resolved(recipe.panels[i].method, recipe, model, progress);
-    text.replace(at, reference.size(), std::to_string(model.run(other, progress).total()));
+    text.replace(at, reference.size(),
+                 std::to_string(model.run({std::string(recipe.field), other}, progress).total()));
   }
   return text;
 }
@@ -87,7 +88,7 @@ std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const Figur
                                           const render::PictureRequest& request) {
   const Model& model = *figure.model;
   std::vector<std::string> words = {
-      "morsel",   "render",    model.file().path.string(), "--field", std::string(kField),
+      "morsel",   "render",    model.file().path.string(), "--field", std::string(figure.recipe->field),
       "--method", panel.method};
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (options.repair) add({"--repair"});
@@ -115,7 +116,7 @@ std::string caption_of(const PanelOutcome& panel, const FigureOutcome& figure) {
   const morse::CriticalPoints& points = panel.run->measurement.critical_points;
   std::string text = std::string(panel.recipe->title) + "\n" + panel.method + "\n";
   if (panel.recipe->region == Region::close_up && figure.region) {
-    const bool is_first = panel.run == figure.panels[(*figure.recipe->compared)[0]].run;
+    const bool is_first = panel.run == figure.panels[(*figure.recipe->compared)[1]].run;
     const std::size_t count = is_first ? figure.region->first : figure.region->second;
     return text + grouped(count) + (count == 1 ? " critical point" : " critical points") + " within " +
            core::to_string(figure.region->radius) + " of the middle";
@@ -143,7 +144,7 @@ class LinkCounter : public HierarchySink {
 std::vector<LevelLinks> count_links(const FigureRecipe& recipe, const Model& model,
                                     const core::Progress& progress) {
   HierarchyRequest request;
-  request.field = {std::string(kField), std::string(recipe.hierarchy_method), {}};
+  request.field = {std::string(recipe.field), std::string(recipe.hierarchy_method), {}};
   request.levels = recipe.hierarchy_levels;
   LinkCounter counter;
   run_hierarchy(model.loaded(), prepare(request), {&counter}, progress);
@@ -151,12 +152,14 @@ std::vector<LevelLinks> count_links(const FigureRecipe& recipe, const Model& mod
 }
 
 /// The picture as `morsel render` with the panel's command writes it.
-std::string panel_png(const render::Image& image, const PanelOutcome& panel, const Model& model,
+std::string panel_png(const render::Image& image, const PanelOutcome& panel, const FigureOutcome& figure,
                       const PictureOptions& options, const render::PictureRequest& request) {
+  const Model& model = *figure.model;
   const HashedFile mesh{model.file().path.string(), model.sha256()};
   Provenance provenance(
       command_line(panel.shaping_words),
-      tools::request_section(FieldRequest{std::string(kField), panel.method, {}}, options.repair),
+      tools::request_section(FieldRequest{std::string(figure.recipe->field), panel.method, {}},
+                             options.repair),
       {mesh, model.loaded(), panel.run->plan, panel.run->made});
   provenance.set("picture",
                  render::picture_section(request, options.camera, "", model.loaded().source.numbering));
@@ -167,14 +170,14 @@ std::string panel_png(const render::Image& image, const PanelOutcome& panel, con
 
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
                           ResultFolder& folder, Provenance provenance, const core::Progress& progress) {
-  const std::string name = "figure" + std::to_string(recipe.number);
+  const std::string name = recipe.file_stem();
   FigureOutcome figure{&recipe, &model, name + ".png", {}, {}, {}, {}};
   SharedScales scales;
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
     PanelOutcome panel;
     panel.recipe = &recipe.panels[i];
     panel.method = resolved(recipe.panels[i].method, recipe, model, progress);
-    panel.run = &model.run(panel.method, progress);
+    panel.run = &model.run({std::string(recipe.field), panel.method}, progress);
     panel.file = name + letter(i) + ".png";
     scales.add(*panel.recipe, panel.run->made.field());
     figure.panels.push_back(std::move(panel));
@@ -184,8 +187,8 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     const auto points = [&](std::size_t i) -> const morse::CriticalPoints& {
       return figure.panels[(*recipe.compared)[i]].run->measurement.critical_points;
     };
-    const ComparedRegion region = most_different_region(model.mesh(), points(0), points(1),
-                                                        model.studio().shown(view, kFacing), kRegion);
+    const ComparedRegion region = fullest_region(model.mesh(), points(0), points(1), points(2),
+                                                 model.studio().shown(view, kFacing), kRegion);
     if (region.vertex != core::kNone) figure.region = region;
   }
   if (!recipe.hierarchy_levels.empty()) figure.levels = count_links(recipe, model, progress);
@@ -207,16 +210,16 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     panel.caption = caption_of(panel, figure);
     const render::Subject subject{
         panel.run->made.field(), &panel.run->measurement,
-        render::quantity_of(std::string(kField), panel.run->plan.chain.steps.back().name), ""};
+        render::quantity_of(panel.run->made.input.name, panel.run->plan.chain.steps.back().name), ""};
     render::Image image = model.studio().take(view, subject, request, progress);
-    panel.png = panel_png(image, panel, model, options, request);
+    panel.png = panel_png(image, panel, figure, options, request);
     core::write_file(folder.claim(panel.file), panel.png, core::Sync::never);
     provenance.add_method(panel.run->made.outcome.steps);
     sheet.push_back({std::move(image), panel.caption});
   }
   figure.finding = recipe.finding(figure);
-  const std::string title = "Figure " + std::to_string(recipe.number) + ". " + std::string(recipe.title) +
-                            ": " + model.file().path.filename().string();
+  const std::string title =
+      recipe.name() + ". " + std::string(recipe.title) + ": " + model.file().path.filename().string();
   provenance.set_field(figure.panels.front().run->made.input);
   core::write_file(
       folder.claim(figure.file),

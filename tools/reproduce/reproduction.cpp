@@ -41,6 +41,12 @@ render::UpAxis up_axis(const std::string& text) {
   throw core::InvalidArgument("the axis that points up is x, y or z, not \"" + text + "\"");
 }
 
+Model load(const ModelRecipe& recipe, const MeshFile& file, const Prepared& prepared, ResultFolder& folder,
+           const core::Progress& progress) {
+  if (!file.is_made) return Model::read(recipe, file, prepared.request.repair, progress);
+  return Model::make(recipe, file, folder.claim(file.path), provenance_of(prepared.request, {}).lines());
+}
+
 }  // namespace
 
 std::vector<std::string> command_words(const Request& request) {
@@ -58,8 +64,12 @@ Prepared prepare(const Request& request) {
   PictureOptions pictures;
   pictures.size = render::parse_size(request.size);
   pictures.samples = request.pixel_samples;
-  pictures.repair = request.repair;
   Prepared prepared{request, {}, std::vector<PictureOptions>(models().size(), pictures)};
+  for (std::size_t i = 0; i < models().size(); ++i) {
+    prepared.pictures[i].camera.view = models()[i].view;
+    prepared.pictures[i].camera.up = models()[i].up;
+    prepared.pictures[i].repair = request.repair && models()[i].make == nullptr;
+  }
   for (const std::string& view : request.views)
     for_models(view, [&](std::size_t i, const std::string& value) {
       prepared.pictures[i].camera.view = value;
@@ -75,8 +85,8 @@ Prepared prepare(const Request& request) {
 
 Reproduction run(const Prepared& prepared, const core::Progress& progress) {
   ResultFolder folder(prepared.request.folder);
-  core::FileWriter csv(folder.claim("table1.csv")), json_file(folder.claim("reproduction.json")),
-      page(folder.claim("index.html"));
+  core::FileWriter csv(folder.claim("table1.csv")), controls(folder.claim("controls.csv")),
+      json_file(folder.claim("reproduction.json")), page(folder.claim("index.html"));
 
   Reproduction reproduction;
   const Stopwatch total;
@@ -87,12 +97,13 @@ Reproduction run(const Prepared& prepared, const core::Progress& progress) {
   };
   timed("load", [&] {
     for (std::size_t i = 0; i < models().size(); ++i)
-      reproduction.models.push_back(std::make_unique<Model>(
-          Model::read(models()[i], prepared.files[i], prepared.request.repair, progress)));
+      reproduction.models.push_back(
+          std::make_unique<Model>(load(models()[i], prepared.files[i], prepared, folder, progress)));
   });
   timed("methods", [&] { reproduction.table = make_table(reproduction.models, progress); });
+  timed("controls", [&] { reproduction.controls = make_controls(reproduction.models, progress); });
   for (const FigureRecipe& figure : figures())
-    timed("figure" + std::to_string(figure.number), [&] {
+    timed(figure.file_stem(), [&] {
       Model& model = *reproduction.models[figure.model];
       reproduction.figures.push_back(make_figure(figure, model, prepared.pictures[figure.model], folder,
                                                  provenance_of(prepared.request, {&model}), progress));
@@ -100,10 +111,12 @@ Reproduction run(const Prepared& prepared, const core::Progress& progress) {
   reproduction.timings.emplace_back("total", total.seconds());
 
   csv.write(table_csv(reproduction.table));
+  controls.write(controls_csv(reproduction.controls));
   JsonStream json(json_file.stream());
   write_document(json, prepared, reproduction);
   page.write(make_page(prepared, reproduction));
   csv.commit();
+  controls.commit();
   json_file.commit();
   page.commit();
   return reproduction;
