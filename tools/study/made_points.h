@@ -20,9 +20,10 @@ struct PointsRequest {
   morse::PointKind kind = morse::PointKind::extrema;
   morse::PointRank rank = morse::PointRank::persistence;
   core::Length spacing = core::Length::percent(5);  ///< along the surface, at least 0
-  std::optional<std::string> fill;                  ///< the Morse function that fills up, if there is one
-  std::optional<core::Length> scale;  ///< σ of mesh_salience(); none: the last method's sigma, or else 8ε
-  bool percentiles = false;           ///< whether saliency percentiles are taken, too
+  std::optional<std::string> fill = {};             ///< the Morse function that fills up, if there is one
+  std::optional<core::Length> scale =
+      {};                    ///< σ of mesh_salience(); none: the last method's sigma, or else 8ε
+  bool percentiles = false;  ///< whether saliency percentiles are taken, too
 };
 
 /// A request whose names have been looked up.
