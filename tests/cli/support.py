@@ -48,7 +48,7 @@ DAMAGED = """OFF
 # names a file to write, with the ending of the file.
 ON_MESH = {
     "compare": (("compare", "{}", "--method", "conventional"), {"-o": ".json", "--html": ".html"}),
-    "field": (("field", "{}"), {"-o": ".txt"}),
+    "field": (("field", "{}", "--points", "2"), {"-o": ".ply", "--json": ".json"}),
     "points": (("points", "{}"), {"-o": ".csv"}),
     "hierarchy": (("hierarchy", "{}", "--levels", "0"), {"-o": ".json"}),
     "segment": (("segment", "{}"), {"-o": ".ply", "--json": ".json"}),

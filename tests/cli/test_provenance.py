@@ -296,9 +296,12 @@ class Provenance(ProgramTest):
         panels = {1: "abcd", 2: "ab", 3: "abcde", 4: "abc"}
         files = self.written_twice(
             "reproduce", "{out}", "--data", "data", "--size", "40x34", "--samples", "1",
-            expected={"table1.csv", "reproduction.json", "index.html", *(f"figure{n}.png" for n in panels),
+            expected={"table1.csv", "controls.csv", "torus.off", "reproduction.json", "index.html",
+                      "section3.1.png", *(f"section3.1{letter}.png" for letter in "abcd"),
+                      *(f"figure{n}.png" for n in panels),
                       *(f"figure{n}{letter}.png" for n, letters in panels.items() for letter in letters)})
         meshes = [{"path": f"data/{name}.off", "sha256": self.sha256(self.mesh)} for name in names]
+        meshes.append({"path": "torus.off", "sha256": self.sha256(files["torus.off"])})
         for name, path in files.items():
             with self.subTest(file=name):
                 if name == "reproduction.json":
@@ -306,7 +309,7 @@ class Provenance(ProgramTest):
                     self.assertEqual(document["tool"]["version"], self.version)
                     self.assertEqual([{k: model["mesh"][k] for k in meshes[0]}
                                       for model in document["models"]], meshes)
-                elif name == "table1.csv":
+                elif name in ("table1.csv", "controls.csv"):
                     for row in without_timings(path):
                         self.assertEqual((row["version"], row["sha256"]), (self.version, meshes[0]["sha256"]))
                         self.assertIn("estimator", json.loads(row["field_parameters"]))
@@ -316,8 +319,11 @@ class Provenance(ProgramTest):
                     document = READERS[path.suffix](path)
                     self.check_document(document, path)
                     self.assertTrue(all(file in meshes for file in document["inputs"]))
+                    if name == "torus.off":
+                        self.assertEqual(document["inputs"], [])
+                        continue
                     self.assertTrue(document["runs"] if name == "index.html" else document["methods"])
-                    panel = re.fullmatch(r"figure\d[a-e]\.png", name)
+                    panel = re.fullmatch(r"(figure\d|section3\.1)[a-e]\.png", name)
                     self.assertTrue(document["command"].startswith("morsel render "
                                                                    if panel else "morsel reproduce "))
 
