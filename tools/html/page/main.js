@@ -26,6 +26,7 @@ function start(page) {
   const state = {
     threshold: 0,
     types: [false, true, true, true],
+    onlyChosen: page.methods.some(({points}) => points.chosen !== null),
     surface: 'field',
     sameScale: false,
     arcs: {descending: false, ascending: false},
@@ -92,6 +93,11 @@ function start(page) {
   });
   bind('maxima', 'change', (e) => {
     state.types[3] = e.checked;
+  });
+  element('only-chosen').closest('label').hidden = !state.onlyChosen;
+  element('only-chosen').checked = state.onlyChosen;
+  bind('only-chosen', 'change', (e) => {
+    state.onlyChosen = e.checked;
   });
   bind('size', 'input', (e) => {
     state.size = 10 ** (e.valueAsNumber / 20);
