@@ -55,7 +55,7 @@ struct MadePoints {
 };
 
 /// For each vertex the share of all vertices that have less mesh saliency (of the mean curvature, with the
-/// defaults of saliency()), half of those that have as much included: ½ on average.
+/// scales of Lee et al.), half of those that have as much included: ½ on average.
 std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const core::Progress& progress = {});
 
 /// A field to choose points of; refers to all of it.
