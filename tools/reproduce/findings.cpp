@@ -22,7 +22,7 @@ double share(std::size_t part, std::size_t whole) {
 }
 
 /// The mean saliency percentile of a run's extrema.
-std::string percentile_text(Model& model, const MethodRun& run) {
+std::string mean_percentile_text(Model& model, const MethodRun& run) {
   const std::optional<double> mean = model.percentile(extrema_of(run));
   return mean ? core::to_decimals(*mean, 2) : "-";
 }
@@ -35,7 +35,9 @@ std::string type_at(const MethodRun& run, core::Index vertex) {
 }
 
 /// "(a)"
-std::string letter(std::size_t panel) { return std::string("(") + static_cast<char>('a' + panel) + ")"; }
+std::string panel_letter(std::size_t panel) {
+  return std::string("(") + static_cast<char>('a' + panel) + ")";
+}
 
 }  // namespace
 
@@ -45,8 +47,8 @@ std::string fewer_and_where(const FigureOutcome& figure) {
   return grouped(left.total()) + " of " + grouped(all.total()) + " critical points are left, " +
          percent(share(left.total(), all.total())) +
          " (in the paper 6.5 %). The mean saliency percentile of the extrema is " +
-         percentile_text(*figure.model, all) + " in (b) and " + percentile_text(*figure.model, left) +
-         " in (d); by chance it would be 0.50.";
+         mean_percentile_text(*figure.model, all) + " in (b) and " +
+         mean_percentile_text(*figure.model, left) + " in (d); by chance it would be 0.50.";
 }
 
 std::string simpler_complex(const FigureOutcome& figure) {
@@ -85,7 +87,7 @@ std::string levels_linked(const FigureOutcome& figure) {
   for (std::size_t i = 0; i < figure.levels.size(); ++i) {
     const LevelLinks& level = figure.levels[i];
     text += (i == 0 ? "" : " ") + counted(level.points, "critical point", "critical points") + " and " +
-            counted(level.cells, "segment", "segments") + " in " + letter(i);
+            counted(level.cells, "segment", "segments") + " in " + panel_letter(i);
     if (i > 0)
       text += ": " + grouped(level.kept) + " of the points stayed where they were, " + grouped(level.moved) +
               " moved, " + grouped(level.fresh) + " are new";
@@ -101,9 +103,9 @@ std::string types_of_ends(const FigureOutcome& figure) {
   std::string text;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const MethodRun& run = *figure.panels[i].run;
-    text += (i == 0 ? "" : " ") + std::string("In ") + letter(i) + " the highest vertex of the torus is " +
-            type_at(run, highest) + " and the lowest " + type_at(run, lowest) + ", of " +
-            counted(run.total(), "critical point", "critical points") + ".";
+    text += (i == 0 ? "" : " ") + std::string("In ") + panel_letter(i) +
+            " the highest vertex of the torus is " + type_at(run, highest) + " and the lowest " +
+            type_at(run, lowest) + ", of " + counted(run.total(), "critical point", "critical points") + ".";
   }
   return text;
 }
