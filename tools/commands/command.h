@@ -27,6 +27,7 @@ struct Option {
   std::string default_text = {};  ///< empty: none is shown
   std::string details = {};       ///< what man pages say besides; line breaks are made by whoever shows it
   std::string group = {};         ///< the heading that help shows it under, with its neighbours
+  std::string told_by = {};       ///< the command whose help tells it: here help shows the name alone
   std::string negation = {};      ///< the name of the flag that says no
   std::string environment = {};   ///< a variable that gives the value if the option is not given
   std::vector<std::string> choices = {};

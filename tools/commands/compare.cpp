@@ -258,15 +258,13 @@ void add_compare(Program& program) {
       "compare", "Run methods on a field and compare their critical points, diagrams and complexes");
   command.path("MESH", options->mesh, mesh_help()).required();
   add_comparison_options(command, options->request);
-  add_points_options(command, options->points);
+  add_points_options(command, options->points, "points");
   add_outputs(command, *options);
   command.begin_group("Pictures");
   add_figure_options(command, options->figure);
   add_common_options(command, program.common);
   command.examples = {
-      {"compare scan.off",
-       "a table: conventional, salient, and tps held to as many points as salient leaves, on the mean "
-       "curvature"},
+      {"compare scan.off", "a table: conventional, salient and, at equal count, tps on the mean curvature"},
       {"compare scan.off --preset noise", "a field and methods for noisy surfaces"},
       {"compare scan.off --method conventional --method salient:iterations=20,sigma=4eps --figures out",
        "two methods, with pictures and plots"},

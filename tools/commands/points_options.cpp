@@ -14,14 +14,15 @@ std::optional<PointsRequest> PointsOptions::request() const {
   return request;
 }
 
-void add_points_options(Command& command, PointsOptions& options) {
-  command.begin_group("Chosen points");
+void add_points_options(Command& command, PointsOptions& options, const std::string& told_by) {
+  if (told_by.empty()) command.begin_group("Chosen points");
   Option& count =
       command.number("--points", options.count, "Choose K critical points, or tell why there are fewer")
           .between(1, std::numeric_limits<double>::infinity())
           .value("K");
   if (options.count) count.shows_default(std::to_string(*options.count));
   const auto only_with_points = [&](Option& option) -> Option& {
+    option.told_by = told_by;
     return options.count ? option : option.needs("--points");
   };
   only_with_points(command.choice("--kind", options.chosen.kind, morse::kPointKinds,

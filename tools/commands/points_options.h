@@ -28,9 +28,10 @@ struct PointsOptions {
   std::optional<PointsRequest> request() const;
 };
 
-/// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles, under a heading of their
-/// own. Without a default number of points the others are refused where --points is not given.
-void add_points_options(Command& command, PointsOptions& options);
+/// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles: under a heading of their
+/// own or, if help has no room, with names alone and the command whose help tells them. Without a default
+/// number of points the others are refused where --points is not given.
+void add_points_options(Command& command, PointsOptions& options, const std::string& told_by = {});
 
 /// The words of the command line that make a request.
 std::vector<std::string> points_words(const PointsRequest& request);
