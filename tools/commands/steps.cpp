@@ -84,7 +84,7 @@ void FieldRun::make() {
 
 MadePoints FieldRun::choose_points(const PointsPlan& plan) {
   const Stopwatch watch;
-  MadePoints points = PointMaker(plan, loaded()).make(made_->for_points(), run_.console.progress());
+  MadePoints points = make_points(plan, loaded(), *made_, run_.console.progress());
   points_seconds_ = watch.seconds();
   tell_points(points, plan.request, run_.console);
   return points;

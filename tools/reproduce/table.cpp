@@ -46,10 +46,10 @@ std::vector<core::Index> ranked_extrema(const Model& model, const MethodRun& run
                                         std::size_t count, const core::Progress& progress) {
   if (count == 0) return {};
   PointsRequest request;
-  request.count = count;
   request.rank = rank;
   request.spacing = core::Length::absolute(0);
-  return PointMaker(prepare(request), model.loaded()).make(run.made.for_points(), progress).places;
+  const PointsPlan plan = prepare(request);
+  return PointMaker(plan, model.loaded()).make(run.made.for_points(), count, progress).places;
 }
 
 /// What both tables end with: version, the mesh's hash, and all resolved parameters.

@@ -12,6 +12,7 @@
 #include "morsel/core/text/numbers.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/smoothing/saliency.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 namespace {
@@ -48,13 +49,13 @@ std::string counted(std::size_t count, PointKind kind) {
   return core::grouped(count) + " " + (count == 1 ? one : several);
 }
 
-std::string why_fewer(const PointsRequest& request, const MadePoints& made, const std::string& name) {
+std::string why_fewer(PointKind kind, std::size_t count, const MadePoints& made, const std::string& name) {
   const std::size_t found = made.chosen.points.size();
-  std::string text = core::grouped(found) + " of " + core::grouped(request.count) + " points: ";
+  std::string text = core::grouped(found) + " of " + core::grouped(count) + " points: ";
   for (std::size_t list = 0; list < made.candidates.size(); ++list) {
     if (list > 0) text += "; ";
-    text += (list == 0 ? name : made.fill->name) + " has " + counted(made.candidates[list], request.kind) +
-            " that " + (made.candidates[list] <= 1 ? "stands" : "stand") + " out at all";
+    text += (list == 0 ? name : made.fill->name) + " has " + counted(made.candidates[list], kind) + " that " +
+            (made.candidates[list] <= 1 ? "stands" : "stand") + " out at all";
     if (const std::size_t near = made.chosen.too_near[list]; near > 0)
       text += ", of which " + core::grouped(near) + (near == 1 ? " is" : " are") + " nearer than " +
               core::to_digits(made.chosen.spacing) + " along the surface to a point chosen before";
@@ -115,7 +116,7 @@ const std::vector<double>& PointMaker::salience_at(core::Length scale, const cor
   return weight;
 }
 
-MadePoints PointMaker::make(const PointsField& from, const core::Progress& progress) {
+MadePoints PointMaker::make(const PointsField& from, std::size_t count, const core::Progress& progress) {
   const PointsRequest& request = plan_.request;
   const core::TriangleMesh& mesh = loaded_.mesh;
   MadePoints result;
@@ -125,7 +126,7 @@ MadePoints PointMaker::make(const PointsField& from, const core::Progress& progr
     result.scale = scale.on(mesh);
     weight = salience_at(scale, progress);
   }
-  morse::PointChooser chooser(mesh, request.count, request.spacing.on(mesh));
+  morse::PointChooser chooser(mesh, count, request.spacing.on(mesh));
   const auto add = [&](const core::ScalarField& field) {
     const auto candidates = morse::point_candidates(field, request.kind, weight, progress);
     result.candidates.push_back(candidates.size());
@@ -138,7 +139,7 @@ MadePoints PointMaker::make(const PointsField& from, const core::Progress& progr
     add(fill_->field);
   }
   result.chosen = chooser.finish();
-  if (result.chosen.points.size() < request.count) result.note = why_fewer(request, result, from.name);
+  if (result.chosen.points.size() < count) result.note = why_fewer(request.kind, count, result, from.name);
   for (const morse::ChosenPoint& point : result.chosen.points)
     result.places.push_back(point.candidate.point.vertex);
   result.has_percentiles = request.percentiles;
@@ -146,6 +147,11 @@ MadePoints PointMaker::make(const PointsField& from, const core::Progress& progr
   if (percentiles_.empty()) percentiles_ = saliency_percentiles(mesh, progress);
   for (const core::Index v : result.places) result.percentiles.push_back(percentiles_[v]);
   return result;
+}
+
+MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
+                       const core::Progress& progress) {
+  return PointMaker(plan, loaded).make(made.for_points(), progress);
 }
 
 }  // namespace morsel::tools

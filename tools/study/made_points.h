@@ -74,7 +74,11 @@ class PointMaker {
 
   /// Chooses among the critical points of the field and, where these are too few, of the one that fills up,
   /// which is evaluated then only. Throws what Morse functions, mesh_salience() and saliency() throw.
-  MadePoints make(const PointsField& from, const core::Progress& progress = {});
+  MadePoints make(const PointsField& from, const core::Progress& progress = {}) {
+    return make(from, plan_.request.count, progress);
+  }
+  /// The same with another number of points than the request's.
+  MadePoints make(const PointsField& from, std::size_t count, const core::Progress& progress = {});
 
  private:
   const std::vector<double>& salience_at(core::Length scale, const core::Progress& progress);
@@ -86,5 +90,11 @@ class PointMaker {
   std::map<double, std::vector<double>> weights_;  // by scale, in the mesh's unit
   std::vector<double> percentiles_;
 };
+
+struct MadeField;  // made_field.h
+
+/// The points of one field.
+MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
+                       const core::Progress& progress = {});
 
 }  // namespace morsel::tools
