@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/reproduce/outcome.h"
 #include "morsel/tools/study/made_points.h"
