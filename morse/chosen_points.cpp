@@ -125,6 +125,7 @@ void PointChooser::add(std::span<const PointCandidate> candidates, const core::P
 
 ChosenPoints PointChooser::finish() {
   std::vector<Index> vertices;
+  vertices.reserve(chosen_.points.size());
   for (const ChosenPoint& point : chosen_.points) vertices.push_back(point.candidate.point.vertex);
   const std::vector<double> nearest = distances_.to_nearest_other(vertices);
   for (std::size_t i = 0; i < nearest.size(); ++i) chosen_.points[i].distance = nearest[i];

@@ -92,6 +92,7 @@ class Saliency final : public core::Method {
              {"ball", std::string(to_string(options_.ball))}},
             {{"factors", joined(result.factors)}}};
   }
+  core::MethodTraits traits() const override { return {.quantity = "saliency"}; }
 
  private:
   SaliencyOptions options_;

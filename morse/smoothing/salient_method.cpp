@@ -60,6 +60,7 @@ class Salient final : public core::Method {
     if (!salient.reason.empty()) details.emplace_back("exact_because", salient.reason);
     core::MethodResult result = control.result(std::move(parameters), std::move(details));
     result.field = std::move(salient.field);
+    result.sigma = salient.sigma;
     result.warnings = empty_ball_warnings(given.mesh(), options_.support * salient.sigma);
     return result;
   }
@@ -67,6 +68,7 @@ class Salient final : public core::Method {
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
     return {.reevaluates_function = retakes(),
+            .iterates = true,
             .iterates_are_results = !options_.return_saliency && options_.accuracy == 0,
             .returns_other = options_.return_saliency};
   }
@@ -148,7 +150,7 @@ std::vector<std::string> empty_ball_warnings(const core::TriangleMesh& mesh, dou
   });
   if (!is_most(empty)) return {};
   return {"of " + std::to_string(mesh.vertex_count()) + " vertices " + std::to_string(empty) +
-          " have no other within the radius of " + core::shortest(radius) +
+          " have no other within the radius of " + core::to_digits(radius) +
           ", and there smoothing does nothing; a sigma of 1edges or more reaches the neighbours"};
 }
 

@@ -203,7 +203,8 @@ class Compare(ProgramTest):
         report = json.loads((self.folder / "r.json").read_text())
         jsonschema.validate(report, json.loads(SCHEMA.read_text()))
         self.assertEqual(report["request"]["points"],
-                         {"count": 14, "kind": "all", "rank": "salience", "spacing": "3%", "percentiles": True})
+                         {"count": 14, "kind": "all", "rank": "salience", "spacing": "3%",
+                          "percentiles": True})
         for method, row in zip(methods, report["methods"]):
             self.morsel("points", lion, "--field", "mean-curvature", "--method", method, "--fill", "none",
                         *options, "-o", "p.json")
@@ -252,7 +253,8 @@ class Compare(ProgramTest):
         mesh = self.file("octahedron.off", OCTAHEDRON)
         for words, naming in ((("--kind", "maxima"), "--points"), (("--rank", "salience"), "--points"),
                               (("--spacing", "3%"), "--points"), (("--percentiles",), "--points"),
-                              (("--points", 0), "--points"), (("--points", 3, "--spacing", "wide"), "--spacing"),
+                              (("--points", 0), "--points"),
+                              (("--points", 3, "--spacing", "wide"), "--spacing"),
                               (("--points", 3, "--salience-scale", "8eps"), "rank=salience"),
                               (("--points", 3, "--fill", "curvature"), "curvature")):
             error = self.morsel("compare", mesh, *words, "-o", "r.json", code=2).stderr

@@ -255,7 +255,7 @@ class Journals(Documents):
             with self.subTest(damage[:80]):
                 errors = self.run_any(*self.SWEEP, codes=(0,))[2]
                 self.assertIn("warning: rows.json.journal: 1 damaged entry counts as absent", errors)
-                self.assertIn("going on with 1 of 6", errors)
+                self.assertIn("resuming with 1 of 6", errors)
                 self.assertEqual(json.loads((self.folder / "rows.json").read_text())["rows"], expected)
                 self.assertFalse((self.folder / "rows.json.journal").exists())
 

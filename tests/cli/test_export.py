@@ -68,14 +68,16 @@ class Export(ProgramTest):
 
     def test_chosen_points_take_the_place_of_critical_points(self):
         lion = SAMPLES / "lion-head.off"
-        report = self.report(lion, "--method", "salient", "--points", 15, "--fill", "height", "--export", "out")
+        report = self.report(lion, "--method", "salient", "--points", 15, "--fill", "height",
+                             "--export", "out")
         chosen = report["methods"][0]["chosen"]["points"]
         surface = read(self.folder / "out" / "salient.surface.vtp")
         points = arrays(surface.GetPointData())
         vertices = range(surface.GetNumberOfPoints())
         marked = {int(points["chosen"].GetValue(v)): v for v in vertices if points["chosen"].GetValue(v) > 0}
         self.assertEqual([marked[i + 1] for i in range(15)], [point["vertex"] for point in chosen])
-        types = {v: points["critical_type"].GetValue(v) for v in vertices if points["critical_type"].GetValue(v)}
+        critical_types = points["critical_type"]
+        types = {v: critical_types.GetValue(v) for v in vertices if critical_types.GetValue(v)}
         self.assertEqual(types, {point["vertex"]: {"minimum": 1, "saddle": 2, "maximum": 3}[point["type"]]
                                  for point in chosen})
         self.morsel("points", lion, "--field", "mean-curvature", "--method", "salient", "--points", 15,

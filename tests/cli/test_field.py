@@ -86,8 +86,8 @@ class Field(ProgramTest):
         mesh = self.file("o.off", OCTAHEDRON)
         error = self.morsel("field", mesh, "--points", 3, "-o", "x.txt", code=2).stderr
         self.assertIn("--json", error)
-        self.assertIn("--points", self.morsel("field", mesh, "-o", "x.txt", "--json", "p.json", code=2).stderr)
-        self.assertIn("--points", self.morsel("field", mesh, "-o", "x.ply", "--kind", "all", code=2).stderr)
+        for more in (("-o", "x.txt", "--json", "p.json"), ("-o", "x.ply", "--kind", "all")):
+            self.assertIn("--points", self.morsel("field", mesh, *more, code=2).stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["o.off"])
 
     def test_an_unknown_ending_is_refused(self):

@@ -35,6 +35,11 @@ def contents(folder):
     return found
 
 
+def name_in(line):
+    """The name in a line of a list."""
+    return line[1:].split(" ")[0]
+
+
 class OwnershipTest(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -292,9 +297,9 @@ class Batch(OwnershipTest):
                 self.assertEqual(process.returncode, 0, errors)
             listed = (self.folder / "out" / LIST).read_text().splitlines()
             self.assertEqual(json.loads(listed[0]), {"schema": "morsel.results/1"})
-            there = {f"+{path.relative_to(self.folder / 'out')}" for path in (self.folder / "out").rglob("*")
+            there = {str(path.relative_to(self.folder / "out")) for path in (self.folder / "out").rglob("*")
                      if path.is_file()}
-            self.assertLessEqual(there - {f"+{LIST}"}, set(listed))
+            self.assertLessEqual(there - {LIST}, {name_in(line) for line in listed[1:]})
             shutil.rmtree(self.folder / "out")
 
 
@@ -426,11 +431,13 @@ class Folders(OwnershipTest):
                 listed = (self.folder / "out" / LIST).read_bytes()
                 there = {str(path.relative_to(self.folder / "out"))
                          for path in (self.folder / "out").rglob("*") if path.is_file()}
-                self.assertEqual({line[1:] for line in listed.decode().splitlines()[1:]}, there - {LIST})
+                self.assertEqual({name_in(line) for line in listed.decode().splitlines()[1:]}, there - {LIST})
                 self.file("out/thesis.txt", "the only copy")
                 before = contents(self.folder)
                 self.morsel(*command)
-                self.assertEqual((self.folder / "out" / LIST).read_bytes(), listed)
+                again = (self.folder / "out" / LIST).read_bytes()
+                self.assertTrue(again.startswith(listed))
+                self.assertEqual({name_in(line) for line in again.decode().splitlines()[1:]}, there - {LIST})
                 self.assertEqual(set(contents(self.folder)), set(before))
                 self.assertEqual((self.folder / "out/thesis.txt").read_text(), "the only copy")
                 # a file of theirs in the place of one of these
@@ -440,6 +447,51 @@ class Folders(OwnershipTest):
                 self.assertIn("morsel did not make", self.morsel(*command, code=4).stderr)
                 self.assertEqual((self.folder / "out" / taken).read_text(), "the only copy")
                 shutil.rmtree(self.folder / "out")
+
+    def test_a_listed_name_does_not_give_away_a_file_of_the_user(self):
+        """A file was replaced if only its name was listed."""
+        command = ("compare", "m.off", *QUICK, "--figures", "d", *SMALL)
+        words = ("bash", "-c", 'ulimit -f 1; exec "$@"', "-", PROGRAM, *command[:-1], "600x400")
+        failed = subprocess.run(words, cwd=self.folder, check=False, capture_output=True)
+        self.assertEqual(failed.returncode, 4, failed.stderr)
+        own = self.folder / "d" / "conventional.diagram.svg"
+        own.parent.mkdir(exist_ok=True)
+        own.write_text("the only copy")
+        result = subprocess.run([PROGRAM, *command], cwd=self.folder, check=False, capture_output=True)
+        self.assertIn(result.returncode, (2, 4))
+        self.assertEqual(own.read_text(), "the only copy")
+        shutil.rmtree(own.parent)
+        self.morsel(*command)
+        for name in ("conventional.diagram.svg", "sheet.png"):
+            with self.subTest(name=name):
+                own = self.folder / "d" / name
+                own.unlink()
+                own.write_text("the only copy")
+                self.morsel(*command, code=4)
+                self.assertEqual(own.read_text(), "the only copy")
+                own.unlink()
+                self.morsel(*command)
+
+    def test_a_run_that_fails_leaves_no_journal_and_no_folder(self):
+        self.file("bad.off", "junk")
+        for output in ("a/../b/r.json", "c/./d/r.json"):
+            self.refused("compare", "bad.off", *QUICK, "-o", output, code=3)
+        words = ("bash", "-c", 'ulimit -f 0; exec "$@"', "-", PROGRAM, "sweep", "m.off", "--field", "height",
+                 "--vary", "iterations=1..3", "-o", "s.json")
+        failed = subprocess.run(words, cwd=self.folder, check=False, capture_output=True)
+        self.assertEqual(failed.returncode, 4, failed.stderr)
+        self.assertFalse((self.folder / "s.json.journal").exists())
+
+    def test_a_long_chain_has_figures_and_exports(self):
+        """The names of its files were too long, which was found after the work and told otherwise."""
+        self.morsel("compare", "m.off", "--method", "+".join(["conventional"] * 41), *SMALL, "--figures", "f",
+                    "--export", "e")
+
+    def test_a_copy_of_a_folder_is_filled_again(self):
+        command = ("compare", "m.off", *QUICK, *SMALL, "--figures")
+        self.morsel(*command, "d")
+        shutil.copytree(self.folder / "d", self.folder / "copy")  # with the times
+        self.morsel(*command, "copy")
 
     def test_a_link_in_a_folder_is_not_followed(self):
         for name, command in self.commands("out").items():

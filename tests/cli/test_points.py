@@ -173,8 +173,9 @@ class Points(ProgramTest):
                 self.assertIn(naming, error)
         self.assertIn(".csv, .json, .ply or .vtp",
                       self.morsel("points", *mesh, "-o", "p.txt", code=2).stderr)
-        self.assertIn("values.txt", self.morsel("points", mesh[0], "--fill", "vertex-scalar:file=values.txt",
-                                                "-o", "values.txt", code=2).stderr)
+        self.assertIn("--fill vertex-scalar:file values.csv",
+                      self.morsel("points", mesh[0], "--fill", "vertex-scalar:file=values.csv",
+                                  "-o", "values.csv", code=2).stderr)
         self.morsel("points", *mesh, "-o", "octahedron.off/p.csv", code=4)
         self.assertFalse(list(self.folder.glob("p.*")))
 

@@ -28,9 +28,8 @@ PICTURES = pathlib.Path(__file__).parent / "pictures"
 KEPT = ("figure1b.png", "figure2b.png", "figure3d.png", "figure4c.png")
 SMALL = ("--size", "160x120", "--samples", "9")
 PANELS = ["figure1a", "figure1b", "figure1c", "figure1d", "figure2a", "figure2b", "figure3a", "figure3b",
-          "figure3c",
-          "figure3d", "figure3e", "figure4a", "figure4b", "figure4c", "section3.1a", "section3.1b", "section3.1c",
-          "section3.1d"]
+          "figure3c", "figure3d", "figure3e", "figure4a", "figure4b", "figure4c", "section3.1a", "section3.1b",
+          "section3.1c", "section3.1d"]
 
 
 def difference(a, b):
@@ -199,9 +198,9 @@ class Reproduction(ProgramTest):
                 self.assertGreater(control["percentile"], controls[i + 1]["percentile"])
             if control["rank"] is None:
                 self.assertEqual(control["extrema"], counts["minima"] + counts["maxima"])
-            self.assertEqual((line["control"], line["method"], int(line["points"]), float(line["percentile"])),
-                             (control["control"], control["specification"], counts["total"],
-                              control["percentile"]))
+            of_table = (line["control"], line["method"], int(line["points"]), float(line["percentile"]))
+            self.assertEqual(of_table, (control["control"], control["specification"], counts["total"],
+                                        control["percentile"]))
             self.assertIn(control["control"], self.printed)
             self.assertIn(control["control"], page)
 
@@ -228,8 +227,8 @@ class Reproduction(ProgramTest):
         self.assertEqual((totals[0], totals[3]), (4, 4))
         self.assertGreater(totals[1], 4)
         for panel, lowest in (("(a)", "minimum"), ("(b)", "maximum"), ("(d)", "minimum")):
-            self.assertIn(f"In {panel} the highest vertex of the torus is a maximum and the lowest a {lowest}, of",
-                          figure["here"])
+            self.assertIn(f"In {panel} the highest vertex of the torus is a maximum and the lowest a "
+                          f"{lowest}, of", figure["here"])
 
     def test_levels_add_up(self):
         figure = self.document["figures"][3]

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,12 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/segments.h"
+#include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/study/level_builder.h"
 #include "morsel/tools/study/made_field.h"
 #include "morsel/tools/study/persistence_levels.h"
 #include "morsel/tools/study/presets.h"
+#include "morsel/tools/study/summary.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -392,4 +395,33 @@ TEST_CASE("points are chosen of every row as of its field alone, and compared am
   }
   request.points->count = 0;
   CHECK_THROWS_AS(prepare(request), core::InvalidArgument);
+}
+
+TEST_CASE("pairs above 1 % of the range are those of the summary, infinite ones included") {
+  struct Last : tools::ComparisonSink {
+    void field(const tools::FieldOutcome&) override {}
+    void method(const tools::MethodOutcome& outcome) override {
+      const double least = 0.01 * outcome.field.extent();
+      for (const auto& pair : outcome.measurement.diagram.pairs) large += pair.persistence() > least ? 1 : 0;
+      summary = tools::summary_of(outcome.measurement.diagram, outcome.field.extent());
+    }
+    std::size_t large = 0;
+    tools::PersistenceSummary summary;
+  };
+  const TriangleMesh mesh = grid(12, 12).mesh();
+  Last last;
+  tools::ComparisonTable table;
+  tools::ComparisonRequest request;
+  request.methods = {"tps:count=9"};
+  tools::run_comparison({jittered(mesh, 0.2, 5), {}}, tools::prepare(request), {&last, &table});
+  CHECK(last.large > 0);
+  CHECK(last.summary.above_one_percent() == last.large);
+  std::istringstream lines(table.text());
+  std::string line;
+  while (!line.starts_with("tps:count=9") && std::getline(lines, line)) {
+  }
+  std::istringstream row(line);
+  std::vector<std::string> cells(8);
+  for (std::string& cell : cells) row >> cell;
+  CHECK(cells[7] == std::to_string(last.large));
 }

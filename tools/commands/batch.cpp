@@ -169,8 +169,6 @@ void add_what_is_made(Command& command, Options& options) {
   command.flag("--export", request.exports,
                "Write surfaces, complexes (.vtp, for ParaView) and points (.csv)");
   add_figure_options(command, request.figure);
-  command.option("--size").needs("--figures");
-  command.option("--inset").needs("--figures");
 }
 
 void add_how_it_is_run(Command& command, Options& options) {

@@ -75,7 +75,7 @@ void add_camera_options(Command& command, render::CameraText& camera);
 void add_methods_option(Command& command, std::vector<std::string>& methods);
 /// --field, --method, --preset, --target and --snap of the commands that run several methods.
 void add_comparison_options(Command& command, ComparisonRequest& request);
-/// --size and the camera options of a comparison's pictures.
+/// --size and the camera options of a comparison's pictures, for a command that has --figures.
 void add_figure_options(Command& command, render::FigureText& figure);
 /// An output, which must be given: -o, --output
 Option& add_output_option(Command& command, std::string& output, std::string help);

@@ -121,7 +121,7 @@ class Folders {
 /// All that a comparison is written to.
 class Outputs {
  public:
-  /// Unwritable targets are told here, before the work.
+  /// Unwritable targets are refused here, before the work.
   Outputs(const Options& options, const Run& run)
       : options_(options),
         common_(run.common),
@@ -131,7 +131,7 @@ class Outputs {
     if (!options.page.empty()) page_file_.emplace(options.page);
   }
 
-  /// `sinks` are told, too. Refers to `input`.
+  /// `sinks` receive the results, too. Refers to `input`.
   void run(const ComparisonPlan& comparison, const MeshInput& input, std::vector<ComparisonSink*> sinks,
            const core::Progress& progress) {
     const core::LoadedMesh& loaded = input.loaded;
@@ -176,7 +176,7 @@ class Outputs {
     RunFiles files;
     files.reads("MESH", options.mesh).reads_of_field(options.request.field);
     reads_of_points(files, options.request.points);
-    files.writes_document("-o", options.report).writes("--html", options.page);
+    files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
     if (!options.thumbnails.empty())
       for (const char* which : {"first", "last"})
         files.writes("--thumbnails", render::thumbnail_path(options.thumbnails, which));
@@ -247,6 +247,7 @@ void add_outputs(Command& command, Options& options) {
       .path("--html-place", options.page_place,
             "Where the page will be moved to, for the command that it shows")
       .value("PATH")
+      .needs("--html")
       .shapes_nothing();
 }
 

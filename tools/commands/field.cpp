@@ -33,11 +33,10 @@ int write(const Options& options, const Run& run) {
   const std::optional<PointsRequest> request = options.points.request();
   std::optional<PointsPlan> plan;
   if (request) plan = prepare(*request);
-  RunFiles files = base.files();
-  reads_of_points(files, request);
-  files.writes("-o", options.output).writes_document("--json", options.json).check();
-  check_field_path(options.output);
+  reads_of_points(base, request);
+  base.writes("-o", options.output, check_field_path).writes_document("--json", options.json);
   check_points(options);
+  base.check_files();
   DocumentTarget document(options.json);
 
   base.read_whole();
@@ -67,6 +66,7 @@ void add_field(Program& program) {
   command.begin_group("What is written");
   add_output_option(command, options->output,
                     ".txt (a value a line), .ply or .vtp (the surface with the values)")
+      .shortly("The file to write")
       .in_detail("Vertices have the input's numbers; chosen points are marked, but in .txt");
   add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);

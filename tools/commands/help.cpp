@@ -116,7 +116,7 @@ std::string program_help(const std::deque<Command>& commands) {
       "Usage: morsel MESH [OPTIONS]             the same as morsel compare MESH [OPTIONS]\n"
       "       morsel COMMAND ARGUMENTS [OPTIONS]\n\nCommands:\n";
   for (const Command& command : commands) text += row(command.name, command.summary);
-  text += row("help COMMAND", "Tell about a command, as morsel COMMAND --help does");
+  text += row("help COMMAND", "Print help for a command, as morsel COMMAND --help does");
   text +=
       "\nExamples:\n"
       "  morsel scan.off                        critical points of a surface's curvature, three methods\n"

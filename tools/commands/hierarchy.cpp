@@ -94,6 +94,7 @@ void add_hierarchy(Program& program) {
           "unit or in % of its extent; in any order");
   command.text("--counts", request.counts, "By persistence: how many critical cells to leave")
       .value("N,N,...")
+      .shortly("Numbers of critical cells to leave")
       .in_detail(
           "In place of thresholds; cells are minima, saddles with their multiplicities and maxima. Where a "
           "number cannot be had it is the nearest smaller one");

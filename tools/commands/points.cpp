@@ -28,16 +28,13 @@ int choose(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const PointsRequest request = *options.points.request();
   const PointsPlan plan = prepare(request);
-  RunFiles files = base.files();
-  reads_of_points(files, request);
+  reads_of_points(base, request);
   const bool wants_document = is_document(options.output);
-  if (wants_document) {
-    files.writes_document("-o", options.output).check();
-  } else {
-    files.writes("-o", options.output).check();
-    check_points_path(options.output);
-    check_writable(options.output);
-  }
+  if (wants_document)
+    base.writes_document("-o", options.output);
+  else
+    base.writes("-o", options.output, check_points_path);
+  base.check_files();
   DocumentTarget document(wants_document ? options.output : "");
 
   base.read();
@@ -67,6 +64,7 @@ void add_points(Program& program) {
   add_points_options(command, options->points);
   command.begin_group("What is written");
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
+      .shortly("The file to write")
       .in_detail("Points come in the order in which they were chosen, vertices have the input's numbers");
   add_common_options(command, program.common);
   command.examples = {

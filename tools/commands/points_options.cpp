@@ -16,10 +16,11 @@ std::optional<PointsRequest> PointsOptions::request() const {
 
 void add_points_options(Command& command, PointsOptions& options, const std::string& told_by) {
   if (told_by.empty()) command.begin_group("Chosen points");
-  Option& count =
-      command.number("--points", options.count, "Choose K critical points, or tell why there are fewer")
-          .between(1, std::numeric_limits<double>::infinity())
-          .value("K");
+  Option& count = command
+                      .number("--points", options.count,
+                              "Choose K critical points; where there are fewer, the reason is printed")
+                      .between(1, std::numeric_limits<double>::infinity())
+                      .value("K");
   if (options.count) count.shows_default(std::to_string(*options.count));
   const auto only_with_points = [&](Option& option) -> Option& {
     option.told_by = told_by;
@@ -43,7 +44,7 @@ void add_points_options(Command& command, PointsOptions& options, const std::str
           "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
           "shorter than geodesic ones, a few percent longer");
   only_with_points(command.text("--fill", options.fill, "A Morse function that fills up, or none"))
-      .value("F")
+      .is_function()
       .in_detail(
           "Where the field has too few points, its points come after these, by their own rank and apart from "
           "those");
@@ -65,10 +66,6 @@ std::vector<std::string> points_words(const PointsRequest& request) {
   if (request.scale) words.insert(words.end(), {"--salience-scale", core::to_string(*request.scale)});
   if (request.percentiles) words.emplace_back("--percentiles");
   return words;
-}
-
-void reads_of_points(RunFiles& files, const std::optional<PointsRequest>& request) {
-  if (request && request->fill) files.reads_of_field(*request->fill);
 }
 
 }  // namespace morsel::tools

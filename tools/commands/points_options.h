@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "morsel/tools/commands/command.h"
-#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/study/made_points.h"
 
 namespace morsel::tools {
@@ -36,7 +35,10 @@ void add_points_options(Command& command, PointsOptions& options, const std::str
 /// The words of the command line that make a request.
 std::vector<std::string> points_words(const PointsRequest& request);
 
-/// Names the files that the Morse function that fills up reads, if there is one.
-void reads_of_points(RunFiles& files, const std::optional<PointsRequest>& request);
+/// Adds the files that the Morse function that fills up reads, if there is one, to a RunFiles or FieldRun.
+template <class Files>
+void reads_of_points(Files& files, const std::optional<PointsRequest>& request) {
+  if (request && request->fill) files.reads_of_field(*request->fill, "--fill");
+}
 
 }  // namespace morsel::tools

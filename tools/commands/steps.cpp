@@ -1,5 +1,6 @@
 #include "morsel/tools/commands/steps.h"
 
+#include <system_error>
 #include <utility>
 
 #include "morsel/core/io/file_writer.h"
@@ -8,8 +9,9 @@
 
 namespace morsel::tools {
 
-void check_writable(const std::string& path) {
-  if (!path.empty()) const core::FileWriter probe(path);
+void check_writable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!path.empty() && !std::filesystem::is_fifo(path, error)) const core::FileWriter probe(path);
 }
 
 std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFiles& files, const Run& run) {
@@ -55,10 +57,32 @@ void tell_points(const MadePoints& made, const PointsRequest& request, Console& 
 }
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
-    : request_(request), run_(run), plan_(prepare(request)), file_{mesh, {}} {}
+    : run_(run), plan_(prepare(request)), file_{mesh, {}} {
+  files_.reads("MESH", mesh).reads_of_field(request.field);
+}
 
-RunFiles FieldRun::files() const {
-  return RunFiles().reads("MESH", file_.path).reads_of_field(request_.field);
+FieldRun& FieldRun::writes(const std::string& option, const std::filesystem::path& path,
+                           CheckPath check_path) {
+  if (path.empty()) return *this;
+  if (check_path != nullptr) check_path(path);
+  files_.writes(option, path);
+  written_.push_back(path);
+  return *this;
+}
+
+FieldRun& FieldRun::writes_document(const std::string& option, const std::filesystem::path& path) {
+  files_.writes_document(option, path);
+  return *this;
+}
+
+FieldRun& FieldRun::reads_of_field(const std::string& specification, const std::string& option) {
+  files_.reads_of_field(specification, option);
+  return *this;
+}
+
+void FieldRun::check_files() const {
+  files_.check();
+  for (const std::filesystem::path& path : written_) check_writable(path);
 }
 
 void FieldRun::read() {

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/csv.h"
@@ -55,16 +54,13 @@ std::vector<std::int32_t> chosen_order(const MadePoints& made, core::Index verti
 }
 
 void check_points_path(const std::filesystem::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension != ".csv" && extension != ".ply" && extension != ".vtp")
-    throw core::InvalidArgument("points are written as .csv, .json, .ply or .vtp, not as \"" + path.string() +
-                                "\"");
+  core::checked_extension(path, "points are written", {".csv", ".json", ".ply", ".vtp"});
 }
 
-void write_points_table(const std::filesystem::path& path, const MadePoints& made,
+void write_points_table(const core::FileTarget& target, const MadePoints& made,
                         const core::LoadedMesh& loaded, const std::string& field_name,
                         const Provenance& provenance, core::Sync sync) {
-  core::FileWriter file(path, sync);
+  core::FileWriter file(target, sync);
   file.write("vertex,x,y,z,type,multiplicity,value,persistence,rank,distance,percentile,field,provenance\n");
   for (std::size_t i = 0; i < made.chosen.points.size(); ++i) {
     const auto& [candidate, source, distance] = made.chosen.points[i];
@@ -87,8 +83,7 @@ void write_points_table(const std::filesystem::path& path, const MadePoints& mad
 
 void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
                   const std::string& field_name, const Provenance& provenance) {
-  check_points_path(path);
-  const std::string extension = core::file_extension(path);
+  const std::string extension = core::checked_extension(path, "points are written", {".csv", ".ply", ".vtp"});
   if (extension == ".csv") {
     write_points_table(path, made, loaded, field_name, provenance);
     return;

@@ -24,14 +24,15 @@ void write_points(const std::filesystem::path& path, const MadePoints& made, con
                   const std::string& field_name, const Provenance& provenance);
 
 /// The table (.csv) alone, at any path; `sync` as FileWriter's.
-void write_points_table(const std::filesystem::path& path, const MadePoints& made,
+void write_points_table(const core::FileTarget& target, const MadePoints& made,
                         const core::LoadedMesh& loaded, const std::string& field_name,
                         const Provenance& provenance, core::Sync sync = core::Sync::when_replacing);
 
 /// For each of so many vertices: 1 for the point that was chosen first, 2 for the next, …, 0 where none was.
 std::vector<std::int32_t> chosen_order(const MadePoints& made, core::Index vertices);
 
-/// Throws InvalidArgument unless write_points() knows the path's ending; to be called before long work.
+/// Throws InvalidArgument unless write_points() knows the path's ending, or it is .json, whose document
+/// points_writer.h makes; to be called before long work.
 void check_points_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

@@ -29,7 +29,7 @@ struct SurfaceFile {
 /// Per vertex the field, critical_type, persistence, input_vertex and, if it is there, chosen; per vertex and
 /// triangle the labels descending, ascending and morse_smale; `more` are arrays of one value a triangle. Does
 /// not wait until the file is on disk. Throws WriteFailed.
-void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
+void write_surface_file(const core::FileTarget& target, const SurfaceFile& surface,
                         const Provenance& provenance, const std::vector<VtpArray>& more = {});
 
 }  // namespace morsel::tools

@@ -77,8 +77,8 @@ namespace {
 /// Writes the XML head with each array's place in the appended block, then the block itself.
 class VtpWriter {
  public:
-  VtpWriter(const std::filesystem::path& path, const VtpDocument& document, core::Sync sync)
-      : file_(path, sync), document_(document) {}
+  VtpWriter(const core::FileTarget& target, const VtpDocument& document, core::Sync sync)
+      : file_(target, sync), document_(document) {}
 
   void write() {
     const auto count = [](const VtpCells& cells) { return std::to_string(cells.count); };
@@ -169,8 +169,8 @@ class VtpWriter {
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document, core::Sync sync) {
-  VtpWriter(path, document, sync).write();
+void write_vtp(const core::FileTarget& target, const VtpDocument& document, core::Sync sync) {
+  VtpWriter(target, document, sync).write();
 }
 
 }  // namespace morsel::tools

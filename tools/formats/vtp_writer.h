@@ -62,7 +62,7 @@ struct VtpDocument {
 };
 
 /// Writes binary (raw appended) data, whole or not at all. Throws WriteFailed.
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document,
+void write_vtp(const core::FileTarget& target, const VtpDocument& document,
                core::Sync sync = core::Sync::when_replacing);
 
 }  // namespace morsel::tools

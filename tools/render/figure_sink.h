@@ -45,6 +45,7 @@ class FigureSink : public ComparisonSink {
   std::optional<Studio> studio_;
   View view_;
   std::string field_name_;
+  std::string unit_;
   FileNames names_;
   std::vector<Panel> panels_;
 };

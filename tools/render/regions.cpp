@@ -124,15 +124,16 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
 }
 
 RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Segmentation& segmentation,
-                            Segments kind) {
+                            mscomplex::SegmentKind kind) {
   const std::size_t corners = mesh.halfedge_count();
   // A region is a pair of labels, of which a kind may use only one.
   using Pair = std::pair<Index, Index>;
   std::vector<Pair> label(corners);
   core::parallel_for_each(corners, [&](std::size_t h) {
     const Index v = mesh.origin(static_cast<Index>(h));
-    const Index low = kind == Segments::descending ? 0 : segmentation.ascending.vertex[v];
-    const Index high = kind == Segments::ascending ? 0 : segmentation.descending.triangle[h / 3];
+    const Index low = kind == mscomplex::SegmentKind::descending ? 0 : segmentation.ascending.vertex[v];
+    const Index high =
+        kind == mscomplex::SegmentKind::ascending ? 0 : segmentation.descending.triangle[h / 3];
     label[h] = {low, high};
   });
   std::vector<Pair> regions = label;

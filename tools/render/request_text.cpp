@@ -71,19 +71,8 @@ void FigureText::check() const {
 }
 
 std::string to_string(Show show) {
-  switch (show) {
-    case Show::field:
-      return "field";
-    case Show::descending:
-      return "descending";
-    case Show::ascending:
-      return "ascending";
-    case Show::morse_smale:
-      return "morse-smale";
-    case Show::plain:
-      break;
-  }
-  return "plain";
+  if (const std::optional<mscomplex::SegmentKind> kind = segments_of(show)) return to_string(*kind);
+  return show == Show::field ? "field" : "plain";
 }
 
 Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,

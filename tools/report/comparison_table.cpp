@@ -5,6 +5,7 @@
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/study/summary.h"
 
 namespace morsel::tools {
 namespace {
@@ -16,12 +17,11 @@ std::string foot(const MethodOutcome& first) {
   std::string text;
   if (first.chosen)
     text = "points to added: of the points that were chosen; the columns behind: of the whole field\n";
-  text += core::printable("kept: " + points + " of " + first.specification +
-                          " that have the same type at the same vertex; moved: those that have it within " +
-                          core::to_digits(radius) +
-                          " of theirs (2 % of the root of the area), one to one; "
-                          "added: points that are neither") +
-          "\n>1 %: pairs above 1 % of the input field's range\n";
+  text += core::printable("kept: " + points + " of " + first.specification) +
+          " with the same type at the same vertex\nmoved: others of it with one of the same type within " +
+          core::to_digits(radius) +
+          " (2 % of the root of the area), one to one\nadded: points that are neither\n"
+          ">1 %: pairs above 1 % of the input field's range\n";
   if (first.chosen && first.chosen->made.has_percentiles)
     text += "percentile: of mesh saliency, the mean of the points; 0.50 by chance\n";
   return text;
@@ -44,7 +44,7 @@ using Cells = std::vector<std::string>;
 Cells field_cells(const MethodOutcome& outcome) {
   const Measurement& m = outcome.measurement;
   return {grouped(m.critical_points.total()), grouped(m.diagram.pairs.size()),
-          grouped(m.diagram.count_above(0.01 * outcome.input_extent) + m.diagram.cap_pairs().size()),
+          grouped(summary_of(m.diagram, outcome.input_extent).above_one_percent()),
           grouped(m.complex.arc_count()), grouped(m.cells)};
 }
 

@@ -5,17 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/field_document.h"
 #include "morsel/tools/study/made_points.h"
 
 namespace morsel::tools {
-
-/// {"count", "kind", "rank", "spacing", "percentiles", "fill", "scale" (if there are such)}: in the syntax of
-/// the command line.
-Json request_section(const PointsRequest& points);
-/// Reads that back; throws BadInput on anything else.
-PointsRequest read_points_request(const JsonView& section);
 
 /// What was asked for of a field, with "points" if points were.
 Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points, bool repair);

@@ -4,9 +4,10 @@
 #include <fstream>
 #include <system_error>
 
+#include "morsel/core/io/file_bytes.h"
 #include "morsel/core/parallel/exhaustion.h"
 #include "morsel/tools/formats/json_view.h"
-#include "morsel/tools/report/points_writer.h"
+#include "morsel/tools/report/points_request.h"
 
 namespace morsel::tools {
 namespace {
@@ -21,12 +22,11 @@ bool is_file(const std::filesystem::path& path) {
 }  // namespace
 
 LoadedReport read_report(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    core::fail_to_read(EISDIR, "cannot read the report " + path.string());
+  const std::string what = "cannot read the report " + path.string();
+  core::check_regular_file(path, what);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) core::fail_to_read(errno, "cannot read the report " + path.string());
+  if (!in) core::fail_to_read(errno, what);
   return read_report(in, path.string());
 }
 

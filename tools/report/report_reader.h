@@ -21,9 +21,9 @@ struct LoadedReport {
   std::string mesh_sha256;
 };
 
-/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of
-/// this schema. Of results and of lists of methods only the methods' names are checked: a comparison
-/// of reports shows all other errors as differences.
+/// Throws BadInput if the file is missing, not a regular file, not JSON or damaged, OtherDocument if it is
+/// not a report of this schema. Of results and of lists of methods only the methods' names are checked: a
+/// comparison of reports shows all other errors as differences.
 LoadedReport read_report(const std::filesystem::path& path);
 /// The same of a stream; errors call it `name`.
 LoadedReport read_report(std::istream& in, const std::string& name);

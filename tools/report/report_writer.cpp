@@ -5,6 +5,7 @@
 #include "morsel/persistence/diagram.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/points_request.h"
 #include "morsel/tools/report/points_writer.h"
 
 namespace morsel::tools {

@@ -118,7 +118,7 @@ void add(CsvLine& line, const Estimate& estimate) {
 
 }  // namespace
 
-Json trials_key(const StabilityRequest& request, const ReportInput& input) {
+Json trials_key(const StabilityRequest& request, const ReportInput& input, const Registry& registry) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
   std::vector<std::string> fields = request.fields;
@@ -127,7 +127,7 @@ Json trials_key(const StabilityRequest& request, const ReportInput& input) {
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},
           {"request", std::move(asked)},
-          {"files", files_section(input_files(fields))}};
+          {"files", files_section(input_files(fields, registry))}};
 }
 
 void write_stability(JsonSink& json, const StabilityReport& report) {

@@ -21,7 +21,8 @@ struct StabilityReport {
 };
 
 /// All that the trials of a run depend on besides their perturbation and number: the key of their journal.
-Json trials_key(const StabilityRequest& request, const ReportInput& input);
+Json trials_key(const StabilityRequest& request, const ReportInput& input,
+                const Registry& registry = Registry::standard());
 
 /// The whole document, every trial included.
 void write_stability(JsonSink& json, const StabilityReport& report);

@@ -134,7 +134,7 @@ class LinkCounter : public HierarchySink {
  public:
   void begin(const HierarchyBasis&) override {}
   void level(const Level& level) override {
-    levels.push_back({level.points.total(), level.cells(CellKind::morse_smale).count,
+    levels.push_back({level.points.total(), level.cells(SegmentKind::morse_smale).count,
                       level.count(PointStatus::kept), level.count(PointStatus::moved),
                       level.count(PointStatus::fresh)});
   }
@@ -208,9 +208,10 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
           render::Inset{figure.region->vertex, figure.region->radius};
     panel.shaping_words = shaping_words_of(panel, figure, options, request);
     panel.caption = caption_of(panel, figure);
-    const render::Subject subject{
-        panel.run->made.field(), &panel.run->measurement,
-        render::quantity_of(panel.run->made.input.name, panel.run->plan.chain.steps.back().name), ""};
+    const render::Subject subject{panel.run->made.field(), &panel.run->measurement,
+                                  render::quantity_of(panel.run->made.input.name, panel.run->made.input.unit,
+                                                      panel.run->plan.chain.quantity()),
+                                  ""};
     render::Image image = model.studio().take(view, subject, request, progress);
     panel.png = panel_png(image, panel, figure, options, request);
     core::write_file(folder.claim(panel.file), panel.png, core::Sync::never);

@@ -16,10 +16,10 @@ Model Model::read(const ModelRecipe& recipe, const MeshFile& file, bool repair,
   return {recipe, file, read_hashed_mesh(file.path, {.repair = repair}, progress)};
 }
 
-Model Model::make(const ModelRecipe& recipe, const MeshFile& file, const std::filesystem::path& path,
+Model Model::make(const ModelRecipe& recipe, const MeshFile& file, const core::FileTarget& target,
                   const std::vector<std::string>& comments) {
-  core::write_off(path, recipe.make(), comments);
-  return {recipe, file, read_hashed_mesh(path)};
+  core::write_off(target, recipe.make(), comments);
+  return {recipe, file, read_hashed_mesh(target.path)};
 }
 
 const MethodRun& Model::run(const RunName& name, const core::Progress& progress) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/parallel/progress.h"
 #include "morsel/tools/render/picture.h"
 #include "morsel/tools/report/hashed_mesh.h"
@@ -37,11 +38,11 @@ class Model {
   /// A Morse function and a method, in the syntax of the command line.
   using RunName = std::pair<std::string, std::string>;
 
-  /// Reads the mesh; throws what core::read_mesh() throws. A surface that is made is first written to `path`,
-  /// with these comments.
+  /// Reads the mesh; throws what core::read_mesh() throws. A surface that is made is first written to
+  /// `target`, with these comments.
   static Model read(const ModelRecipe& recipe, const MeshFile& file, bool repair,
                     const core::Progress& progress = {});
-  static Model make(const ModelRecipe& recipe, const MeshFile& file, const std::filesystem::path& path,
+  static Model make(const ModelRecipe& recipe, const MeshFile& file, const core::FileTarget& target,
                     const std::vector<std::string>& comments);
 
   const ModelRecipe& recipe() const { return recipe_; }

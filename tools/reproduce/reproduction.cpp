@@ -5,6 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
+#include "morsel/core/text/nearest_name.h"
 #include "morsel/tools/reproduce/document.h"
 #include "morsel/tools/reproduce/page.h"
 #include "morsel/tools/reproduce/table.h"
@@ -12,10 +13,10 @@
 namespace morsel::tools::reproduce {
 namespace {
 
-std::string model_names() {
-  std::string text;
-  for (const ModelRecipe& model : models()) text += (text.empty() ? "" : ", ") + std::string(model.name);
-  return text;
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const ModelRecipe& model : models()) names.emplace_back(model.name);
+  return names;
 }
 
 /// Assigns "VALUE" to every model and "MODEL=VALUE" to one.
@@ -29,16 +30,19 @@ void for_models(const std::string& text, const Take& take) {
     known = true;
     take(i, value);
   }
+  const std::string name = text.substr(0, equals);
   if (!known)
-    throw core::InvalidArgument("there is no model \"" + text.substr(0, equals) +
-                                "\"; there are: " + model_names());
+    throw core::InvalidArgument("there is no model \"" + name + "\"" +
+                                core::nearest_of(name, model_names(), "there are"));
 }
 
 render::UpAxis up_axis(const std::string& text) {
-  if (text == "x") return render::UpAxis::x;
-  if (text == "y") return render::UpAxis::y;
-  if (text == "z") return render::UpAxis::z;
-  throw core::InvalidArgument("the axis that points up is x, y or z, not \"" + text + "\"");
+  std::vector<std::string> names;
+  for (const render::UpAxis axis : {render::UpAxis::x, render::UpAxis::y, render::UpAxis::z}) {
+    names.push_back(to_string(axis));
+    if (text == names.back()) return axis;
+  }
+  throw core::InvalidArgument("the axis that points up " + core::must_be_one_of(names, text));
 }
 
 Model load(const ModelRecipe& recipe, const MeshFile& file, const Prepared& prepared, ResultFolder& folder,

@@ -76,7 +76,7 @@ MethodChain make_row(const std::vector<core::Specification>& steps, const std::s
 /// A row's chain with the counts of earlier rows, whose critical points are `totals`.
 MethodChain counted_row(const ComparisonPlan& plan, std::size_t row, const std::vector<std::size_t>& totals) {
   const std::string& specification = plan.chains[row].specification;
-  std::vector<core::Specification> steps = core::parse_chain(specification, "--method");
+  std::vector<core::Specification> steps = core::parse_chain(specification, "the method");
   for (const RowCount& count : plan.counts[row]) set_count(steps[count.step], totals[count.row]);
   return make_row(steps, specification, plan.registry);
 }
@@ -169,7 +169,7 @@ ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registr
   check_target(request.target);
   ComparisonPlan plan{registry.make_function(request.field), {}, request.target, request.snap, {}, registry};
   for (const std::string& method : request.methods) {
-    std::vector<core::Specification> steps = core::parse_chain(method, "--method");
+    std::vector<core::Specification> steps = core::parse_chain(method, "the method");
     plan.counts.push_back(row_counts(steps, plan.chains));
     for (const RowCount& count : plan.counts.back()) set_count(steps[count.step], 1);  // to be replaced
     plan.chains.push_back(make_row(steps, method, registry));
@@ -208,7 +208,7 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
     MethodOutcome outcome{chain.specification,    chain.name,           std::move(made.steps),
                           std::move(made.field),  input.field.extent(), std::move(made.target),
                           std::move(measurement), std::move(origins),   std::move(places),
-                          std::move(matching),    std::move(timings)};
+                          std::move(matching),    std::move(timings),   chain.quantity()};
     if (row_points) {
       const Stopwatch points_watch;
       outcome.chosen = row_points->choose({input.name, outcome.field, outcome.steps},

@@ -68,6 +68,7 @@ struct MethodOutcome {
   std::vector<core::Index> places;
   Matching compared_to_first;
   Timings timings;
+  std::string quantity = {};                 ///< MethodChain::quantity()
   std::optional<ChosenOutcome> chosen = {};  ///< if points were asked for
 
   /// What tables and pictures show: the chosen points where there are such, else all critical points; and the

@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 #include "morsel/morse/critical_points.h"
 #include "morsel/tools/study/stopwatch.h"
 
 namespace morsel::tools {
 namespace {
-
-std::vector<FieldFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
-  std::vector<FieldFile> files;
-  for (const auto& [key, value] : parameters)
-    if (!function.file_key.empty() && key == function.file_key)
-      files.push_back({key, std::get<std::string>(value)});
-  return files;
-}
 
 /// Says so if most critical points come from the order of vertex numbers alone; else empty.
 std::string plateau_warning(const core::ScalarField& field, const core::Progress& progress) {
@@ -50,12 +41,11 @@ FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction&
                             const core::Progress& progress) {
   const Stopwatch watch;
   core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
-  std::vector<FieldFile> files = files_of(function, result.parameters);
   std::vector<std::string> warnings = std::move(result.warnings);
   if (std::string text = plateau_warning(result.field, progress.unreported()); !text.empty())
     warnings.push_back(std::move(text));
-  return {function.name,   std::move(result.field), std::move(result.parameters),
-          watch.seconds(), std::move(files),        std::move(warnings)};
+  return {function.name,  std::move(result.field), std::move(result.parameters), watch.seconds(),
+          function.files, function.unit,           std::move(warnings)};
 }
 
 }  // namespace morsel::tools

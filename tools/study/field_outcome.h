@@ -11,20 +11,15 @@
 
 namespace morsel::tools {
 
-/// A file that a Morse function read, besides the mesh's.
-struct FieldFile {
-  std::string key;  ///< of the function, which names it
-  std::string path;
-};
-
 /// The field before any method.
 struct FieldOutcome {
   std::string name;
   core::ScalarField field;
   core::Parameters parameters;
   double seconds = 0;
-  std::vector<FieldFile> files = {};
-  std::vector<std::string> warnings = {};  ///< the function's, and of critical points that mean nothing
+  std::vector<core::FileParameter> files = {};  ///< that the function read
+  std::string unit = {};                        ///< the function's, FunctionEntry::unit
+  std::vector<std::string> warnings = {};       ///< the function's, and of critical points that mean nothing
 };
 
 /// Evaluates a Morse function on a loaded mesh.

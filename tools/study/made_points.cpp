@@ -6,7 +6,6 @@
 #include <numeric>
 #include <span>
 #include <utility>
-#include <variant>
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/numbers.h"
@@ -24,9 +23,7 @@ using morse::PointRank;
 /// σ of the last step of the method that has one.
 std::optional<double> sigma_of(const std::vector<StepOutcome>& steps) {
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-    for (const auto& [key, value] : step->parameters)
-      if (const double* sigma = std::get_if<double>(&value); key == "sigma" && sigma != nullptr)
-        return *sigma;
+    if (step->sigma) return step->sigma;
   return std::nullopt;
 }
 
@@ -77,7 +74,7 @@ PointsPlan prepare(const PointsRequest& request, const Registry& registry) {
     throw core::InvalidArgument("the scale of salience must be above 0, not " +
                                 core::to_string(*request.scale));
   PointsPlan plan{request, std::nullopt};
-  if (request.fill) plan.fill = registry.make_function(*request.fill);
+  if (request.fill) plan.fill = registry.make_function(*request.fill, "the Morse function that fills up");
   return plan;
 }
 

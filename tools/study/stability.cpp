@@ -281,14 +281,14 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
                      {std::nullopt},
                      request.trials,
                      request.seed,
-                     core::parse_length(request.radius, "--radius"),
+                     core::parse_length(request.radius, "the matching radius"),
                      request.points,
                      {},
-                     registry.make_method(request.reference)};
+                     registry.make_method(request.reference, "the reference method")};
   if (!request.reference_field.empty())
-    plan.reference_function = registry.make_function(request.reference_field);
+    plan.reference_function = registry.make_function(request.reference_field, "the reference Morse function");
   if (!(plan.radius.value >= 0))
-    throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
+    throw core::InvalidArgument("the matching radius must be 0 or more, not " + request.radius);
   if (request.target) plan.targets.push_back(request.target);
   for (const std::string& field : request.fields) plan.functions.push_back(registry.make_function(field));
   for (const std::string& method : request.methods) plan.chains.push_back(registry.make_method(method));
@@ -300,8 +300,8 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
     plan.perturbations.push_back({PerturbationKind::subdivision, amount, NoiseKind::normal});
   for (const Perturbation& perturbation : plan.perturbations) check(perturbation);
   for (const NamedFunction& function : plan.functions)
-    if (!request.subdivide.empty() && function.name == "vertex-scalar")
-      throw core::InvalidArgument("vertex-scalar has no values for the vertices that --subdivide adds");
+    if (!request.subdivide.empty() && function.function->traits().needs_input_vertices)
+      throw core::InvalidArgument(function.name + " has no values for the vertices that subdivision adds");
   return plan;
 }
 
