@@ -7,14 +7,19 @@
 
 namespace morsel::tools {
 
+Json choice_section(const PointsRequest& points) {
+  Json section = {{"kind", to_string(points.kind)},
+                  {"rank", to_string(points.rank)},
+                  {"spacing", core::to_string(points.spacing)}};
+  if (points.fill) section["fill"] = *points.fill;
+  if (points.scale) section["scale"] = core::to_string(*points.scale);
+  return section;
+}
+
 Json request_section(const FieldRequest& field, const PointsRequest& points, bool repair) {
   Json asked = request_section(field, repair);
   asked["points"] = points.count;
-  asked["kind"] = to_string(points.kind);
-  asked["rank"] = to_string(points.rank);
-  asked["spacing"] = core::to_string(points.spacing);
-  if (points.fill) asked["fill"] = *points.fill;
-  if (points.scale) asked["scale"] = core::to_string(*points.scale);
+  asked.update(choice_section(points));
   return asked;
 }
 

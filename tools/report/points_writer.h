@@ -6,6 +6,10 @@
 
 namespace morsel::tools {
 
+/// How points were to be chosen, without their number: {"kind", "rank", "spacing", "fill", "scale"}, the last
+/// two if they were given; in the syntax of the command line.
+Json choice_section(const PointsRequest& points);
+
 /// What was asked for.
 Json request_section(const FieldRequest& field, const PointsRequest& points, bool repair);
 

@@ -47,13 +47,13 @@ std::string counted(std::size_t count, PointKind kind) {
   return core::grouped(count) + " " + (count == 1 ? one : several);
 }
 
-std::string why_fewer(const PointsRequest& request, const MadePoints& made, const MadeField& field) {
+std::string why_fewer(PointKind kind, std::size_t count, const MadePoints& made, const MadeField& field) {
   const std::size_t found = made.chosen.points.size();
-  std::string text = core::grouped(found) + " of " + core::grouped(request.count) + " points: ";
+  std::string text = core::grouped(found) + " of " + core::grouped(count) + " points: ";
   for (std::size_t list = 0; list < made.candidates.size(); ++list) {
     if (list > 0) text += "; ";
     text += (list == 0 ? field.input.name : made.fill->name) + " has " +
-            counted(made.candidates[list], request.kind) + " that " +
+            counted(made.candidates[list], kind) + " that " +
             (made.candidates[list] <= 1 ? "stands" : "stand") + " out at all";
     if (const std::size_t near = made.chosen.too_near[list]; near > 0)
       text += ", of which " + core::grouped(near) + (near == 1 ? " is" : " are") + " nearer than " +
@@ -99,8 +99,8 @@ std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const c
   return percentiles;
 }
 
-MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
-                       const core::Progress& progress) {
+MadePoints choose_points(const PointsPlan& plan, std::size_t count, const core::LoadedMesh& loaded,
+                         const MadeField& made, const core::Progress& progress) {
   const PointsRequest& request = plan.request;
   const core::TriangleMesh& mesh = loaded.mesh;
   MadePoints result;
@@ -110,7 +110,7 @@ MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, c
     result.scale = scale.on(mesh);
     weight = morse::mesh_salience(mesh, scale, progress);
   }
-  morse::PointChooser chooser(mesh, request.count, request.spacing.on(mesh));
+  morse::PointChooser chooser(mesh, count, request.spacing.on(mesh));
   const auto add = [&](const core::ScalarField& field) {
     const auto candidates = morse::point_candidates(field, request.kind, weight, progress);
     result.candidates.push_back(candidates.size());
@@ -122,8 +122,14 @@ MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, c
     add(result.fill->field);
   }
   result.chosen = chooser.finish();
-  if (result.chosen.points.size() < request.count) result.note = why_fewer(request, result, made);
-  const std::vector<double> percentiles = saliency_percentiles(mesh, progress);
+  if (result.chosen.points.size() < count) result.note = why_fewer(request.kind, count, result, made);
+  return result;
+}
+
+MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
+                       const core::Progress& progress) {
+  MadePoints result = choose_points(plan, plan.request.count, loaded, made, progress);
+  const std::vector<double> percentiles = saliency_percentiles(loaded.mesh, progress);
   for (const morse::ChosenPoint& point : result.chosen.points)
     result.percentiles.push_back(percentiles[point.candidate.point.vertex]);
   return result;

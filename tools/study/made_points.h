@@ -49,7 +49,11 @@ struct MadePoints {
 std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const core::Progress& progress = {});
 
 /// Chooses among the critical points of the made field and, where these are too few, of the one that fills
-/// up, which is evaluated then only.
+/// up, which is evaluated then only: `count` points, whatever the request says, without their percentiles.
+MadePoints choose_points(const PointsPlan& plan, std::size_t count, const core::LoadedMesh& loaded,
+                         const MadeField& made, const core::Progress& progress = {});
+
+/// The same with as many points as the request says, and with their percentiles.
 MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
                        const core::Progress& progress = {});
 
