@@ -14,6 +14,7 @@
 #include "morsel/tools/render/request_text.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/made_field.h"
+#include "morsel/tools/study/made_points.h"
 
 namespace morsel::tools {
 
@@ -69,6 +70,17 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
 Option& add_target_option(Command& command, std::optional<std::size_t>& target);
 /// MESH, --field, --method and --target of the commands that work on one field.
 void add_field_options(Command& command, std::string& mesh, FieldRequest& request);
+/// How points are chosen, as the command line has it.
+struct ChoiceText {
+  PointsRequest points = {};
+  std::string spacing = core::to_string(PointsRequest().spacing);
+  std::string fill = "none";
+  std::string scale = {};
+};
+/// --kind, --rank, --spacing, --fill and --salience-scale of the commands that choose points.
+void add_choice_options(Command& command, ChoiceText& choice);
+/// Throws InvalidArgument on lengths that are none.
+PointsRequest choice_request(const ChoiceText& choice);
 /// --view, --up and --inset of the commands that take pictures.
 void add_camera_options(Command& command, render::CameraText& camera);
 /// --method, any number of times.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/study/presets.h"
 
@@ -37,6 +38,46 @@ void add_field_options(Command& command, std::string& mesh, FieldRequest& reques
   command.text("--field", request.field, "Morse function").value("F");
   command.text("--method", request.method, "A method or chain of methods").value("M");
   add_target_option(command, request.target);
+}
+
+void add_choice_options(Command& command, ChoiceText& choice) {
+  using morse::PointKind;
+  using morse::PointRank;
+  command
+      .choice("--kind", choice.points.kind,
+              {PointKind::extrema, PointKind::maxima, PointKind::minima, PointKind::saddles, PointKind::all},
+              "extrema, maxima, minima, saddles or all")
+      .value("KIND");
+  command
+      .choice("--rank", choice.points.rank, {PointRank::persistence, PointRank::salience},
+              "What comes first: persistence or salience")
+      .value("RANK")
+      .in_detail(
+          "persistence: of essential points, which have none, the extent of the field on their component; "
+          "salience: persistence times the mesh saliency of the surface there, counted by areas and "
+          "smoothed, 1 on average");
+  command.text("--spacing", choice.spacing, "The least distance of two points along the surface")
+      .value("LENGTH")
+      .in_detail(
+          "Points are taken by rank; what is nearer to one that was taken before is passed over. 0: no two "
+          "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
+          "shorter than geodesic ones, a few percent longer");
+  command.text("--fill", choice.fill, "A Morse function that fills up, or none")
+      .value("F")
+      .in_detail(
+          "Where the field has too few points, its points come after these, by their own rank and apart from "
+          "those");
+  command.text("--salience-scale", choice.scale, "How far salience is smoothed")
+      .value("LENGTH")
+      .shows_default("the method's sigma, or 8eps");
+}
+
+PointsRequest choice_request(const ChoiceText& choice) {
+  PointsRequest request = choice.points;
+  request.spacing = core::parse_length(choice.spacing, "--spacing");
+  if (choice.fill != "none") request.fill = choice.fill;
+  if (!choice.scale.empty()) request.scale = core::parse_length(choice.scale, "--salience-scale");
+  return request;
 }
 
 void add_camera_options(Command& command, render::CameraText& camera) {

@@ -3,7 +3,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <string_view>
 
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/text/numbers.h"
@@ -16,26 +15,12 @@
 namespace morsel::tools {
 namespace {
 
-/// As a Morse function that fills up.
-constexpr std::string_view kNone = "none";
-
 struct Options {
   std::string mesh;
   FieldRequest request = {"gaussian-curvature:estimator=diffused", "conventional", {}};
-  PointsRequest points;
-  std::string spacing = core::to_string(PointsRequest().spacing);
-  std::string fill = "mean-curvature";
-  std::string scale;
+  ChoiceText choice = {.fill = "mean-curvature"};
   std::string output;
 };
-
-PointsRequest points_request(const Options& options) {
-  PointsRequest request = options.points;
-  request.spacing = core::parse_length(options.spacing, "--spacing");
-  if (options.fill != kNone) request.fill = options.fill;
-  if (!options.scale.empty()) request.scale = core::parse_length(options.scale, "--salience-scale");
-  return request;
-}
 
 bool is_document(const std::string& output) {
   return output == "-" || core::file_extension(output) == ".json";
@@ -54,7 +39,7 @@ std::string described(const MadePoints& made, const PointsRequest& request) {
 
 int choose(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  const PointsPlan plan = prepare(points_request(options));
+  const PointsPlan plan = prepare(choice_request(options.choice));
   RunFiles files = base.files();
   if (plan.request.fill) files.reads_of_field(*plan.request.fill);
   const bool wants_document = is_document(options.output);
@@ -96,38 +81,10 @@ void add_points(Program& program) {
   Command& command =
       program.add("points", "Choose critical points of one field that stand out and lie apart");
   add_field_options(command, options->mesh, options->request);
-  command.number("--points", options->points.count, "How many, or the reason why there are fewer")
+  command.number("--points", options->choice.points.count, "How many, or the reason why there are fewer")
       .between(1, std::numeric_limits<double>::infinity())
       .value("K");
-  using morse::PointKind;
-  using morse::PointRank;
-  command
-      .choice("--kind", options->points.kind,
-              {PointKind::extrema, PointKind::maxima, PointKind::minima, PointKind::saddles, PointKind::all},
-              "extrema, maxima, minima, saddles or all")
-      .value("KIND");
-  command
-      .choice("--rank", options->points.rank, {PointRank::persistence, PointRank::salience},
-              "What comes first: persistence or salience")
-      .value("RANK")
-      .in_detail(
-          "persistence: of essential points, which have none, the extent of the field on their component; "
-          "salience: persistence times the mesh saliency of the surface there, counted by areas and "
-          "smoothed, 1 on average");
-  command.text("--spacing", options->spacing, "The least distance of two points along the surface")
-      .value("LENGTH")
-      .in_detail(
-          "Points are taken by rank; what is nearer to one that was taken before is passed over. 0: no two "
-          "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
-          "shorter than geodesic ones, a few percent longer");
-  command.text("--fill", options->fill, "A Morse function that fills up, or none")
-      .value("F")
-      .in_detail(
-          "Where the field has too few points, its points come after these, by their own rank and apart from "
-          "those");
-  command.text("--salience-scale", options->scale, "How far salience is smoothed")
-      .value("LENGTH")
-      .shows_default("the method's sigma, or 8eps");
+  add_choice_options(command, options->choice);
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
       .in_detail("Points come in the order in which they were chosen, vertices have the input's numbers");
   add_common_options(command, program.common);

@@ -137,6 +137,7 @@ LandmarksPlan prepare(const LandmarksRequest& request, const Registry& registry)
   if (request.count == 0) throw core::InvalidArgument("the number of points must be at least 1, not 0");
   check_radius("the radius of a hit", request.radius);
   check_radius("the largest radius", request.largest_radius);
+  if (request.largest_radius.value == 0) throw core::InvalidArgument("the largest radius must be above 0");
   if (request.first > 1) throw core::InvalidArgument("the first vertex of a mesh is 0 or 1");
   static_cast<void>(Bootstrap(0, request.resamples, request.seed));  // which checks their number
   LandmarksPlan plan{request, {}, {}, prepare(request.choice, registry)};
