@@ -40,18 +40,12 @@ LandmarksRequest landmarks_request(const Options& options) {
   return request;
 }
 
-std::vector<std::string> all_fields(const LandmarksRequest& request) {
-  std::vector<std::string> fields = request.fields;
-  if (request.choice.fill) fields.push_back(*request.choice.fill);
-  return fields;
-}
-
 RunFiles files_of(const Options& options, const MarkedFiles& files) {
   RunFiles named;
   named.reads("LIST", options.list);
   for (std::size_t i = 0; i < files.size(); ++i)
     named.reads("mesh of LIST,", files.path_of(i)).reads("vertices of LIST,", files.marks_path_of(i));
-  for (const std::string& field : all_fields(options.request)) named.reads_of_field(field);
+  for (const std::string& field : fields_of(options.request)) named.reads_of_field(field);
   write_table(named, options.output).fills("--figures", options.figure_folder).check();
   return named;
 }
@@ -100,7 +94,7 @@ int measure_landmarks(const Options& given, const Run& run) {
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);
   TableTarget target(options.output);
 
-  const std::vector<HashedFile> field_files = input_files(all_fields(request));
+  const std::vector<HashedFile> field_files = input_files(fields_of(request));
   std::optional<LandmarksJournal> done;
   if (Journal* journal = target.open_journal(landmarks_key(request, run.common.repair, field_files)))
     done.emplace(*journal, files, plan, field_files);
@@ -136,7 +130,7 @@ void add_scoring_options(Command& command, Options& options) {
   command.number("--first", options.request.first, "The number of a mesh's first vertex in the files: 0 or 1")
       .between(0, 1);
   command.number("--resamples", options.request.resamples, "Resamples of the meshes that intervals are from")
-      .between(100, 1'000'000);
+      .between(100, kMostResamples);
   command.number("--seed", options.request.seed, "Of the random points and of the resamples");
 }
 

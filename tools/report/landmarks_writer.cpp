@@ -13,8 +13,6 @@
 namespace morsel::tools {
 namespace {
 
-constexpr const char* kSchema = "morsel.landmarks/1";
-
 Json mean_section(const MeshMean& mean) {
   return {{"mean", mean.mean},
           {"interval", mean.interval ? Json{mean.interval->low, mean.interval->high} : Json()}};
@@ -74,6 +72,12 @@ std::vector<HashedFile> LandmarksReport::inputs() const {
   return inputs;
 }
 
+std::vector<std::string> fields_of(const LandmarksRequest& request) {
+  std::vector<std::string> fields = request.fields;
+  if (request.choice.fill) fields.push_back(*request.choice.fill);
+  return fields;
+}
+
 Json request_section(const LandmarksRequest& request, bool repair) {
   Json asked = {{"fields", request.fields},
                 {"methods", request.methods},
@@ -91,7 +95,7 @@ Json request_section(const LandmarksRequest& request, bool repair) {
 Json landmarks_key(const LandmarksRequest& request, bool repair, const std::vector<HashedFile>& field_files) {
   Json asked = request_section(request, repair);
   asked.erase("resamples");
-  return {{"schema", kSchema},
+  return {{"schema", kLandmarksSchema},
           {"tool", tool_section()},
           {"request", std::move(asked)},
           {"files", files_section(field_files)}};
@@ -100,7 +104,7 @@ Json landmarks_key(const LandmarksRequest& request, bool repair, const std::vect
 void write_landmarks(JsonSink& json, const LandmarksReport& report) {
   const LandmarksPlan& plan = report.plan;
   json.begin_object();
-  json.member("schema", kSchema);
+  json.member("schema", kLandmarksSchema);
   json.member("tool", tool_section());
   json.member("request", request_section(plan.request, report.files.repair()));
   json.member("list", {{"path", report.files.list().path}, {"sha256", report.files.list().sha256}});

@@ -11,6 +11,8 @@
 
 namespace morsel::tools {
 
+inline constexpr const char* kLandmarksSchema = "morsel.landmarks/1";
+
 /// A run; refers to all of it.
 struct LandmarksReport {
   const MarkedFiles& files;
@@ -23,6 +25,9 @@ struct LandmarksReport {
   /// All files that were read.
   std::vector<HashedFile> inputs() const;
 };
+
+/// The Morse functions of a request, the one that fills up among them.
+std::vector<std::string> fields_of(const LandmarksRequest& request);
 
 /// The request in the syntax of the command line.
 Json request_section(const LandmarksRequest& request, bool repair);

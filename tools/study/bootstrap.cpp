@@ -11,15 +11,15 @@
 namespace morsel::tools {
 namespace {
 
-constexpr std::size_t kFewest = 100;
 constexpr std::size_t kGrain = 64;  // resamples of a chunk
 
 }  // namespace
 
 Bootstrap::Bootstrap(std::size_t values, std::size_t resamples, std::uint64_t seed)
     : count_(values), resamples_(resamples) {
-  if (resamples < kFewest)
-    throw core::InvalidArgument("an interval needs at least " + std::to_string(kFewest) + " resamples, not " +
+  if (resamples < kFewestResamples || resamples > kMostResamples)
+    throw core::InvalidArgument("an interval needs at least " + std::to_string(kFewestResamples) +
+                                " resamples and at most " + std::to_string(kMostResamples) + ", not " +
                                 std::to_string(resamples));
   if (values < 2) return;
   drawn_.resize(values * resamples);

@@ -11,6 +11,10 @@
 
 namespace morsel::tools {
 
+/// Of which an interval is taken.
+inline constexpr std::size_t kFewestResamples = 100;
+inline constexpr std::size_t kMostResamples = 100'000;
+
 struct Interval {
   double low = 0;
   double high = 0;
@@ -23,8 +27,8 @@ struct Interval {
 /// instead of 95 %.
 class Bootstrap {
  public:
-  /// Throws InvalidArgument for fewer than 100 resamples. The r-th depends on `seed`, r and `values` alone.
-  /// Keeps 4 bytes for each value and resample.
+  /// Throws InvalidArgument for fewer than 100 resamples or more than 100,000. The r-th depends on `seed`,
+  /// r and `values` alone. Keeps 4 bytes for each value and resample.
   Bootstrap(std::size_t values, std::size_t resamples, std::uint64_t seed);
 
   /// Of the mean of as many values as it was made for; none of fewer than two. O(values · resamples),
