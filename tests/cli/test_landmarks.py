@@ -1,4 +1,4 @@
-"""morsel landmarks: scores on marks made by construction, its files, lists that are bad, and interruptions."""
+"""morsel landmarks: scores on marks made by construction, its files, bad lists, interruptions."""
 
 import csv
 import json
@@ -299,7 +299,8 @@ class Refused(Landmarks):
 
     def test_lists(self):
         for text, naming in (("", "lists no mesh"), ("a.off\n", "line 1: a mesh and a file"),
-                             ("fine.off absent.txt\n", "absent.txt"), ("fine.off bad.txt\n", "bad.txt, line 2"),
+                             ("fine.off absent.txt\n", "absent.txt"),
+                             ("fine.off bad.txt\n", "bad.txt, line 2"),
                              ("fine.off empty.txt\n", "empty.txt marks no vertex"),
                              ("fine.off far.txt\n", "far.txt, line 1: there is no vertex 99999"),
                              ("absent.off good.txt\n", "absent.off"), ("good.txt good.txt\n", "good.txt"),

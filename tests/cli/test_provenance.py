@@ -280,8 +280,9 @@ class Provenance(ProgramTest):
                                                          for kind in ("png", "svg"))})
         document = json.loads(files.pop("l.json").read_text())
         mesh, = document["meshes"]
-        self.assertEqual([document["list"], {key: mesh["mesh"][key] for key in ("path", "sha256")}, mesh["marks"]],
-                         [{"path": name, "sha256": self.sha256(name)} for name in inputs])
+        self.assertEqual(
+            [document["list"], {key: mesh["mesh"][key] for key in ("path", "sha256")}, mesh["marks"]],
+            [{"path": name, "sha256": self.sha256(name)} for name in inputs])
         self.assertEqual((document["tool"]["version"], document["request"]["seed"]), (self.version, 7))
         self.assertIn("spread", mesh["fields"][0]["parameters"])
         self.check(files, "landmarks", inputs, [])
