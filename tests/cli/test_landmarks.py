@@ -7,6 +7,7 @@ import os
 import signal
 import unittest
 
+import bodies
 import jsonschema
 from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted, made_in
 
@@ -15,48 +16,15 @@ TIPS = ((1, 0, 0), (0, 1, 0), (0, -0.6, 0.8), (-0.8, 0, -0.6), (0, -0.8, -0.6), 
 MAXIMA = ("--kind", "maxima")
 
 
-def normalized(p):
-    length = math.sqrt(sum(x * x for x in p))
-    return tuple(x / length for x in p)
-
-
-def ball(rounds):
-    """A sphere of radius 1: an octahedron whose triangles are cut in four."""
-    points = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    triangles = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
-    for _ in range(rounds):
-        middle, finer = {}, []
-
-        def between(a, b):
-            key = (min(a, b), max(a, b))
-            if key not in middle:
-                middle[key] = len(points)
-                points.append(normalized([x + y for x, y in zip(points[a], points[b])]))
-            return middle[key]
-
-        for a, b, c in triangles:
-            ab, bc, ca = between(a, b), between(b, c), between(c, a)
-            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-        triangles = finer
-    return points, triangles
-
-
 def body(rounds, turn=0.0, scale=1.0):
-    """A ball with a bump at each of TIPS, turned about z and scaled, and the vertices at the tips."""
-    points, triangles = ball(rounds)
+    """A ball with a bump at each of TIPS, turned and scaled, and the vertices at the tips."""
+    directions, triangles = bodies.ball(rounds)
 
     def place(p):
-        height = 1 + sum(0.5 * math.exp(-sum((x - t) ** 2 for x, t in zip(p, tip)) / 0.08) for tip in TIPS)
-        x, y, z = (scale * height * c for c in p)
-        return (x * math.cos(turn) - y * math.sin(turn) + 3, x * math.sin(turn) + y * math.cos(turn), z)
+        height = 1 + sum(0.5 * math.exp(-math.dist(p, tip) ** 2 / 0.08) for tip in TIPS)
+        return bodies.turned([scale * height * x for x in p], turn)
 
-    marks = [min(range(len(points)), key=lambda v, tip=tip: math.dist(points[v], tip)) for tip in TIPS]
-    return [place(p) for p in points], triangles, marks
-
-
-def off(points, triangles):
-    return (f"OFF\n{len(points)} {len(triangles)} 0\n" + "".join("%.17g %.17g %.17g\n" % p for p in points)
-            + "".join("3 %d %d %d\n" % t for t in triangles))
+    return [place(p) for p in directions], triangles, bodies.nearest(directions, TIPS)
 
 
 class Landmarks(ProgramTest):
@@ -65,7 +33,7 @@ class Landmarks(ProgramTest):
         self.marks = []
         for name, arguments in (("coarse", (3,)), ("fine", (4,)), ("turned", (4, 1.0, 7.0))):
             points, triangles, marks = body(*arguments)
-            self.file(f"{name}.off", off(points, triangles))
+            self.file(f"{name}.off", bodies.off(points, triangles))
             self.file(f"{name}.vts", "".join(f"{v}\n" for v in marks))
             self.marks.append(marks)
         self.list = self.file("list.txt", "# three bodies\n" + "".join(
