@@ -198,10 +198,10 @@ std::unique_ptr<core::MorseFunction> make(core::ParameterReader& reader, Combina
       throw core::InvalidArgument(reader.owner() + ":" + key + " is for estimator=" + std::string(owner) +
                                   ", not for estimator=" + chosen);
   };
-  read_reach(Way::quadric, "radius", core::Length::epsilons(5),
+  read_reach(Way::quadric, "radius", core::Length::root_areas(0.015),
              "how far a fitted quadric reaches, with estimator=quadric");
   if (can_diffuse)
-    read_reach(Way::diffused, "diffusion", core::Length::epsilons(12),
+    read_reach(Way::diffused, "diffusion", core::Length::root_areas(0.036),
                "with estimator=diffused: waves of 2 pi times this keep nearly half their height");
   core::Length fairing;
   if (can_spread) {

@@ -21,13 +21,13 @@ std::vector<double> shape_index(const PrincipalCurvatures& curvatures);
 // low_pass(mesh, scale), as fields on the mesh, and the resolved parameters hold the scale.
 //
 // Where a key estimator=quadric is named, radius=8eps or radius=0.25 is the radius of the fitted quadrics
-// (quadric_curvatures(); default 5eps); only quadrics have it. The resolved parameters then also hold how
-// many vertices took rings in place of too small a ball (widened_vertices), and how many could not be fitted
-// (unfitted_vertices).
+// (quadric_curvatures(); default 0.015rootarea); only quadrics have it. The resolved parameters then also
+// hold how many vertices took rings in place of too small a ball (widened_vertices), and how many could not
+// be fitted (unfitted_vertices).
 //
-// With estimator=diffused the scale of mean-curvature is 0.6edges unless given, and diffusion=12eps or
-// diffusion=0.25 is the scale of diffused_mean_curvature(); gaussian-curvature then is
-// diffused_gaussian_curvature() with the lengths fairing (0.8%) and spread (20%).
+// With estimator=diffused the scale of mean-curvature is 0.6edges unless given, and diffusion (0.036rootarea)
+// is the scale of diffused_mean_curvature(); gaussian-curvature then is diffused_gaussian_curvature() with
+// the lengths fairing (0.8%) and spread (20%).
 
 /// Keys: estimator=taubin|cotangent|diffused|quadric, scale, radius, diffusion.
 std::unique_ptr<core::MorseFunction> make_mean_curvature(core::ParameterReader& reader);

@@ -135,7 +135,7 @@ Signature wave_kernel_signature(const TriangleMesh& mesh, double energy, double 
 }
 
 std::unique_ptr<core::MorseFunction> make_heat_kernel_signature(core::ParameterReader& reader) {
-  const core::Length spread = reader.length("time", core::Length::percent(10), core::kPositive,
+  const core::Length spread = reader.length("time", core::Length::root_areas(0.1), core::kPositive,
                                             "of the heat, as the length by which it spreads in it");
   return std::make_unique<HeatKernelSignature>(spread, read_modes(reader));
 }

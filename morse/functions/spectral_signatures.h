@@ -45,7 +45,7 @@ Signature wave_kernel_signature(const core::TriangleMesh& mesh, double energy, d
 
 inline constexpr double kLeastWidth = 1e-6;
 
-/// Keys: time=10% (the spread, a length), modes=100.
+/// Keys: time=0.1rootarea (the spread, a length), modes=100.
 std::unique_ptr<core::MorseFunction> make_heat_kernel_signature(core::ParameterReader& reader);
 /// Keys: energy=0.5, width=0.07 (the paper's), modes=100.
 std::unique_ptr<core::MorseFunction> make_wave_kernel_signature(core::ParameterReader& reader);

@@ -16,7 +16,9 @@ namespace morsel::morse {
 /// O(components²) at worst.
 std::vector<double> outward_signs(const core::TriangleMesh& mesh);
 
-/// What outward_signs() turned, or found inside out and did not turn, in a sentence each.
+/// What outward_signs() turned, or found inside out and did not turn, and bounded components whose outside
+/// cannot be told, in a sentence each. A bounded component's outside is told where it encloses a quarter of a
+/// sphere's volume or more once its boundary is closed. As outward_signs(), O(triangles) more.
 std::vector<std::string> orientation_warnings(const core::TriangleMesh& mesh);
 
 /// Unit normals at the vertices: the triangles' area vectors summed, outward as above. Zero where a vertex

@@ -45,7 +45,7 @@ struct DiffusionOptions {
   bool implicit = false;
   EdgeWeights weights = EdgeWeights::uniform;
   double lambda = 0.5;
-  core::Length spread = core::Length::epsilons(2);
+  core::Length spread = core::Length::root_areas(0.006);
 };
 
 class LaplacianSmoothing final : public core::Method {

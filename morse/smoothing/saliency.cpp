@@ -134,11 +134,20 @@ SaliencyResult saliency(const ScalarField& input, const SaliencyOptions& options
   return result;
 }
 
+std::vector<Length> published_scales() {
+  return {Length::epsilons(2), Length::epsilons(3), Length::epsilons(4), Length::epsilons(5),
+          Length::epsilons(6)};
+}
+
 std::unique_ptr<core::Method> make_saliency(core::ParameterReader& reader) {
   SaliencyOptions options;
+  std::string scales;
+  for (const Length& scale : options.scales) scales += (scales.empty() ? "" : "/") + core::to_string(scale);
   options.scales.clear();
-  for (const std::string& scale : reader.list("scales", "2eps/3eps/4eps/5eps/6eps",
-                                              "sigma of each map, compared with the average at twice that"))
+  for (const std::string& scale :
+       reader.list("scales", scales.c_str(),
+                   "sigma of each map, compared with the average at twice that; Lee et al. have "
+                   "2eps/3eps/4eps/5eps/6eps"))
     options.scales.push_back(core::parse_length(scale, reader.owner() + ":scales"));
   if (reader.choice("suppression", "itti", {"itti", "none"},
                     "itti: maps with one high peak count more than those with many (Itti et al. 1998)") ==

@@ -18,9 +18,9 @@ enum class Suppression : std::uint8_t {
 
 struct SaliencyOptions {
   /// σ of each map, above 0; at least one.
-  std::vector<core::Length> scales = {core::Length::epsilons(2), core::Length::epsilons(3),
-                                      core::Length::epsilons(4), core::Length::epsilons(5),
-                                      core::Length::epsilons(6)};
+  std::vector<core::Length> scales = {core::Length::root_areas(0.006), core::Length::root_areas(0.009),
+                                      core::Length::root_areas(0.012), core::Length::root_areas(0.015),
+                                      core::Length::root_areas(0.018)};
   Suppression suppression = Suppression::itti;
   double support = 2;  ///< the neighbourhoods' radius in multiples of each σ, above 0
   NeighborWeights weights = NeighborWeights::none;
@@ -48,8 +48,12 @@ struct SaliencyResult {
 SaliencyResult saliency(const core::ScalarField& input, const SaliencyOptions& options = {},
                         const core::Progress& progress = {});
 
-/// Keys: scales=2eps/3eps/4eps/5eps/6eps, suppression=itti|none, support, weights=none|area,
-/// ball=euclidean|connected.
+/// The scales that Lee, Varshney and Jacobs used, 2ε to 6ε, which change as the mesh is turned; the default
+/// has shares of the root of the area in their place, which do not.
+std::vector<core::Length> published_scales();
+
+/// Keys: scales=0.006rootarea/0.009rootarea/0.012rootarea/0.015rootarea/0.018rootarea,
+/// suppression=itti|none, support, weights=none|area, ball=euclidean|connected.
 std::unique_ptr<core::Method> make_saliency(core::ParameterReader& reader);
 
 }  // namespace morsel::morse

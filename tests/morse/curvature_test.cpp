@@ -8,8 +8,10 @@
 #include "morsel/core/error.h"
 #include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/operators/normals.h"
 #include "support/fields.h"
+#include "support/made.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
@@ -112,6 +114,27 @@ TEST_CASE("regression: the wall of a cavity had the sign of an outside") {
   const TriangleMesh both_outward = hollow_sphere(false).mesh();  // the file's own orientation is kept
   CHECK(morse::mean_curvature(both_outward).value(200) == Approx(2).epsilon(0.02));
   CHECK(morse::orientation_warnings(both_outward).empty());
+}
+
+TEST_CASE("regression: faces of an open mesh could be turned over without a word") {
+  const auto warnings = [](const Soup& soup) { return morse::orientation_warnings(soup.mesh()); };
+  for (const Soup& told : {punctured_sphere(2, 1), punctured_sphere(3, 4), cylinder(2.5, 30, 13)}) {
+    CHECK(warnings(told).empty());
+    REQUIRE(warnings(inside_out(told)).size() == 1);
+    CHECK_THAT(warnings(inside_out(told)).front(), Catch::Contains("seem to be inside out: 1;"));
+  }
+  for (const Soup& flat : {grid(6, 5), inside_out(grid(6, 5))}) {
+    REQUIRE(warnings(flat).size() == 1);
+    CHECK_THAT(warnings(flat).front(), Catch::Contains("cannot be told which side is outside: 1;"));
+  }
+  const std::vector<std::string> all =
+      warnings(together(together(inside_out(sphere(2)), grid(6, 5)), inside_out(punctured_sphere(2, 1))));
+  REQUIRE(all.size() == 3);
+  CHECK_THAT(all[0], Catch::Contains("turned outward"));
+  // Gaussian curvature and curvedness are the same from either side.
+  const TriangleMesh sheet = grid(6, 5).mesh();
+  CHECK(made(morse::make_curvedness, "curvedness", {})->evaluate(sheet, {}).warnings.empty());
+  CHECK(made(morse::make_mean_curvature, "mean-curvature", {})->evaluate(sheet, {}).warnings.size() == 1);
 }
 
 TEST_CASE("a repaired orientation is outward, by nesting") {

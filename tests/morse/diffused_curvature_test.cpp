@@ -203,11 +203,12 @@ TEST_CASE("estimator=diffused smooths noise away before and says so") {
     return made(morse::make_mean_curvature, "mean-curvature", given)->evaluate(on, {});
   };
   const double scale = 0.6 * core::mean_edge_length(mesh);
+  const double diffusion = 0.036 * core::root_area(mesh);
   const core::FunctionResult found = evaluate(mesh, {});
   CHECK(found.parameters ==
-        core::Parameters{{"estimator", "diffused"}, {"scale", scale}, {"diffusion", 12 * mesh.epsilon()}});
-  CHECK(values_of(found.field) == values_of(diffused_mean_curvature(
-                                      morse::low_pass(mesh, core::Length::edges(0.6)), 12 * mesh.epsilon())));
+        core::Parameters{{"estimator", "diffused"}, {"scale", scale}, {"diffusion", diffusion}});
+  CHECK(values_of(found.field) ==
+        values_of(diffused_mean_curvature(morse::low_pass(mesh, core::Length::edges(0.6)), diffusion)));
   CHECK(values_of(evaluate(mesh, {{"scale", "0"}, {"diffusion", "0.25"}}).field) ==
         values_of(diffused_mean_curvature(mesh, 0.25)));
   CHECK_THROWS_WITH(evaluate(mesh, {{"radius", "8eps"}}),

@@ -96,8 +96,7 @@ TEST_CASE("signatures by name report what they came to") {
   const TriangleMesh mesh = sphere(2).mesh();
   const auto heat = made(morse::make_heat_kernel_signature, "heat-kernel-signature", {{"modes", "9"}});
   const core::Parameters parameters = heat->evaluate(mesh, {}).parameters;
-  CHECK(parameters[0] ==
-        std::pair<std::string, core::ParameterValue>("time", 0.1 * mesh.bounding_box().diagonal()));
+  CHECK(parameters[0] == std::pair<std::string, core::ParameterValue>("time", 0.1 * core::root_area(mesh)));
   CHECK(parameters[1] == std::pair<std::string, core::ParameterValue>("modes", std::int64_t{9}));
   CHECK(parameters[2].first == "last_weight");
   const auto wave = made(morse::make_wave_kernel_signature, "wave-kernel-signature", {{"modes", "900"}});

@@ -1,5 +1,6 @@
 #include "morsel/tools/study/comparison.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
@@ -273,6 +274,47 @@ TEST_CASE("regression: salient on a coarse mesh did nothing, silently") {
   CHECK(warnings("salient:sigma=1edges", coarse).empty());
   const TriangleMesh fine = sphere(4).mesh();
   CHECK(warnings("salient", core::ScalarField(fine, random_values(fine.vertex_count(), 3))).empty());
+}
+
+TEST_CASE("regression: default lengths other than the paper's sigma changed as the mesh was turned") {
+  const tools::Registry& registry = tools::Registry::standard();
+  const TriangleMesh mesh = jittered(torus(30, 20).mesh(), 0.03, 5);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Point(1, 2, -1).normalized()).toRotationMatrix();
+  const TriangleMesh turned = moved(mesh, turn, {3, -2, 1});
+  REQUIRE(turned.epsilon() != Approx(mesh.epsilon()).epsilon(1e-3));
+  const auto same = [](const core::Parameters& a, const core::Parameters& b) {
+    REQUIRE(a.size() == b.size());
+    bool all = true;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (const double* x = std::get_if<double>(&a[i].second))
+        all &= std::get<double>(b[i].second) == Approx(*x).epsilon(1e-6);
+    return all;
+  };
+  for (const char* text :
+       {"mean-curvature:estimator=quadric", "mean-curvature:estimator=diffused",
+        "gaussian-curvature:estimator=quadric", "principal-curvature", "curvedness", "shape-index",
+        "geodesic:source=3", "geodesic:mode=average", "heat-kernel-signature:modes=20"}) {
+    INFO(text);
+    const core::MorseFunction& function = *registry.make_function(text).function;
+    CHECK(same(function.evaluate(mesh, {}).parameters, function.evaluate(turned, {}).parameters));
+  }
+  const auto step = [&](const std::string& text, const TriangleMesh& on) {
+    return tools::apply_chain(registry.make_method(text), {on, {}}, registry.make_function("mean-curvature"),
+                              {on, random_values(on.vertex_count(), 3)})
+        .steps.front();
+  };
+  for (const char* text : {"laplacian:scheme=implicit", "saliency", "denoise", "denoise:kind=laplacian"}) {
+    INFO(text);
+    CHECK(same(step(text, mesh).parameters, step(text, turned).parameters));
+  }
+  for (const char* text : {"salient", "gaussian"}) {
+    CHECK(!same(step(text, mesh).parameters, step(text, turned).parameters));
+    for (const char* unit : {"2edges", "0.05rootarea"}) {
+      const std::string given = std::string(text) + ":sigma=" + unit;
+      CHECK(same(step(given, mesh).parameters, step(given, turned).parameters));
+    }
+  }
+  CHECK(tools::matching_radius(turned) == Approx(tools::matching_radius(mesh)).epsilon(1e-12));
 }
 
 TEST_CASE("every method gives the same bits at any number of threads") {

@@ -69,9 +69,9 @@ void add_perturbation_options(Command& command, StabilityRequest& request) {
 
 void add_agreement_options(Command& command, StabilityRequest& request) {
   command.begin_group("What counts as the same point");
-  command.text("--radius", request.radius, "Points match within this length or share of the diagonal")
+  command.text("--radius", request.radius, "Points match within this length")
       .value("R")
-      .in_detail("The diagonal is the bounding box's");
+      .in_detail("On the clean surface; 2% is of the diagonal of its bounding box");
   command.choice("--points", request.points, {PointChoice::all, PointChoice::extrema},
                  "Which points are compared: all or extrema");
   command.text("--reference", request.reference, "Agreement is the share of points that this method has, too")

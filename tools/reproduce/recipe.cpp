@@ -47,7 +47,7 @@ std::span<const FigureRecipe> figures() {
          .method = "conventional",
          .scale = "curvature",
          .paper = "7,629 critical points"},
-        {.title = "mesh saliency", .method = "saliency", .points = false},
+        {.title = "mesh saliency", .method = "saliency:scales=2eps/3eps/4eps/5eps/6eps", .points = false},
         {.title = "salient critical points, 10 iterations",
          .method = "salient:iterations=10,range=local,support=1",
          .paper = "493 critical points"}},

@@ -88,7 +88,10 @@ std::optional<double> MadePoints::mean_percentile() const {
 
 std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const core::Progress& progress) {
   if (mesh.bounding_box().diagonal() == 0) return std::vector<double>(mesh.vertex_count(), 0.5);
-  const core::ScalarField map = morse::saliency(morse::mean_curvature(mesh, progress), {}, progress).field;
+  morse::SaliencyOptions options;
+  options.scales = morse::published_scales();
+  const core::ScalarField map =
+      morse::saliency(morse::mean_curvature(mesh, progress), options, progress).field;
   const std::span<const Index> order = map.order();
   std::vector<double> percentiles(order.size());
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {

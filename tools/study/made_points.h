@@ -45,7 +45,7 @@ struct MadePoints {
 };
 
 /// For each vertex the share of all vertices that have less mesh saliency (of the mean curvature, with the
-/// defaults of saliency()), half of those that have as much included: ½ on average.
+/// scales of Lee et al.), half of those that have as much included: ½ on average.
 std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const core::Progress& progress = {});
 
 /// Chooses among the critical points of the made field and, where these are too few, of the one that fills

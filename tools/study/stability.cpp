@@ -207,12 +207,6 @@ std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const Stabilit
   return points;
 }
 
-MatchingRadius parse_radius(const std::string& text) {
-  constexpr const char* kWhat = "--radius";
-  if (!text.ends_with('%')) return {core::parse_length(text, kWhat), {}};
-  return {{}, core::parse_number(text.substr(0, text.size() - 1), kWhat) / 100};
-}
-
 }  // namespace
 
 std::string_view to_string(PointChoice points) { return points == PointChoice::all ? "all" : "extrema"; }
@@ -254,14 +248,13 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
                      {std::nullopt},
                      request.trials,
                      request.seed,
-                     parse_radius(request.radius),
+                     core::parse_length(request.radius, "--radius"),
                      request.points,
                      {},
                      registry.make_method(request.reference)};
   if (!request.reference_field.empty())
     plan.reference_function = registry.make_function(request.reference_field);
-  const MatchingRadius& radius = plan.radius;
-  if (!(radius.share.value_or(radius.length.value) >= 0))
+  if (!(plan.radius.value >= 0))
     throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
   if (request.target) plan.targets.push_back(request.target);
   for (const std::string& field : request.fields) plan.functions.push_back(registry.make_function(field));

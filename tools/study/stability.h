@@ -26,12 +26,12 @@ struct StabilityRequest {
   std::vector<std::string> methods = {"conventional", "salient", "tps"};
   std::vector<double> noise;  ///< standard deviations in mean edge lengths
   NoiseKind noise_kind = NoiseKind::normal;
-  std::vector<double> decimate;       ///< shares of the vertices that are left
-  std::vector<double> subdivide;      ///< pieces that edges are cut into
-  std::size_t trials = 10;            ///< of each perturbation that is random
-  std::uint64_t seed = 1;             ///< of all trials
-  std::optional<std::size_t> target;  ///< critical points of each field, besides each method's own count
-  std::string radius = "2%";          ///< of matching: a length or a percentage of the clean box's diagonal
+  std::vector<double> decimate;         ///< shares of the vertices that are left
+  std::vector<double> subdivide;        ///< pieces that edges are cut into
+  std::size_t trials = 10;              ///< of each perturbation that is random
+  std::uint64_t seed = 1;               ///< of all trials
+  std::optional<std::size_t> target;    ///< critical points of each field, besides each method's own count
+  std::string radius = "0.02rootarea";  ///< of matching: a length on the clean mesh
   PointChoice points = PointChoice::all;
   std::string reference_field;  ///< each row's own if empty
   std::string reference = "conventional";
@@ -39,15 +39,6 @@ struct StabilityRequest {
 
 /// Fills in the perturbations that a request leaves out: if it has none, noise of 0.05, 0.15, 0.3 and 0.5.
 StabilityRequest with_defaults(StabilityRequest request);
-
-/// A length or a share of the bounding box's diagonal.
-struct MatchingRadius {
-  core::Length length;
-  std::optional<double> share;  ///< in place of the length
-  double on(const core::TriangleMesh& mesh) const {
-    return share ? *share * mesh.bounding_box().diagonal() : length.on(mesh);
-  }
-};
 
 /// A request whose names and numbers have been looked up.
 struct StabilityPlan {
@@ -57,7 +48,7 @@ struct StabilityPlan {
   std::vector<std::optional<std::size_t>> targets;  ///< none: the method's own count
   std::size_t trials = 1;
   std::uint64_t seed = 1;
-  MatchingRadius radius;
+  core::Length radius;  ///< of matching, on the clean mesh
   PointChoice points = PointChoice::all;
   std::optional<NamedFunction> reference_function;  ///< none: each row's own
   MethodChain reference;
