@@ -17,7 +17,7 @@ namespace {
 
 /// The value that to_string() names so.
 template <class Value>
-Value value_of(const JsonView& name, std::initializer_list<Value> values) {
+Value named_value(const JsonView& name, std::initializer_list<Value> values) {
   for (const Value value : values)
     if (to_string(value) == name.text()) return value;
   name.refuse("is none of those that there are");
@@ -44,9 +44,9 @@ LandmarksRequest request_of(const JsonView& asked) {
   request.fields = texts_of(asked["fields"]);
   request.methods = texts_of(asked["methods"]);
   if (const JsonView points = asked["points"]; !points.is_null()) request.count = points.count();
-  request.choice.kind = value_of(asked["kind"], {PointKind::extrema, PointKind::maxima, PointKind::minima,
-                                                 PointKind::saddles, PointKind::all});
-  request.choice.rank = value_of(asked["rank"], {PointRank::persistence, PointRank::salience});
+  request.choice.kind = named_value(asked["kind"], {PointKind::extrema, PointKind::maxima, PointKind::minima,
+                                                    PointKind::saddles, PointKind::all});
+  request.choice.rank = named_value(asked["rank"], {PointRank::persistence, PointRank::salience});
   request.choice.spacing = length_of(asked["spacing"]);
   if (const auto fill = asked.find("fill")) request.choice.fill = fill->text();
   if (const auto scale = asked.find("scale")) request.choice.scale = length_of(*scale);

@@ -28,7 +28,7 @@ Json set_section(const MarkScore& score) {
           {"detected_within", score.detected_within}};
 }
 
-Json row_section(const LandmarkRow& row, std::span<const HashedFile> known) {
+Json landmark_section(const LandmarkRow& row, std::span<const HashedFile> known) {
   Json section = Json::object();
   if (!row.steps.empty())
     section["method"] = {{"name", method_name(row)},
@@ -81,8 +81,8 @@ MarkScore read_set(const JsonView& set, std::size_t marks, std::size_t wanted) {
   return score;
 }
 
-LandmarkRow read_row(const JsonView& section, std::size_t row, const LandmarksOnMesh& result,
-                     const LandmarksPlan& plan) {
+LandmarkRow read_landmark_row(const JsonView& section, std::size_t row, const LandmarksOnMesh& result,
+                              const LandmarksPlan& plan) {
   LandmarkRow read;
   if (row < plan.made_rows()) {
     const JsonView method = section["method"];
@@ -120,7 +120,7 @@ Json result_section(const LandmarksOnMesh& result, const LandmarksPlan& plan,
   section["rows"] = Json::array();
   for (std::size_t row = 0; row < result.rows.size(); ++row) {
     Json named = {{"row", plan.name_of(row)}};
-    named.update(row_section(result.rows[row], known));
+    named.update(landmark_section(result.rows[row], known));
     section["rows"].push_back(std::move(named));
   }
   return section;
@@ -139,7 +139,7 @@ LandmarksOnMesh read_result(const JsonView& section, const LandmarksPlan& plan) 
     result.fields.push_back(read_field(field));
   const std::vector<JsonView> rows = section["rows"].list(plan.rows(), plan.rows());
   for (std::size_t row = 0; row < rows.size(); ++row)
-    result.rows.push_back(read_row(rows[row], row, result, plan));
+    result.rows.push_back(read_landmark_row(rows[row], row, result, plan));
   return result;
 }
 

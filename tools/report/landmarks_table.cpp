@@ -8,7 +8,7 @@
 namespace morsel::tools {
 namespace {
 
-std::string rounded(double value) { return core::to_decimals(value, 3); }
+std::string with_decimals(double value) { return core::to_decimals(value, 3); }
 
 std::string range(const std::optional<Interval>& interval, std::string_view sign = "") {
   if (!interval) return "";
@@ -18,7 +18,7 @@ std::string range(const std::optional<Interval>& interval, std::string_view sign
   return signed_text(interval->low) + " to " + signed_text(interval->high);
 }
 
-std::string head(const LandmarksPlan& plan, const std::vector<LandmarksOnMesh>& meshes) {
+std::string run_described(const LandmarksPlan& plan, const std::vector<LandmarksOnMesh>& meshes) {
   std::size_t marks = 0;
   for (const LandmarksOnMesh& mesh : meshes) marks += mesh.marks;
   const LandmarksRequest& request = plan.request;
@@ -34,7 +34,7 @@ std::string head(const LandmarksPlan& plan, const std::vector<LandmarksOnMesh>& 
   return text;
 }
 
-std::string foot(const LandmarksPlan& plan, bool has_intervals) {
+std::string columns_explained(const LandmarksPlan& plan, bool has_intervals) {
   std::string text =
       "F, recall, precision: marks with a point within the radius, points with a mark. 1:1 F: pairs, each "
       "point "
@@ -55,13 +55,13 @@ std::string landmarks_table(const LandmarksPlan& plan, const std::vector<Landmar
       {"", "points", "F", "95 %", "recall", "precision", "1:1 F", "missed", "false", "gain, 95 %"}};
   for (std::size_t row = 0; row < summaries.size(); ++row) {
     const LandmarksSummary& sum = summaries[row];
-    rows.push_back({plan.name_of(row), core::to_decimals(sum.points.mean, 1), rounded(sum.f_score.mean),
-                    range(sum.f_score.interval), rounded(sum.recall.mean), rounded(sum.precision.mean),
-                    rounded(sum.matched_f_score.mean), rounded(sum.false_negatives.mean),
-                    rounded(sum.false_positives.mean),
+    rows.push_back({plan.name_of(row), core::to_decimals(sum.points.mean, 1), with_decimals(sum.f_score.mean),
+                    range(sum.f_score.interval), with_decimals(sum.recall.mean),
+                    with_decimals(sum.precision.mean), with_decimals(sum.matched_f_score.mean),
+                    with_decimals(sum.false_negatives.mean), with_decimals(sum.false_positives.mean),
                     row == 0 ? "" : range(sum.f_score_gain.interval, "+")});
   }
-  return head(plan, meshes) + text_table(rows) + foot(plan, meshes.size() > 1);
+  return run_described(plan, meshes) + text_table(rows) + columns_explained(plan, meshes.size() > 1);
 }
 
 }  // namespace morsel::tools

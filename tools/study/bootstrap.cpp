@@ -11,7 +11,7 @@
 namespace morsel::tools {
 namespace {
 
-constexpr std::size_t kGrain = 64;  // resamples of a chunk
+constexpr std::size_t kResamplesOfChunk = 64;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Bootstrap::Bootstrap(std::size_t values, std::size_t resamples, std::uint64_t se
                                 std::to_string(resamples));
   if (values < 2) return;
   drawn_.resize(values * resamples);
-  core::parallel_for(0, resamples, kGrain, [&](std::size_t first, std::size_t last) {
+  core::parallel_for(0, resamples, kResamplesOfChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
       RandomStream random(seed, RandomUse::bootstrap, {r});
       for (std::size_t i = 0; i < values; ++i)
@@ -35,7 +35,7 @@ Bootstrap::Bootstrap(std::size_t values, std::size_t resamples, std::uint64_t se
 std::optional<Interval> Bootstrap::of_mean(std::span<const double> values) const {
   if (count_ < 2) return std::nullopt;
   std::vector<double> means(resamples_);
-  core::parallel_for(0, resamples_, kGrain, [&](std::size_t first, std::size_t last) {
+  core::parallel_for(0, resamples_, kResamplesOfChunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
       double sum = 0;
       for (std::size_t i = 0; i < count_; ++i) sum += values[drawn_[r * count_ + i]];
