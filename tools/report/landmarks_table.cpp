@@ -22,25 +22,19 @@ std::string run_described(const LandmarksPlan& plan, const std::vector<Landmarks
   std::size_t marks = 0;
   for (const LandmarksOnMesh& mesh : meshes) marks += mesh.marks;
   const LandmarksRequest& request = plan.request;
-  std::string text = grouped(meshes.size()) + (meshes.size() == 1 ? " mesh, " : " meshes, ") +
-                     grouped(marks) + (marks == 1 ? " mark" : " marks") + "; " +
-                     (request.count ? grouped(*request.count) + " points on each mesh"
-                                    : "as many points as each mesh has marks") +
-                     " (" + std::string(to_string(request.choice.kind)) + " by " +
-                     std::string(to_string(request.choice.rank)) + ", " +
-                     core::to_string(request.choice.spacing) + " apart); hits within " +
-                     core::to_string(request.radius) + " along the surface; seed " +
-                     std::to_string(request.seed) + "\n";
-  return text;
+  const std::string points = request.count ? grouped(*request.count) + " points on each mesh"
+                                           : "as many points as each mesh has marks";
+  return grouped(meshes.size()) + (meshes.size() == 1 ? " mesh, " : " meshes, ") + grouped(marks) +
+         (marks == 1 ? " mark; " : " marks; ") + points + " (" + std::string(to_string(request.choice.kind)) +
+         " by " + std::string(to_string(request.choice.rank)) + ", " +
+         core::to_string(request.choice.spacing) + " apart); hits within " + core::to_string(request.radius) +
+         " along the surface; seed " + std::to_string(request.seed) + "\n";
 }
 
 std::string columns_explained(const LandmarksPlan& plan, bool has_intervals) {
   std::string text =
-      "F, recall, precision: marks with a point within the radius, points with a mark. 1:1 F: pairs, each "
-      "point "
-      "with one mark.\nmissed, false: marks and points without a counterpart of their own (FNE, FPE of "
-      "Dutagaci "
-      "et al. 2012).\n";
+      "recall: marks with a point within the radius; precision: points with a mark; F: their harmonic mean\n"
+      "1:1 F: of pairs, each point with one mark; missed, false: FNE and FPE of Dutagaci et al. 2012\n";
   if (has_intervals)
     text += "95 %: bootstrap over the meshes, " + grouped(plan.request.resamples) +
             " resamples; gain: of F over the first row, mesh by mesh.\n";
