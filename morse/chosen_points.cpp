@@ -99,7 +99,7 @@ std::vector<PointCandidate> point_candidates(const ScalarField& field, PointKind
 }
 
 PointChooser::PointChooser(const core::TriangleMesh& mesh, std::size_t count, double spacing)
-    : distances_(mesh), search_(distances_), count_(count), is_near_(mesh.vertex_count()) {
+    : distances_(mesh), taken_(distances_, spacing), count_(count) {
   if (!(spacing >= 0) || !std::isfinite(spacing))
     throw core::InvalidArgument("the spacing of points must be finite and at least 0, not " +
                                 core::shortest(spacing));
@@ -112,14 +112,10 @@ void PointChooser::add(std::span<const PointCandidate> candidates, const core::P
   for (const PointCandidate& candidate : candidates) {
     if (missing() == 0) break;
     progress.update("points", static_cast<double>(chosen_.points.size()) / static_cast<double>(count_));
-    const Index v = candidate.point.vertex;
-    if (is_near_[v]) {
+    if (taken_.take(candidate.point.vertex))
+      chosen_.points.push_back({candidate, source, 0});
+    else
       ++chosen_.too_near.back();
-      continue;
-    }
-    chosen_.points.push_back({candidate, source, 0});
-    is_near_[v] = true;
-    for (const auto& [u, distance] : search_.within(v, chosen_.spacing)) is_near_[u] = true;
   }
 }
 

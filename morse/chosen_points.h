@@ -76,9 +76,8 @@ class PointChooser {
 
  private:
   SurfaceDistances distances_;
-  SurfaceDistances::Search search_;
+  SpacedVertices taken_;
   std::size_t count_;
-  std::vector<bool> is_near_;  // per vertex: to a point that was taken
   ChosenPoints chosen_;
 };
 

@@ -280,8 +280,8 @@ class Compare(ProgramTest):
     def test_warnings_are_printed_and_in_the_report(self):
         mesh = self.file("octahedron.off", OCTAHEDRON)
         values = self.file("values.txt", "1\n" * 6)
-        result = self.morsel("compare", mesh, "--field", f"vertex-scalar:file={values}", "--method", "salient",
-                             "-o", "r.json")
+        result = self.morsel("compare", mesh, "--field", f"vertex-scalar:file={values}",
+                             "--method", "salient", "-o", "r.json")
         self.assertIn("morsel: warning: vertex-scalar: the field is constant", result.stderr)
         self.assertIn("morsel: warning: salient: of 6 vertices 6 have no other", result.stderr)
         report = json.loads((self.folder / "r.json").read_text())

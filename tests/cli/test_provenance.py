@@ -270,6 +270,29 @@ class Provenance(ProgramTest):
                     json.loads(row["method_parameters"])
             shutil.rmtree(self.folder / "out1")
 
+    def test_landmarks(self):
+        (self.folder / "marks.txt").write_text("0 3 5\n")
+        (self.folder / "marked.csv").write_text(f"{self.mesh},marks.txt\n")
+        inputs = ["marked.csv", self.mesh, "marks.txt"]
+        files = self.written_twice("landmarks", "marked.csv", "--seed", "7", "-o", "{out}/l.json",
+                                   "--figures", "{out}",
+                                   expected={"l.json", *(f"{plot}.{kind}" for plot in ("errors", "scores")
+                                                         for kind in ("png", "svg"))})
+        document = json.loads(files.pop("l.json").read_text())
+        mesh, = document["meshes"]
+        self.assertEqual(
+            [document["list"], {key: mesh["mesh"][key] for key in ("path", "sha256")}, mesh["marks"]],
+            [{"path": name, "sha256": self.sha256(name)} for name in inputs])
+        self.assertEqual((document["tool"]["version"], document["request"]["seed"]), (self.version, 7))
+        self.assertIn("spread", mesh["fields"][0]["parameters"])
+        self.check(files, "landmarks", inputs, [])
+        self.assertEqual(of_svg(files["errors.svg"])["request"], document["request"])
+        shutil.rmtree(self.folder / "out1")
+        files = self.written_twice("landmarks", "marked.csv", "-o", "{out}/l.csv", expected={"l.csv"})
+        for row in without_timings(files["l.csv"]):
+            self.assertEqual((row["version"], row["mesh"], row["sha256"], row["marks_sha256"]),
+                             (self.version, self.mesh, self.sha256(self.mesh), self.sha256("marks.txt")))
+
     def test_sweep(self):
         files = self.written_twice("sweep", self.mesh, "--vary", "iterations=1..3", "--vary",
                                    "range=1std,local", "-o",

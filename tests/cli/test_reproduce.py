@@ -28,8 +28,8 @@ PICTURES = pathlib.Path(__file__).parent / "pictures"
 KEPT = ("figure1b.png", "figure2b.png", "figure3d.png", "figure4c.png")
 SMALL = ("--size", "160x120", "--samples", "9")
 PANELS = ["figure1a", "figure1b", "figure1c", "figure1d", "figure2a", "figure2b", "figure3a", "figure3b",
-          "figure3c", "figure3d", "figure3e", "figure4a", "figure4b", "figure4c", "section3.1a", "section3.1b",
-          "section3.1c", "section3.1d"]
+          "figure3c", "figure3d", "figure3e", "figure4a", "figure4b", "figure4c", "section3.1a",
+          "section3.1b", "section3.1c", "section3.1d"]
 
 
 def difference(a, b):

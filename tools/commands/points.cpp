@@ -16,7 +16,7 @@ namespace {
 struct Options {
   std::string mesh;
   FieldRequest request = {"gaussian-curvature:estimator=diffused", "conventional", {}};
-  PointsOptions points = {.count = PointsRequest().count, .fill = "mean-curvature"};
+  PointsOptions points = {.count = PointsRequest().count, .choice = {.fill = "mean-curvature"}};
   std::string output;
 };
 

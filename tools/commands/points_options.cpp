@@ -4,14 +4,45 @@
 
 namespace morsel::tools {
 
-std::optional<PointsRequest> PointsOptions::request() const {
-  if (!count) return std::nullopt;
-  PointsRequest request = chosen;
-  request.count = *count;
+PointsRequest ChoiceOptions::request() const {
+  PointsRequest request = points;
   request.spacing = core::parse_length(spacing, "--spacing");
   if (fill != kNoFill) request.fill = fill;
   if (!scale.empty()) request.scale = core::parse_length(scale, "--salience-scale");
   return request;
+}
+
+std::optional<PointsRequest> PointsOptions::request() const {
+  if (!count) return std::nullopt;
+  PointsRequest request = choice.request();
+  request.count = *count;
+  return request;
+}
+
+void add_choice_options(Command& command, ChoiceOptions& choice) {
+  command.choice("--kind", choice.points.kind, morse::kPointKinds, "extrema, maxima, minima, saddles or all")
+      .value("KIND");
+  command
+      .choice("--rank", choice.points.rank, morse::kPointRanks, "What comes first: persistence or salience")
+      .value("RANK")
+      .in_detail(
+          "persistence: of essential points, which have none, the extent of the field on their component; "
+          "salience: persistence times the mesh saliency of the surface there, counted by areas and "
+          "smoothed, 1 on average");
+  command.text("--spacing", choice.spacing, "The least distance of two points along the surface")
+      .value("LENGTH")
+      .in_detail(
+          "Points are taken by rank; what is nearer to one that was taken before is passed over. 0: no two "
+          "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
+          "shorter than geodesic ones, a few percent longer");
+  command.text("--fill", choice.fill, "A Morse function that fills up, or none")
+      .is_function()
+      .in_detail(
+          "Where the field has too few points, its points come after these, by their own rank and apart from "
+          "those");
+  command.text("--salience-scale", choice.scale, "How far salience is smoothed")
+      .value("LENGTH")
+      .shows_default("the method's sigma, or 8eps");
 }
 
 void add_points_options(Command& command, PointsOptions& options, const std::string& told_by) {
@@ -22,40 +53,18 @@ void add_points_options(Command& command, PointsOptions& options, const std::str
                       .between(1, std::numeric_limits<double>::infinity())
                       .value("K");
   if (options.count) count.shows_default(std::to_string(*options.count));
-  const auto only_with_points = [&](Option& option) -> Option& {
-    option.told_by = told_by;
-    return options.count ? option : option.needs("--points");
-  };
-  only_with_points(command.choice("--kind", options.chosen.kind, morse::kPointKinds,
-                                  "extrema, maxima, minima, saddles or all"))
-      .value("KIND");
-  only_with_points(command.choice("--rank", options.chosen.rank, morse::kPointRanks,
-                                  "What comes first: persistence or salience"))
-      .value("RANK")
-      .in_detail(
-          "persistence: of essential points, which have none, the extent of the field on their component; "
-          "salience: persistence times the mesh saliency of the surface there, counted by areas and "
-          "smoothed, 1 on average");
-  only_with_points(
-      command.text("--spacing", options.spacing, "The least distance of two points along the surface"))
-      .value("LENGTH")
-      .in_detail(
-          "Points are taken by rank; what is nearer to one that was taken before is passed over. 0: no two "
-          "at one vertex. Distances are those of paths along edges and straight across two triangles: not "
-          "shorter than geodesic ones, a few percent longer");
-  only_with_points(command.text("--fill", options.fill, "A Morse function that fills up, or none"))
-      .is_function()
-      .in_detail(
-          "Where the field has too few points, its points come after these, by their own rank and apart from "
-          "those");
-  only_with_points(command.text("--salience-scale", options.scale, "How far salience is smoothed"))
-      .value("LENGTH")
-      .shows_default("the method's sigma, or 8eps");
-  only_with_points(command.flag("--percentiles", options.chosen.percentiles,
-                                "Measure how salient the surface is at each point"))
+  add_choice_options(command, options.choice);
+  command
+      .flag("--percentiles", options.choice.points.percentiles,
+            "Measure how salient the surface is at each point")
       .in_detail(
           "The share of all vertices with less mesh saliency than the point's: half on average for vertices "
           "taken at random. It takes as long as the method saliency, once a mesh");
+  for (const char* name : {"--kind", "--rank", "--spacing", "--fill", "--salience-scale", "--percentiles"}) {
+    Option& option = command.option(name);
+    option.told_by = told_by;
+    if (!options.count) option.needs("--points");
+  }
 }
 
 std::vector<std::string> points_words(const PointsRequest& request) {

@@ -12,24 +12,35 @@
 
 namespace morsel::tools {
 
-/// What the options hold, and the defaults that a command gives them.
-struct PointsOptions {
+/// How points are chosen: what the options hold, and the defaults that a command gives them.
+struct ChoiceOptions {
   /// --fill where no Morse function fills up.
   static constexpr std::string_view kNoFill = "none";
 
-  std::optional<std::size_t> count = {};  ///< by default none: no points are chosen
-  PointsRequest chosen = {};              ///< what is read into it directly: kind, rank, percentiles
+  PointsRequest points = {};  ///< what is read into it directly: kind, rank, percentiles
   std::string spacing = core::to_string(PointsRequest().spacing);
   std::string fill = std::string(kNoFill);
   std::string scale = {};
+
+  /// The request, whose number of points is the default. Throws InvalidArgument on what is no length.
+  PointsRequest request() const;
+};
+
+/// The same with the number of points.
+struct PointsOptions {
+  std::optional<std::size_t> count = {};  ///< by default none: no points are chosen
+  ChoiceOptions choice = {};
 
   /// The request, if points are wanted. Throws InvalidArgument on what is no length.
   std::optional<PointsRequest> request() const;
 };
 
-/// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles: under a heading of their
-/// own or, if help has no room, with names alone and the command whose help tells them. Without a default
-/// number of points the others are refused where --points is not given.
+/// --kind, --rank, --spacing, --fill and --salience-scale.
+void add_choice_options(Command& command, ChoiceOptions& choice);
+
+/// These with --points and --percentiles: under a heading of their own or, if help has no room, with names
+/// alone and the command whose help tells them. Without a default number of points the others are refused
+/// where --points is not given.
 void add_points_options(Command& command, PointsOptions& options, const std::string& told_by = {});
 
 /// The words of the command line that make a request.

@@ -27,26 +27,36 @@ core::Length length(const JsonView& text) {
 
 }  // namespace
 
+Json choice_section(const PointsRequest& points) {
+  Json section = {{"kind", to_string(points.kind)},
+                  {"rank", to_string(points.rank)},
+                  {"spacing", core::to_string(points.spacing)}};
+  if (points.fill) section["fill"] = *points.fill;
+  if (points.scale) section["scale"] = core::to_string(*points.scale);
+  return section;
+}
+
+PointsRequest read_choice(const JsonView& section) {
+  PointsRequest points;
+  points.kind = named(section["kind"], morse::kPointKinds);
+  points.rank = named(section["rank"], morse::kPointRanks);
+  points.spacing = length(section["spacing"]);
+  if (const auto fill = section.find("fill")) points.fill = fill->text();
+  if (const auto scale = section.find("scale")) points.scale = length(*scale);
+  return points;
+}
+
 Json request_section(const PointsRequest& points) {
-  Json asked = {{"count", points.count},
-                {"kind", to_string(points.kind)},
-                {"rank", to_string(points.rank)},
-                {"spacing", core::to_string(points.spacing)},
-                {"percentiles", points.percentiles}};
-  if (points.fill) asked["fill"] = *points.fill;
-  if (points.scale) asked["scale"] = core::to_string(*points.scale);
+  Json asked = choice_section(points);
+  asked["count"] = points.count;
+  asked["percentiles"] = points.percentiles;
   return asked;
 }
 
 PointsRequest read_points_request(const JsonView& section) {
-  PointsRequest points;
+  PointsRequest points = read_choice(section);
   points.count = section["count"].count();
-  points.kind = named(section["kind"], morse::kPointKinds);
-  points.rank = named(section["rank"], morse::kPointRanks);
-  points.spacing = length(section["spacing"]);
   points.percentiles = section["percentiles"].truth();
-  if (const auto fill = section.find("fill")) points.fill = fill->text();
-  if (const auto scale = section.find("scale")) points.scale = length(*scale);
   return points;
 }
 

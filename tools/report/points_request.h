@@ -7,10 +7,14 @@
 
 namespace morsel::tools {
 
-/// {"count", "kind", "rank", "spacing", "percentiles", "fill", "scale" (if there are such)}: in the syntax of
-/// the command line.
+/// How points were to be chosen: {"kind", "rank", "spacing", "fill", "scale" (if there are such)}, in the
+/// syntax of the command line.
+Json choice_section(const PointsRequest& points);
+/// All that was asked for: also "count" and "percentiles".
 Json request_section(const PointsRequest& points);
-/// Reads that back; throws BadInput on anything else.
+
+/// Read these back; throw BadInput on anything else. read_choice() leaves the rest at its defaults.
+PointsRequest read_choice(const JsonView& section);
 PointsRequest read_points_request(const JsonView& section);
 
 }  // namespace morsel::tools

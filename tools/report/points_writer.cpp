@@ -7,6 +7,7 @@
 #include "morsel/tools/report/points_request.h"
 
 namespace morsel::tools {
+
 Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points, bool repair) {
   Json asked = request_section(field, repair);
   if (points) asked["points"] = request_section(*points);

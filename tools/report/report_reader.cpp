@@ -1,7 +1,6 @@
 #include "morsel/tools/report/report_reader.h"
 
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
 #include "morsel/core/io/file_bytes.h"
@@ -21,12 +20,17 @@ bool is_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-LoadedReport read_report(const std::filesystem::path& path) {
+std::ifstream open_report(const std::filesystem::path& path) {
   const std::string what = "cannot read the report " + path.string();
   core::check_regular_file(path, what);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) core::fail_to_read(errno, what);
+  return in;
+}
+
+LoadedReport read_report(const std::filesystem::path& path) {
+  std::ifstream in = open_report(path);
   return read_report(in, path.string());
 }
 
@@ -54,8 +58,8 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
   return report;
 }
 
-std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path) {
-  const std::filesystem::path path = report.mesh_path;
+std::filesystem::path find_input(const std::filesystem::path& path,
+                                 const std::filesystem::path& report_path) {
   if (is_file(path)) return path;
   const std::filesystem::path beside = report_path.parent_path() / path;
   return is_file(beside) ? beside : std::filesystem::path();
