@@ -8,7 +8,8 @@ import unittest
 import check_links
 
 README = """# A title
-[a page](docs/page.md) [a part](docs/page.md#the-second-part-a-b) [a picture](tools/a.png) [web](https://a.b/c)
+[a page](docs/page.md) [a part](docs/page.md#the-second-part-a-b) [a picture](tools/a.png)
+[web](https://a.b/c)
 ```
 [no link](nowhere)
 ```
