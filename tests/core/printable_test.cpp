@@ -6,7 +6,7 @@
 using morsel::core::printable;
 
 TEST_CASE("control characters are escaped, all other text is kept") {
-  CHECK(printable("") == "");
+  CHECK(printable("").empty());
   CHECK(printable("plain, \\ and \"quoted\"") == "plain, \\ and \"quoted\"");
   CHECK(printable("\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\xb0") == "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x90\xb0");
   CHECK(printable("a\nb\tc\rd") == "a\\nb\\tc\\rd");

@@ -26,7 +26,8 @@ Color palette_color(std::size_t k) {
   constexpr std::array<float, 6> kShift = {0, -0.11f, 0.06f, -0.2f, -0.055f, -0.155f};
   lab[0] = std::clamp(lab[0] + kShift[round % kShift.size()], 0.3f, 0.96f);
   // Beyond these only the numbers differ, and the lightness slightly.
-  lab[0] -= 0.004f * static_cast<float>(round / kShift.size());
+  const std::size_t lap = round / kShift.size();
+  lab[0] -= 0.004f * static_cast<float>(lap);
   return from_oklab(lab).cwiseMax(0.f).cwiseMin(1.f);
 }
 
