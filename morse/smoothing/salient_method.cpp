@@ -1,4 +1,4 @@
-#include "morsel/morse/smoothing/salient_method.h"
+// The method "salient": keys, iterations, what is reported.
 
 #include <cmath>
 #include <string>
@@ -7,7 +7,11 @@
 
 #include "morsel/core/error.h"
 #include "morsel/morse/operators/low_pass.h"
+#include "morsel/morse/smoothing/ball_keys.h"
+#include "morsel/morse/smoothing/iteration.h"
 #include "morsel/morse/smoothing/keep_order.h"
+#include "morsel/morse/smoothing/salient.h"
+#include "morsel/morse/smoothing/salient_iterations.h"
 
 namespace morsel::morse {
 namespace {
@@ -93,41 +97,6 @@ class Salient final : public core::Method {
 };
 
 }  // namespace
-
-void read_sigma(core::ParameterReader& reader, SalientOptions& options) {
-  options.sigma =
-      reader.length("sigma", options.sigma, core::kPositive, "standard deviation of the weight of distances");
-}
-
-void read_support(core::ParameterReader& reader, SalientOptions& options) {
-  options.support = reader.number("support", options.support, core::kPositive,
-                                  "radius of the neighbourhood, in multiples of sigma");
-}
-
-void read_neighbors(core::ParameterReader& reader, SalientOptions& options) {
-  if (reader.choice("weights", "none", {"none", "area"},
-                    "area: a neighbour counts with its vertex area, so that sampling matters less") == "area")
-    options.weights = NeighborWeights::area;
-  if (reader.choice("ball", "euclidean", {"euclidean", "connected"},
-                    "connected: only neighbours that edges within the neighbourhood connect") == "connected")
-    options.ball = Ball::connected;
-}
-
-SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
-                          const StopCriteria& criteria, IterationControl& control,
-                          const core::Progress& progress) {
-  options.iterations = control.more() ? criteria.iterations : 0;
-  options.on_iteration = [&](const SalientIteration& iteration) {
-    if (iteration.number <= control.iterations_run()) control.restart();
-    if (!control.needs_field()) {
-      control.skip();
-      return true;
-    }
-    control.record({iteration.values.begin(), iteration.values.end()});
-    return control.more();
-  };
-  return salient(input, options, progress);
-}
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   const bool robust =

@@ -1,18 +1,11 @@
 #pragma once
-/// Keys and iterations of the methods that run salient smoothing.
+/// Salient smoothing under the control of a method: of `salient`, and of `gaussian`, which is computed by it.
 
 #include "morsel/core/parallel/progress.h"
-#include "morsel/core/text/parameters.h"
 #include "morsel/morse/smoothing/iteration.h"
 #include "morsel/morse/smoothing/salient.h"
 
 namespace morsel::morse {
-
-/// Declare and read the keys of that name.
-void read_sigma(core::ParameterReader& reader, SalientOptions& options);
-void read_support(core::ParameterReader& reader, SalientOptions& options);
-/// weights=none|area and ball=euclidean|connected.
-void read_neighbors(core::ParameterReader& reader, SalientOptions& options);
 
 /// Runs iterations of salient() until the control, made of `criteria`, ends them.
 SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
