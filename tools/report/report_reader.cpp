@@ -53,7 +53,7 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
 }
 
 std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path) {
-  const std::filesystem::path path = report.mesh_path;
+  std::filesystem::path path = report.mesh_path;
   if (is_file(path)) return path;
   const std::filesystem::path beside = report_path.parent_path() / path;
   return is_file(beside) ? beside : std::filesystem::path();
