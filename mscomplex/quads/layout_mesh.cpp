@@ -101,7 +101,7 @@ Index LayoutMesh::split_triangle(Index t, const std::array<double, 3>& weights) 
 
 core::TriangleMesh LayoutMesh::mesh() const {
   std::vector<core::Triangle> triangles(triangle_count());
-  for (Index t = 0; t < triangle_count(); ++t)
+  for (std::size_t t = 0; t < triangles.size(); ++t)
     triangles[t] = {origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]};
   return {position_, std::move(triangles)};
 }

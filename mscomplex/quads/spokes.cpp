@@ -44,9 +44,9 @@ void SpokeDrawer::put_hub_into_the_middle(const Disc& disc, const std::vector<Ve
   for (double& w : weights) sum += w = std::max(w, kLeastWeight);
   for (double& w : weights) w /= sum;
 
-  const Vector2d a = place_[3 * best];
-  const Vector2d b = place_[3 * best + 1];
-  const Vector2d c = place_[3 * best + 2];
+  const Vector2d a = place_[3 * std::size_t{best}];
+  const Vector2d b = place_[3 * std::size_t{best} + 1];
+  const Vector2d c = place_[3 * std::size_t{best} + 2];
   const Index added = mesh_.halfedge_count();
   hub_ = mesh_.split_triangle(best, weights);
   renumber(3 * best + 1, added);

@@ -131,7 +131,7 @@ TEST_CASE("vertices where fans meet are found") {
   check_only(two, DefectKind::non_manifold_vertex, 1, {3});
   Soup disc = grid(5, 5);
   std::erase_if(disc.triangles, [](const core::Triangle& t) {
-    const double x = t[0] % 5, y = t[0] / 5;  // the lower left corner of the cell
+    const Index x = t[0] % 5, y = t[0] / 5;  // the lower left corner of the cell
     return (x == 1 && y == 1) || (x == 2 && y == 2);
   });
   check_only(disc, DefectKind::non_manifold_vertex, 1, {12});

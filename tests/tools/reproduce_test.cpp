@@ -119,7 +119,7 @@ TEST_CASE("every recipe can be read") {
     CHECK_NOTHROW(Registry::standard().make_function(figure.field));
     REQUIRE(figure.model < models().size());
     REQUIRE(figure.finding != nullptr);
-    CHECK((figure.panels.size() >= 1 && figure.panels.size() <= 26));
+    CHECK((!figure.panels.empty() && figure.panels.size() <= 26));
     if (figure.compared)
       for (const std::size_t panel : *figure.compared) CHECK(panel < figure.panels.size());
     for (const PanelRecipe& panel : figure.panels) {

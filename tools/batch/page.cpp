@@ -153,11 +153,7 @@ std::string table_head(const BatchRequest& request) {
 /// The request as words of the command line, without the output folder, so that pages do not depend on it.
 std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
   std::vector<std::string> words = {"morsel", "batch", options.collection};
-  for (std::string& word : request_words(request)) words.push_back(std::move(word));
-  if (!request.thumbnails) words.emplace_back("--no-thumbnails");
-  if (request.pages) words.emplace_back("--html");
-  if (request.figures) words.emplace_back("--figures");
-  if (request.exports) words.emplace_back("--export");
+  for (std::string& word : batch_words(request)) words.push_back(std::move(word));
   return command_line(words);
 }
 

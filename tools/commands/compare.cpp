@@ -20,6 +20,7 @@
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
+#include "morsel/tools/render/request_words.h"
 #include "morsel/tools/render/thumbnail_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/report_writer.h"
@@ -75,17 +76,9 @@ class SideBySide : public ComparisonSink {
 
 /// What makes the page again. What changes nothing in it is left out.
 std::string page_command(const Options& options, const CommonOptions& common) {
-  const ComparisonRequest& request = options.request;
-  std::vector<std::string> words = {"morsel", "compare", options.mesh, "--field", request.field};
-  for (const std::string& method : request.methods) words.insert(words.end(), {"--method", method});
-  if (request.target) words.insert(words.end(), {"--target", std::to_string(*request.target)});
-  if (request.snap) words.emplace_back("--snap");
-  if (request.points) {
-    const std::vector<std::string> points = points_words(*request.points);
-    words.insert(words.end(), points.begin(), points.end());
-  }
-  if (common.repair) words.emplace_back("--repair");
-  words.insert(words.end(), {"--html", options.page_place.empty() ? options.page : options.page_place});
+  std::vector<std::string> words = {"morsel", "compare", options.mesh};
+  for (std::string& word : render::words_of(options.request, common.repair)) words.push_back(std::move(word));
+  add_option(words, "--html", options.page_place.empty() ? options.page : options.page_place);
   return command_line(words);
 }
 

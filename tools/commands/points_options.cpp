@@ -67,14 +67,4 @@ void add_points_options(Command& command, PointsOptions& options, const std::str
   }
 }
 
-std::vector<std::string> points_words(const PointsRequest& request) {
-  std::vector<std::string> words = {
-      "--points", std::to_string(request.count),        "--kind",    std::string(to_string(request.kind)),
-      "--rank",   std::string(to_string(request.rank)), "--spacing", core::to_string(request.spacing)};
-  if (request.fill) words.insert(words.end(), {"--fill", *request.fill});
-  if (request.scale) words.insert(words.end(), {"--salience-scale", core::to_string(*request.scale)});
-  if (request.percentiles) words.emplace_back("--percentiles");
-  return words;
-}
-
 }  // namespace morsel::tools

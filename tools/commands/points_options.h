@@ -43,9 +43,6 @@ void add_choice_options(Command& command, ChoiceOptions& choice);
 /// where --points is not given.
 void add_points_options(Command& command, PointsOptions& options, const std::string& told_by = {});
 
-/// The words of the command line that make a request.
-std::vector<std::string> points_words(const PointsRequest& request);
-
 /// Adds the files that the Morse function that fills up reads, if there is one, to a RunFiles or FieldRun.
 template <class Files>
 void reads_of_points(Files& files, const std::optional<PointsRequest>& request) {

@@ -15,6 +15,7 @@ namespace morsel::tools {
 /// - SIGQUIT and those of a crash act at once, as always; named temporary files are removed before. If memory
 /// had run
 ///   out before a crash, the program ends with the exit code and the sentence for that.
+/// Those of an orderly stop are passed to the thread that made it, so that its waiting for a pipe ends.
 /// What was ignored when the program began (nohup) stays ignored; what somebody else handles is left to him.
 class SignalWatch {
  public:

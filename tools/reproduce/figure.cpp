@@ -11,6 +11,7 @@
 #include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/render/caption.h"
+#include "morsel/tools/render/request_words.h"
 #include "morsel/tools/render/sheet.h"
 #include "morsel/tools/reproduce/region.h"
 #include "morsel/tools/study/hierarchy.h"
@@ -77,38 +78,16 @@ class SharedScales {
   std::map<std::string_view, render::ScaleRequest> requests_;
 };
 
-std::string region_text(const Model& model, const ComparedRegion& region) {
-  return std::to_string(model.loaded().source.numbering.input_vertex(region.vertex)) + ":" +
-         core::to_string(region.radius);
-}
-
 /// The arguments of `morsel render` that make the panel, without its output.
 std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const FigureOutcome& figure,
                                           const PictureOptions& options,
                                           const render::PictureRequest& request) {
   const Model& model = *figure.model;
-  std::vector<std::string> words = {
-      "morsel",   "render",    model.file().path.string(), "--field", std::string(figure.recipe->field),
-      "--method", panel.method};
-  const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
-  if (options.repair) add({"--repair"});
-  if (request.show != Show::field) add({"--show", render::to_string(request.show)});
-  if (!request.points) add({"--no-points"});
-  if (!request.legend) add({"--no-legend"});
-  if (request.arcs && request.show == Show::field) add({"--arcs"});
-  if (request.scale.limits)
-    add({"--range=" + core::shortest(request.scale.limits->first) + "/" +
-             core::shortest(request.scale.limits->second),
-         "--colormap", request.scale.colormap});
-  if (request.frame) add({"--frame", region_text(model, *figure.region)});
-  if (request.close_up) add({"--close-up", region_text(model, *figure.region)});
-  if (options.camera.view.starts_with('-'))
-    add({"--view=" + options.camera.view});
-  else
-    add({"--view", options.camera.view});
-  if (options.camera.up != render::UpAxis::y) add({"--up", to_string(options.camera.up)});
-  add({"--size", std::to_string(request.size.width) + "x" + std::to_string(request.size.height), "--samples",
-       std::to_string(request.samples)});
+  std::vector<std::string> words = {"morsel", "render", model.file().path.string()};
+  const FieldRequest field{std::string(figure.recipe->field), panel.method, {}};
+  for (std::string& word : render::words_of(field, options.repair)) words.push_back(std::move(word));
+  for (std::string& word : render::words_of(request, options.camera, "", model.loaded().source.numbering))
+    words.push_back(std::move(word));
   return words;
 }
 

@@ -6,6 +6,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/text/nearest_name.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/reproduce/document.h"
 #include "morsel/tools/reproduce/page.h"
 #include "morsel/tools/reproduce/table.h"
@@ -55,12 +56,13 @@ Model load(const ModelRecipe& recipe, const MeshFile& file, const Prepared& prep
 
 std::vector<std::string> command_words(const Request& request) {
   std::vector<std::string> words = {"morsel", "reproduce"};
-  if (!request.data.empty()) words.insert(words.end(), {"--data", request.data.string()});
-  words.insert(words.end(), {"--meshes", request.samples.string(), "--size", request.size, "--samples",
-                             std::to_string(request.pixel_samples)});
-  for (const std::string& view : request.views) words.insert(words.end(), {"--view", view});
-  for (const std::string& up : request.ups) words.insert(words.end(), {"--up", up});
-  if (request.repair) words.emplace_back("--repair");
+  if (!request.data.empty()) add_option(words, "--data", request.data.string());
+  add_option(words, "--meshes", request.samples.string());
+  add_option(words, "--size", request.size);
+  add_option(words, "--samples", std::to_string(request.pixel_samples));
+  for (const std::string& view : request.views) add_option(words, "--view", view);
+  for (const std::string& up : request.ups) add_option(words, "--up", up);
+  add_flag(words, "--repair", request.repair);
   return words;
 }
 

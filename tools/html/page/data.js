@@ -13,7 +13,8 @@ function bytesOfBase64(text) {
 async function inflate(id) {
   if (typeof DecompressionStream === 'undefined')
     throw new Error(
-        'this browser cannot unpack the page\'s data: it lacks DecompressionStream, which browsers have since 2023');
+        'this browser cannot unpack the page\'s data: it lacks DecompressionStream, ' +
+        'which browsers have since 2023');
   const holder = element(id);
   const packed = new Blob([bytesOfBase64(holder.textContent)]);
   holder.remove();

@@ -12,7 +12,8 @@ varying float vKind;
 varying float vRadius;
 varying float vSelected;
 void main() {
-  float visible = look.x < 0.5 ? 0.0 : look.y > 0.5 ? 1.0 : look.z < onlyChosen ? 0.0 : look.x < 1.5 ? kinds.x : look.x < 2.5 ? kinds.y : kinds.z;
+  float visible = look.x < 0.5 ? 0.0 : look.y > 0.5 ? 1.0 : look.z < onlyChosen ? 0.0
+                : look.x < 1.5 ? kinds.x : look.x < 2.5 ? kinds.y : kinds.z;
   vKind = look.x;
   vSelected = look.y;
   vRadius = radius * (vSelected > 0.5 ? 1.35 : 1.0);
@@ -46,7 +47,8 @@ void main() {
   vec3 base = vKind < 1.5 ? colors[0] : vKind < 2.5 ? colors[1] : colors[2];
   float key = max(dot(n, normalize(vec3(-0.35, 0.55, 0.85))), 0.0);
   vec3 color = base * (0.50 + 0.55 * key) + 0.35 * pow(key, 24.0);
-  color *= mix(0.55, 1.0, smoothstep(0.0, 0.42, n.z));  // a dark rim separates points from surface and each other
+  // A dark rim separates points from surface and each other.
+  color *= mix(0.55, 1.0, smoothstep(0.0, 0.42, n.z));
   gl_FragDepthEXT = depthAt(vCenter + vRadius * n.z);
   gl_FragColor = vec4(color, 1.0 - smoothstep(1.0 - soft, 1.0 + soft, r));
 }`;

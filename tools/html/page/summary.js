@@ -100,9 +100,9 @@ function fillDetails(page) {
       [['loading', report.timings.load.toFixed(3)], ['total', report.timings.total.toFixed(3)]]));
   element('details').append(columns);
   element('command').textContent = page.command;
-  element('version').textContent = `Made by ${report.tool.name} ${
-      report.tool
-          .version}. Positions are rounded to 1/65536 of the model's size here, the field's colours to 1/65536 of their range; values of critical points are exact.`;
+  element('version').textContent = `Made by ${report.tool.name} ${report.tool.version}. ` +
+      'Positions are rounded to 1/65536 of the model\'s size here, the field\'s colours to 1/65536 of ' +
+      'their range; values of critical points are exact.';
   element('copy').addEventListener('click', () => copyCommand(page.command));
 }
 
