@@ -10,7 +10,7 @@ import unittest
 from support import (OCTAHEDRON, PROGRAM, ProgramTest, children_of, made_in, stopped_while_writing, until,
                      writes_into)
 
-ENDLESS = "salient:iterations=1000000000"
+ENDLESS = "salient:iterations=1000000"
 
 
 class Folders(ProgramTest):
