@@ -102,9 +102,9 @@ std::string table_section(const Reproduction& reproduction) {
 std::string controls_section(const Reproduction& reproduction) {
   std::string text =
       "<section aria-labelledby=\"controls\"><h2 id=\"controls\">Controls</h2>\n"
-      "<p class=\"said\">Whether points are salient is measured by mesh saliency: the percentile of "
-      "an extremum is the share of all vertices that have less. The means are to be compared with those of other "
-      "ways to as many points, and with 0.50, which vertices taken at random have.</p>\n"
+      "<p class=\"said\">Whether points are salient is measured by mesh saliency: the percentile of an "
+      "extremum is the share of all vertices that have less. The means are to be compared with those of "
+      "other ways to as many points, and with 0.50, which vertices taken at random have.</p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"controls\"><table "
       "class=\"table\"><thead><tr><th>Model</th><th>Figure</th><th>Iterations</th><th>Control</th>"
       "<th>Method</th><th>Points</th><th>Extrema</th><th>Percentile</th></tr></thead><tbody>\n";
