@@ -133,7 +133,7 @@ void add_scoring_options(Command& command, Options& options) {
       .between(0, 1);
   command.number("--resamples", options.request.resamples, "Resamples of the meshes that intervals are from")
       .between(100, kMostResamples);
-  command.number("--seed", options.request.seed, "Of the random points and of the resamples");
+  command.number("--seed", options.request.seed, "Seed of the random points and of the resamples");
 }
 
 }  // namespace

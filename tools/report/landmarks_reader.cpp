@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/landmarks_writer.h"
@@ -21,22 +20,14 @@ std::vector<std::string> texts_of(const JsonView& list) {
   return texts;
 }
 
-core::Length length_of(const JsonView& text) {
-  try {
-    return core::parse_length(text.text(), "length");
-  } catch (const core::InvalidArgument&) {
-    text.refuse("is no length");
-  }
-}
-
 LandmarksRequest request_of(const JsonView& asked) {
   LandmarksRequest request;
   request.fields = texts_of(asked["fields"]);
   request.methods = texts_of(asked["methods"]);
   if (const JsonView points = asked["points"]; !points.is_null()) request.count = points.count();
   request.choice = read_choice(asked);
-  request.radius = length_of(asked["radius"]);
-  request.largest_radius = length_of(asked["largest_radius"]);
+  request.radius = read_length(asked["radius"]);
+  request.largest_radius = read_length(asked["largest_radius"]);
   request.first = asked["first"].count(1);
   request.resamples = asked["resamples"].count(kMostResamples);
   request.seed = asked["seed"].count(std::numeric_limits<std::uint64_t>::max());

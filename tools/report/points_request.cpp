@@ -17,15 +17,15 @@ auto named(const JsonView& text, const Values& values) {
   return *found;
 }
 
-core::Length length(const JsonView& text) {
+}  // namespace
+
+core::Length read_length(const JsonView& text) {
   try {
     return core::parse_length(text.text(), "it");
   } catch (const core::InvalidArgument&) {
     text.refuse("is not a length");
   }
 }
-
-}  // namespace
 
 Json choice_section(const PointsRequest& points) {
   Json section = {{"kind", to_string(points.kind)},
@@ -40,9 +40,9 @@ PointsRequest read_choice(const JsonView& section) {
   PointsRequest points;
   points.kind = named(section["kind"], morse::kPointKinds);
   points.rank = named(section["rank"], morse::kPointRanks);
-  points.spacing = length(section["spacing"]);
+  points.spacing = read_length(section["spacing"]);
   if (const auto fill = section.find("fill")) points.fill = fill->text();
-  if (const auto scale = section.find("scale")) points.scale = length(*scale);
+  if (const auto scale = section.find("scale")) points.scale = read_length(*scale);
   return points;
 }
 

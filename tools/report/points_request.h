@@ -13,6 +13,9 @@ Json choice_section(const PointsRequest& points);
 /// All that was asked for: also "count" and "percentiles".
 Json request_section(const PointsRequest& points);
 
+/// A length in the syntax of the command line; throws BadInput on other texts.
+core::Length read_length(const JsonView& text);
+
 /// Read these back; throw BadInput on anything else. read_choice() leaves the rest at its defaults.
 PointsRequest read_choice(const JsonView& section);
 PointsRequest read_points_request(const JsonView& section);

@@ -93,9 +93,8 @@ std::string table_section(const Reproduction& reproduction) {
   return text +
          "</tbody></table></div>\n<p class=\"hint said\">σ = 8ε. Seconds of smoothing and of finding the "
          "critical points; "
-         "the paper's are those of a Pentium IV of 1.7 GHz. The number below is the mean saliency percentile "
-         "of "
-         "the extrema, 0.50 by chance. Figures count panels as below; the paper's table "
+         "the paper's are those of a Pentium IV of 1.7 GHz. The number below is the mean saliency "
+         "percentile of the extrema, 0.50 by chance. Figures count panels as below; the paper's table "
          "calls 3(a) "
          "and 3(c) 3(b) and 3(d). The pictures are made with the first setting.</p></section>\n";
 }
@@ -104,10 +103,8 @@ std::string controls_section(const Reproduction& reproduction) {
   std::string text =
       "<section aria-labelledby=\"controls\"><h2 id=\"controls\">Controls</h2>\n"
       "<p class=\"said\">Whether points are salient is measured by mesh saliency: the percentile of an "
-      "extremum "
-      "is the share of all vertices that have less. The means are to be compared with those of other ways to "
-      "as "
-      "many points, and with 0.50, which vertices taken at random have.</p>\n"
+      "extremum is the share of all vertices that have less. The means are to be compared with those of "
+      "other ways to as many points, and with 0.50, which vertices taken at random have.</p>\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"controls\"><table "
       "class=\"table\"><thead><tr><th>Model</th><th>Figure</th><th>Iterations</th><th>Control</th>"
       "<th>Method</th><th>Points</th><th>Extrema</th><th>Percentile</th></tr></thead><tbody>\n";

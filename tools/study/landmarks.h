@@ -119,7 +119,7 @@ class LandmarksStore {
   virtual void add(std::size_t mesh, const LandmarksOnMesh& result) = 0;
 };
 
-/// Chooses points on every mesh for each row (choose_points(): as many as it has marks, or the wanted number)
+/// Chooses points on every mesh for each row (PointMaker: as many as it has marks, or the wanted number)
 /// and scores them against its marks. Meshes are done in parallel, and no more of them are in memory than
 /// there are threads; the result of one depends on itself, the plan and the seed alone, so it is the same
 /// whatever else is listed and at any number of threads. Throws what functions and methods throw; an error
