@@ -243,6 +243,29 @@ TEST_CASE("quads at vertices of a degree of five thousand take seconds, not minu
   CHECK(check_layout({mesh, values}, 2, 4));
 }
 
+TEST_CASE("relaxations where many arcs meet add a bounded number of triangles") {
+  Index left = 0;
+  for (const int sides : {40, 80, 200}) {
+    INFO(sides);
+    const TriangleMesh mesh = bipyramid(sides).mesh();
+    std::vector<double> values = {5, -5};  // a maximum and a minimum where all saddles' arcs meet
+    for (int i = 0; i < sides; ++i) values.push_back((i % 2 == 0 ? 1 : -1) * (1 + 1e-4 * i));
+    const ScalarField field(mesh, values);
+    const auto repaired = mscomplex::repair_dangling(field, MorseSmaleComplex(field));
+    std::size_t before = 0;
+    for (const int relaxation : {0, 1, 2}) {
+      const QuadLayout layout = mscomplex::embed_layout(repaired.complex, {relaxation});
+      layout.validate(repaired.complex);
+      const std::size_t now = layout.surface.triangle_count();
+      if (relaxation == 0) CHECK(layout.left == 0);
+      if (relaxation > 0) CHECK(now <= before + std::max<std::size_t>(before, 65'536));
+      before = now;
+      left += layout.left;
+    }
+  }
+  CHECK(left > 0);
+}
+
 TEST_CASE("quads of the bunny, the elephant and the lion") {
   const std::vector<std::pair<std::string, std::vector<int>>> runs = {
       {"bunny00.off", {1}}, {"refined_elephant.off", {0}}, {"lion-head.off", {0, 1}}};
