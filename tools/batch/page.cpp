@@ -153,7 +153,7 @@ std::string table_head(const BatchRequest& request) {
 /// The request as words of the command line, without the output folder, so that pages do not depend on it.
 std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
   std::vector<std::string> words = {"morsel", "batch", options.collection};
-  for (std::string& word : batch_words(request)) words.push_back(std::move(word));
+  add_words(words, batch_words(request));
   return command_line(words);
 }
 

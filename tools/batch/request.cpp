@@ -96,9 +96,8 @@ std::vector<std::string> request_words(const BatchRequest& request) {
   std::vector<std::string> words = render::words_of(request.comparison, request.repair);
   add_flag(words, "--no-items", !request.items);
   if (!has_pictures(request)) return words;
-  for (std::string& word : request.figures ? render::words_of(request.figure)
-                                           : render::words_of_thumbnails(request.figure.camera))
-    words.push_back(std::move(word));
+  add_words(words, request.figures ? render::words_of(request.figure)
+                                   : render::words_of_thumbnails(request.figure.camera));
   return words;
 }
 
@@ -114,7 +113,7 @@ std::vector<std::string> batch_words(const BatchRequest& request) {
 std::vector<std::string> compare_words(const BatchRequest& request, const CollectionMesh& mesh,
                                        const fs::path& work, const OutFolder& out, int threads) {
   std::vector<std::string> words = {"morsel", "compare", "--quiet", "--threads=" + std::to_string(threads)};
-  for (std::string& word : request_words(request)) words.push_back(std::move(word));
+  add_words(words, request_words(request));
   words.push_back("--output=" + (work / "report.json").string());
   if (request.thumbnails) words.push_back("--thumbnails=" + (work / "thumbnail").string());
   if (request.pages)

@@ -77,7 +77,7 @@ class SideBySide : public ComparisonSink {
 /// What makes the page again. What changes nothing in it is left out.
 std::string page_command(const Options& options, const CommonOptions& common) {
   std::vector<std::string> words = {"morsel", "compare", options.mesh};
-  for (std::string& word : render::words_of(options.request, common.repair)) words.push_back(std::move(word));
+  add_words(words, render::words_of(options.request, common.repair));
   add_option(words, "--html", options.page_place.empty() ? options.page : options.page_place);
   return command_line(words);
 }

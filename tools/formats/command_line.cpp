@@ -29,6 +29,10 @@ void add_option(std::vector<std::string>& words, const std::string& name, const 
     words.insert(words.end(), {name, value});
 }
 
+void add_words(std::vector<std::string>& words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
 void add_flag(std::vector<std::string>& words, const std::string& name, bool given) {
   if (given) words.push_back(name);
 }

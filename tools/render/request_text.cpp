@@ -6,6 +6,7 @@
 #include "morsel/core/text/parameters.h"
 
 namespace morsel::tools::render {
+
 Size parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
   if (x == std::string::npos)

@@ -85,9 +85,8 @@ std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const Figur
   const Model& model = *figure.model;
   std::vector<std::string> words = {"morsel", "render", model.file().path.string()};
   const FieldRequest field{std::string(figure.recipe->field), panel.method, {}};
-  for (std::string& word : render::words_of(field, options.repair)) words.push_back(std::move(word));
-  for (std::string& word : render::words_of(request, options.camera, "", model.loaded().source.numbering))
-    words.push_back(std::move(word));
+  add_words(words, render::words_of(field, options.repair));
+  add_words(words, render::words_of(request, options.camera, "", model.loaded().source.numbering));
   return words;
 }
 

@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <queue>
 #include <string>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -26,8 +28,8 @@ using core::TriangleMesh;
 
 constexpr double kLeastCosine = 0.2;  // of the angle that a triangle's normal may turn by
 
-/// A surface whose edges can be collapsed. What concerns two or three neighbours is looked up at the one with
-/// the fewest triangles, so that a vertex of very large degree costs no more than others.
+/// A surface whose edges can be collapsed. Edges are looked up in a set, triangles at the corner that has the
+/// fewest, so that a vertex of very large degree costs no more than others.
 class ShrinkingMesh {
  public:
   explicit ShrinkingMesh(const TriangleMesh& mesh)
@@ -39,6 +41,9 @@ class ShrinkingMesh {
         on_boundary_(mesh.vertex_count()) {
     for (Index t = 0; t < mesh.triangle_count(); ++t)
       for (const Index v : triangles_[t]) around_[v].push_back(t);
+    edges_.reserve(mesh.edge_count());
+    for (Index e = 0; e < mesh.edge_count(); ++e)
+      edges_.insert(key(mesh.edge_vertices(e)[0], mesh.edge_vertices(e)[1]));
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       degree_[v] = static_cast<Index>(around_[v].size());
       on_boundary_[v] = mesh.is_boundary_vertex(v);
@@ -56,10 +61,7 @@ class ShrinkingMesh {
     return ring;
   }
 
-  bool is_edge(Index u, Index w) const {
-    return alive_[u] && alive_[w] &&
-           std::ranges::any_of(around_[fewest({u, w})], [&](Index t) { return has(t, u) && has(t, w); });
-  }
+  bool is_edge(Index u, Index w) const { return edges_.contains(key(u, w)); }
 
   /// Whether u may be moved onto its neighbour w.
   bool can_collapse(Index u, Index w) const {
@@ -80,6 +82,10 @@ class ShrinkingMesh {
   }
 
   void collapse(Index u, Index w) {
+    for (const Index v : neighbors(u)) {
+      edges_.erase(key(u, v));
+      if (v != w) edges_.insert(key(v, w));
+    }
     for (const Index t : around_[u]) {
       if (is_gone(t)) continue;
       if (has(t, w)) {
@@ -107,6 +113,7 @@ class ShrinkingMesh {
   }
 
  private:
+  static std::uint64_t key(Index u, Index w) { return std::uint64_t{std::min(u, w)} << 32 | std::max(u, w); }
   bool is_gone(Index t) const { return triangles_[t][0] == kNone; }
   bool has(Index t, Index v) const { return std::ranges::find(triangles_[t], v) != triangles_[t].end(); }
 
@@ -151,6 +158,7 @@ class ShrinkingMesh {
   std::vector<Triangle> triangles_;         // kNone where it is gone
   std::vector<std::vector<Index>> around_;  // triangles, by vertex, some of them gone
   std::vector<Index> degree_;               // how many are not
+  std::unordered_set<std::uint64_t> edges_;
   std::vector<bool> alive_;
   std::vector<bool> on_boundary_;
 };
