@@ -109,7 +109,7 @@ void add_points(Program& program) {
               "What comes first: persistence or salience")
       .value("RANK")
       .in_detail(
-          "persistence: of essential points, which have none, the extent of the field on their component; "
+          "persistence: of essential points, which have none, the range of the field on their component; "
           "salience: persistence times the mesh saliency of the surface there, counted by areas and "
           "smoothed, 1 on average");
   command.text("--spacing", options->spacing, "The least distance of two points along the surface")
@@ -123,7 +123,7 @@ void add_points(Program& program) {
       .in_detail(
           "Where the field has too few points, its points come after these, by their own rank and apart from "
           "those");
-  command.text("--salience-scale", options->scale, "How far salience is smoothed")
+  command.text("--salience-scale", options->scale, "How far the mesh saliency is smoothed")
       .value("LENGTH")
       .shows_default("the method's sigma, or 8eps");
   add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
