@@ -1,9 +1,9 @@
 # Texts that the program holds: style sheets, scripts, pages.
 #
 # morsel_embed(OUTPUT FILE.cpp HEADER NAME.h NAMESPACE NAMESPACE LITERALS NAME=FILE[,FILE…]… [DEPENDS FILE…]):
-# makes FILE.cpp, which defines each NAME (that HEADER declares as an EmbeddedText, formats/embedded_text.h) as
-# the texts of its files one after the other. Where a text has EMBED(FILE FILE…), these files, which are beside
-# it, are put there; DEPENDS names them.
+# makes FILE.cpp, which defines each NAME (that HEADER declares as an EmbeddedText, formats/embedded_text.h)
+# as the texts of its files one after the other. Where a text has EMBED(FILE FILE…), these files, which are
+# beside it, are put there; DEPENDS names them.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(MORSEL_EMBED ${CMAKE_CURRENT_LIST_FILE})
   function(morsel_embed)
