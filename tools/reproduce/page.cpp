@@ -161,7 +161,7 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>Salient Critical Points for Meshes, made "
       "again</title>\n"
       "<style>\n" +
-      std::string(kStyle) +
+      joined(kStyle) +
       "</style>\n</head>\n<body>\n<header><h1>Salient Critical Points for Meshes, reproduced</h1>\n"
       "<p class=\"hint\">The figures and the table of the paper, by morsel " +
       markup_text(kVersion) +
