@@ -20,6 +20,7 @@
 #include "morsel/tools/commands/help.h"
 #include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/signals.h"
+#include "morsel/tools/commands/stack.h"
 #include "morsel/tools/commands/standard_streams.h"
 #include "morsel/tools/commands/threads.h"
 #include "morsel/tools/formats/version.h"
@@ -125,15 +126,25 @@ int run(std::vector<std::string> words, std::stop_token stop) {
   return code;
 }
 
+int run_to_exit_code(int argc, char** argv) noexcept {
+  try {
+    const SignalWatch watch;
+    return run({argv + std::min(argc, 1), argv + argc}, watch.token());
+  } catch (...) {
+    return tell_failure();
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   begin_main();
   try {
     occupy_standard_descriptors();
-    const SignalWatch watch;
-    return run({argv + std::min(argc, 1), argv + argc}, watch.token());
   } catch (...) {
     return tell_failure();
   }
+  int code = 0;
+  with_enough_stack([&] { code = run_to_exit_code(argc, argv); });
+  return code;
 }

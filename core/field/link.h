@@ -39,28 +39,42 @@ void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
   if (h == kNone) detail::visit_neighbor(visit, apex, kNone);
 }
 
-/// The kind of v, where is_lower(u), or is_lower(u, h) as above, says whether neighbour u is lower; it is
-/// called once for each neighbour in turn. The cap of a boundary loop is higher. O(degree).
+/// A neighbour in the link of a vertex, or the cap of the vertex's boundary loop.
+struct LinkElement {
+  Index vertex = kNone;   ///< kNone for the cap
+  bool is_lower = false;  ///< than the vertex; the cap is higher
+};
+
+/// Calls visit(a, b) for each two consecutive elements of the link of v on the capped surface, a cycle:
+/// counter-clockwise, from the cap on at a boundary. is_lower(u), or is_lower(u, h) as above, says whether
+/// neighbour u is lower; it is called once for each neighbour in turn. O(degree).
+template <class IsLower, class Visit>
+void for_each_link_pair(const TriangleMesh& mesh, Index v, const IsLower& is_lower, const Visit& visit) {
+  LinkElement first;
+  LinkElement previous;
+  bool started = mesh.is_boundary_vertex(v);  // with the cap
+  for_each_neighbor(mesh, v, [&](Index u, Index halfedge) {
+    const LinkElement here{u, detail::visit_neighbor(is_lower, u, halfedge)};
+    if (started) {
+      visit(previous, here);
+    } else {
+      started = true;
+      first = here;
+    }
+    previous = here;
+  });
+  visit(previous, first);
+}
+
+/// The kind of v, by is_lower as above. The cap of a boundary loop is higher. O(degree).
 template <class IsLower>
 VertexKind vertex_kind(const TriangleMesh& mesh, Index v, const IsLower& is_lower) {
-  const bool boundary = mesh.is_boundary_vertex(v);
-  Index runs = 0;  // maximal runs of lower neighbours around v
-  bool whole = !boundary;
-  bool previous = false;
-  bool first = false;
-  bool started = boundary;  // the walk around an inner vertex closes at its first neighbour
-  for_each_neighbor(mesh, v, [&](Index u, Index halfedge) {
-    const bool lower = detail::visit_neighbor(is_lower, u, halfedge);
-    if (!started) {
-      started = true;
-      first = lower;
-    } else if (lower && !previous) {
-      ++runs;
-    }
-    whole &= lower;
-    previous = lower;
+  Index runs = 0;  // maximal runs of lower elements around v
+  bool whole = true;
+  for_each_link_pair(mesh, v, is_lower, [&](const LinkElement& a, const LinkElement& b) {
+    if (b.is_lower && !a.is_lower) ++runs;
+    whole &= b.is_lower;
   });
-  if (first && !previous) ++runs;
   return kind_of_link(runs, whole);
 }
 

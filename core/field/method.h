@@ -81,7 +81,7 @@ struct MethodResult {
   std::optional<IterationEnd> end = {};          ///< of a method that iterates
   /// The standard deviation of the weight of distances, in the mesh's unit, of a method that averages by one.
   std::optional<double> sigma = {};
-  std::vector<std::string> warnings = {};        ///< what the method could not do here, a sentence each
+  std::vector<std::string> warnings = {};  ///< what the method could not do here, a sentence each
 };
 
 /// A callback for the iterations of an iterative method, and the choice of those for which it is called.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/links.h"
 #include "morsel/core/io/made_folders.h"
 #include "morsel/core/io/temporary_file.h"
 #include "morsel/core/text/numbers.h"
@@ -32,14 +33,6 @@ constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   fail(path, std::generic_category().message(error));
-}
-
-/// The file that a chain of symbolic links ends at, which need not exist.
-fs::path followed(fs::path path) {
-  std::error_code error;
-  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
-    path = path.parent_path() / fs::read_symlink(path);
-  return path;
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #pragma once
 /// Writing a file whole or not at all.
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <ostream>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -22,11 +22,10 @@ enum class Sync {
 
 /// Where a file is to be written: made from a path.
 struct FileTarget {
-  template <class Path>
-  requires std::convertible_to<Path, std::filesystem::path> FileTarget(Path&& target)
-      : path(std::forward<Path>(target)) {}  // NOLINT: wherever a path would do
-  FileTarget(std::filesystem::path target, std::function<void(int)> before)
+  FileTarget(std::filesystem::path target, std::function<void(int)> before = {})
       : path(std::move(target)), before_appearing(std::move(before)) {}
+  FileTarget(const std::string& target) : path(target) {}
+  FileTarget(const char* target) : path(target) {}
 
   std::filesystem::path path;
   /// Is called with the descriptor of the complete file before it appears; if it throws, the file does not

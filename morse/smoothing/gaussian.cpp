@@ -3,7 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "morsel/morse/smoothing/salient_method.h"
+#include "morsel/morse/smoothing/ball_keys.h"
+#include "morsel/morse/smoothing/empty_balls.h"
+#include "morsel/morse/smoothing/salient_iterations.h"
 
 namespace morsel::morse {
 namespace {

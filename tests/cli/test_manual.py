@@ -61,7 +61,8 @@ class ManualTest(ProgramTest):
         self.assertEqual(self.complete("morsel", "co"), {"compare"})
         self.assertIn("scan.off", self.complete("morsel", "sc"))
         self.assertEqual(self.complete("morsel", "help", "quad"), {"quads"})
-        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--fi"), {"--field", "--figures"})
+        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--fi"),
+                         {"--field", "--figures", "--fill"})
         self.assertEqual(self.complete("morsel", "compare", "scan.off", "--method", "tp"), {"tps"})
         self.assertEqual(self.complete("morsel", "compare", "scan.off", "--up", ""), {"x", "y", "z"})
         self.assertEqual(self.complete("morsel", "field", "scan.off", "-o", "s"), {"scan.off"})

@@ -253,7 +253,7 @@ class Batch(OwnershipTest):
     def test_a_plan_has_one_line_a_mesh(self):
         folder = self.meshes()
         names = ["a.off", "b.off", "line\nbreak\t\x7f.off", '"quoted".off', "back\\slash.off",
-                 "new\n\"line\\.off"]
+                 "new\n\"line\\.off", "\x9b31m\u202e.off", "umlaut-\u00fc.off"]
         for name in names:
             (folder / name).write_text(OCTAHEDRON)
         (folder / os.fsdecode(b"bytes\xff\n.off")).write_text(OCTAHEDRON)
@@ -261,6 +261,7 @@ class Batch(OwnershipTest):
                                 capture_output=True, check=True)
         rows = [line.split("\t") for line in os.fsdecode(result.stdout).splitlines()]
         self.assertEqual({len(row) for row in rows}, {2})
+        self.assertNotRegex(os.fsdecode(result.stdout), "[\x80-\x9f\u202a-\u202e]")
         self.assertEqual({json.loads(name) if name.startswith('"') else name for _, name in rows},
                          {*names, os.fsdecode(b"bytes\xff\n.off")})
         self.assertFalse((self.folder / "out").exists())
@@ -268,7 +269,7 @@ class Batch(OwnershipTest):
             self.batch("meshes", "out", "--only", name, "--no-summary")
         result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder,
                                 capture_output=True, check=False)
-        self.assertIn(b"7 meshes: 7 done", result.stdout, result.stderr)
+        self.assertIn(b"9 meshes: 9 done", result.stdout, result.stderr)
 
     def test_what_a_killed_run_leaves_is_listed_and_goes_with_the_next(self):
         self.meshes()
@@ -622,6 +623,15 @@ class Outputs(OwnershipTest):
             self.refused("sweep", f"{kind}.off", "--vary", "iterations=1", "-o", f"s.{kind}",
                          naming=["journal"])
             self.refused("stability", f"{kind}.off", "-o", f"s.{kind}", naming=["journal"])
+
+    def test_no_output_is_the_list_of_a_folder_through_a_link(self):
+        """`-o x.json` once replaced the list that x.json was a link to."""
+        self.morsel("compare", "m.off", *QUICK, "--export", "d")
+        for name, target in (("x.json", f"d/{LIST}"), ("far.json", "x.json"), ("new.json", f"new/{LIST}")):
+            (self.folder / name).symlink_to(target)
+            self.refused("compare", "m.off", *QUICK, "-o", name, naming=[f"-o {name}", "list of files"])
+        self.refused("compare", "m.off", *QUICK, "--html", f"d/{LIST}", naming=["--html"])
+        self.morsel("compare", "m.off", *QUICK, "--export", "d")
 
     def test_devices_and_pipes_may_be_named_twice(self):
         self.morsel("compare", "m.off", *QUICK, "-o", "/dev/null", "--html", "/dev/null")

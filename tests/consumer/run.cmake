@@ -1,5 +1,5 @@
-# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs
-# BUILD and uses what was installed.
+# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -DPYTHON=… -P run.cmake:
+# installs BUILD and uses what was installed.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -28,6 +28,9 @@ foreach(file IN LISTS package_files)
     endif()
   endforeach()
 endforeach()
+
+# Pages, pictures and schemas are read where they were installed.
+run(${PYTHON} -B ${SOURCE}/tests/consumer/check_links.py ${WORK}/moved/share/doc/morsel)
 
 configure_project(package)
 

@@ -12,7 +12,6 @@
 
 using namespace morsel;
 using namespace morsel::test;
-using tools::PerturbationKind;
 using tools::run_stability;
 using tools::StabilityRequest;
 using tools::StabilityResult;

@@ -31,6 +31,7 @@ struct Option {
   std::string in_short = {};      ///< what completions show; empty: `help` up to the end of its first clause
   std::string details = {};       ///< what man pages say besides; line breaks are made by whoever shows it
   std::string group = {};         ///< the heading that help shows it under, with its neighbours
+  std::string told_by = {};       ///< the command whose help tells it: here help shows the name alone
   std::string negation = {};      ///< the name of the flag that says no
   std::string environment = {};   ///< a variable that gives the value if the option is not given
   std::vector<std::string> choices = {};
@@ -112,8 +113,8 @@ class Command {
   Option& choice(std::string names, Target& target, std::vector<std::pair<std::string, Value>> choices,
                  std::string help);
   /// The same for values that to_string() names.
-  template <class Value>
-  Option& choice(std::string names, Value& target, std::initializer_list<Value> values, std::string help) {
+  template <class Value, class Values = std::initializer_list<Value>>
+  Option& choice(std::string names, Value& target, const Values& values, std::string help) {
     std::vector<std::pair<std::string, Value>> choices;
     for (const Value value : values) choices.emplace_back(to_string(value), value);
     return choice(std::move(names), target, std::move(choices), std::move(help));

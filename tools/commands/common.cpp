@@ -113,9 +113,9 @@ std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
 void add_specification_notes(Command& command) {
   command.notes +=
       "F and M are written name or name:key=value,key=value; methods chain as M+M. Lengths are in the mesh's "
-      "unit, in eps (0.3 % of the bounding box's diagonal), in percent of that, in mean edges or in roots of "
-      "the area: 8eps, 5%, 3edges, 0.02rootarea. `morsel fields` and `morsel methods` list all names, "
-      "`morsel methods salient` the keys of one.";
+      "unit or as in 8eps (eps: 0.3 % of the bounding box's diagonal), 5% (of it), 3edges (mean ones) and "
+      "0.02rootarea. `morsel fields` and `morsel methods` list all names, `morsel methods salient` the "
+      "keys of one.";
   command.details += "A backslash keeps , : + = / in names and values literal.";
 }
 

@@ -115,8 +115,8 @@ void print_text(const Findings& findings, bool repair_tried) {
   if (findings.defects.empty()) line("defects", "none");
   for (const core::Defect& defect : findings.defects) {
     const std::string_view repair = core::repair_of(defect.kind);
-    std::string remedy = "; no repair mends this";
-    if (!repair.empty() && !repair_tried) remedy = "; --repair mends this by " + std::string(repair);
+    std::string remedy = "; no repair fixes this";
+    if (!repair.empty() && !repair_tried) remedy = "; --repair fixes this by " + std::string(repair);
     line("defect", core::describe(defect) + remedy);
   }
 }

@@ -1,6 +1,7 @@
 #include "morsel/tools/commands/output_check.h"
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/links.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/results/file_list.h"
@@ -45,13 +46,17 @@ RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path
   return *this;
 }
 
+void RunFiles::refuse_lists() const {
+  for (const Named& output : outputs_)
+    if (core::followed(output.path).filename() == FileList::kName)
+      throw core::InvalidArgument(output.text() +
+                                  " is the list of files of a folder of results; it is not written to");
+}
+
 void RunFiles::check() const {
   std::vector<Named> all = outputs_;
   all.insert(all.end(), folders_.begin(), folders_.end());
-  for (const Named& output : outputs_)
-    if (output.path.filename() == FileList::kName)
-      throw core::InvalidArgument(output.text() +
-                                  " is the list of files of a folder of results; it is not written to");
+  refuse_lists();
   for (const Named& output : all)
     for (const Named& input : inputs_)
       if (output.place == input.place && !output.place.is_device)

@@ -41,6 +41,8 @@ class RunFiles {
     FilePlace place;
     std::string text() const { return option + " " + path.string(); }
   };
+  /// Of folders of results, also through links.
+  void refuse_lists() const;
   static void add(std::vector<Named>& list, const std::string& option, const std::filesystem::path& path);
 
   std::vector<Named> inputs_, input_folders_, outputs_, folders_, no_meshes_;

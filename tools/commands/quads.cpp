@@ -61,7 +61,7 @@ void add_quads(Program& program) {
       .text("--persistence", options->quads.persistence,
             "Cancel pairs of at most this persistence before the layout")
       .value("T")
-      .in_detail("A number in the field's unit or a share of its extent (1%)");
+      .in_detail("A number in the field's unit or a share of its range (1%)");
   command.number("--resolution", options->quads.resolution, "Quads along each side of a patch, 2 or more");
   command
       .number("--relaxation", options->quads.relaxation,

@@ -98,7 +98,7 @@ void add_segment(Program& program) {
       .value("T")
       .shortly("Merge all of at most this persistence")
       .shows_default("none")
-      .in_detail("In the field's unit or, as in 0.1%, in percent of its extent");
+      .in_detail("In the field's unit or, as in 0.1%, in percent of its range");
   add_output_option(command, options->output, "Labels of vertices and triangles: .ply, .vtp or .txt")
       .in_detail(
           "In the input's vertex numbers: .ply (int properties \"segment\"), .vtp (arrays \"segment\", and "

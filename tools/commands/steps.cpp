@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "morsel/core/io/file_writer.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/tools/report/hashed_mesh.h"
 
 namespace morsel::tools {
@@ -40,6 +41,19 @@ void tell_made(const MadeField& made, Console& console) {
   if (!made.outcome.target) return;
   for (const std::string& text : {made.outcome.target->note, early_end(*made.outcome.target)})
     if (!text.empty()) console.message(text);
+}
+
+void tell_points(const MadePoints& made, const PointsRequest& request, Console& console) {
+  if (made.fill) tell_warnings(*made.fill, console);
+  const std::size_t count = made.chosen.points.size();
+  std::string text = "points: " + core::grouped(count);
+  if (count > 1 && made.chosen.spacing > 0)
+    text += ", at least " + core::to_digits(made.chosen.spacing) + " (" + core::to_string(request.spacing) +
+            ") apart along the surface";
+  if (const std::optional<double> mean = made.mean_percentile())
+    text += "; mean saliency percentile " + core::to_decimals(*mean, 2);
+  console.message(text);
+  if (!made.note.empty()) console.message(made.note);
 }
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
@@ -92,12 +106,21 @@ void FieldRun::make() {
   tell_made(*made_, run_.console);
 }
 
+MadePoints FieldRun::choose_points(const PointsPlan& plan) {
+  const Stopwatch watch;
+  MadePoints points = make_points(plan, loaded(), *made_, run_.console.progress());
+  points_seconds_ = watch.seconds();
+  tell_points(points, plan.request, run_.console);
+  return points;
+}
+
 Provenance FieldRun::provenance(const Json& request) const {
   return {run_.common.command, request, source()};
 }
 
 Timings FieldRun::timings(const Timings& more) const {
   Timings all = {{"load", load_seconds_}, {"field", made_->input.seconds}, {"method", made_->method_seconds}};
+  if (points_seconds_) all.emplace_back("points", *points_seconds_);
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -44,6 +44,9 @@ void tell_warnings(const std::vector<StepOutcome>& steps, Console& console);
 /// Warnings, why a wanted number of critical points was not reached, and whether it ended a method early.
 void tell_made(const MadeField& made, Console& console);
 
+/// How many points were chosen, how far apart, and why there are fewer than asked for.
+void tell_points(const MadePoints& made, const PointsRequest& request, Console& console);
+
 /// What commands on one field begin with: MESH, and what --field, --method and --target make on it.
 class FieldRun {
  public:
@@ -78,13 +81,15 @@ class FieldRun {
   void make();
   const core::ScalarField& field() const { return made_->field(); }
   const MadeField& made() const { return *made_; }
+  /// Chooses points of it and tells what is to be told of them.
+  MadePoints choose_points(const PointsPlan& plan);
   const FieldPlan& plan() const { return plan_; }
 
   /// What documents and other files say of all that. `request`: all options that shape the result.
   FieldSource source() const { return {file_, loaded(), plan_, *made_}; }
   Provenance provenance(const Json& request) const;
-  /// "load", "field" and "method", then `more`.
-  Timings timings(const Timings& more) const;
+  /// "load", "field", "method" and, where points were chosen, "points"; then `more`.
+  Timings timings(const Timings& more = {}) const;
 
  private:
   const Run& run_;
@@ -95,6 +100,7 @@ class FieldRun {
   std::optional<core::WholeMesh> mesh_;
   double load_seconds_ = 0;
   std::optional<MadeField> made_;
+  std::optional<double> points_seconds_;
 };
 
 }  // namespace morsel::tools

@@ -49,7 +49,7 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
                                    const std::string& field_name, const core::VertexNumbering& numbering,
                                    std::span<const core::Point> input_positions,
                                    const Provenance& provenance) {
-  const std::vector<fs::path> files = label_files(path);
+  std::vector<fs::path> files = label_files(path);
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
   const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
   if (files.size() == 2) {

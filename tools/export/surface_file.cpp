@@ -16,6 +16,7 @@ void write_surface_file(const core::FileTarget& target, const SurfaceFile& surfa
                            {"input_vertex", vertices, numbering.input_count, [&](std::size_t v) {
                               return std::int64_t{numbering.input_vertex(static_cast<core::Index>(v))};
                             }}};
+  if (!surface.chosen.empty()) document.point_arrays.emplace_back("chosen", surface.chosen);
   const auto add = [&](const char* name, const mscomplex::SegmentLabels& segments) {
     document.point_arrays.emplace_back(name, segments.vertex, segments.count);
     document.cell_arrays.emplace_back(name, segments.triangle, segments.count);

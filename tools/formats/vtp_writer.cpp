@@ -57,7 +57,8 @@ VtpArray::VtpArray(std::string array_name, std::size_t count, std::uint64_t boun
       bytes(count * (bound <= kInt32Bound ? sizeof(std::int32_t) : sizeof(std::int64_t))),
       value(std::move(value_of)) {}
 
-VtpCells::VtpCells(std::size_t cells, std::size_t first_point, std::function<std::int64_t(std::size_t)> end)
+VtpCells::VtpCells(std::size_t cells, std::size_t first_point,
+                   const std::function<std::int64_t(std::size_t)>& end)
     : count(cells),
       connectivity("connectivity", points_in(cells, end), first_point + points_in(cells, end),
                    [first_point](std::size_t i) { return static_cast<std::int64_t>(first_point + i); }),

@@ -39,8 +39,8 @@ void FigureSink::field(const FieldOutcome& outcome) {
 
 void FigureSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
-  const morse::CriticalPoints& points = outcome.measurement.critical_points;
-  request_.arcs = points.total() <= kPointsWithArcs;
+  const morse::CriticalPoints& points = outcome.shown_points();
+  request_.arcs = !outcome.chosen && points.total() <= kPointsWithArcs;
   Image picture = studio_->take(view_, subject_of(outcome, field_name_, unit_), request_, progress_);
   std::string caption =
       outcome.specification + "\n" + counts_line(points.minima, points.saddles, points.maxima);

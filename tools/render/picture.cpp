@@ -51,8 +51,8 @@ std::optional<mscomplex::SegmentKind> segments_of(Show show) {
 }
 
 Subject subject_of(const MethodOutcome& outcome, const std::string& field_name, const std::string& unit) {
-  return {outcome.field, &outcome.measurement, quantity_of(field_name, unit, outcome.quantity), "",
-          outcome.places};
+  return {outcome.field,          &outcome.measurement,   quantity_of(field_name, unit, outcome.quantity), "",
+          outcome.shown_places(), &outcome.shown_points()};
 }
 
 Studio::Studio(const core::TriangleMesh& mesh)
@@ -107,12 +107,14 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   Scene scene{body_};
   color_surface(scene, subject, request.show, scale);
   if (measured) {
-    GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
+    const morse::CriticalPoints& points =
+        subject.points != nullptr ? *subject.points : subject.measurement->critical_points;
+    GlyphSizes sizes = glyph_sizes(body_, points.total());
     if (request.close_up) {
       sizes.ball = std::min(sizes.ball, kCloseBall * radius_of(*request.close_up));
       sizes.tube = std::min(sizes.tube, 0.4 * sizes.ball);
     }
-    if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
+    if (request.points) add_points(scene, points, sizes.ball, subject.places);
     if (request.arcs) {
       const bool borders = segments_of(request.show).has_value();
       const double freedom = borders ? 0.7 * sizes.tube : std::numeric_limits<double>::infinity();

@@ -51,12 +51,13 @@ struct Subject {
   const core::ScalarField& field;
   const Measurement* measurement = nullptr;  ///< must be there for points, arcs and segments
   Quantity quantity;
-  std::string caption;  ///< lines; none if empty
-  std::span<const core::Index> places =
-      {};  ///< for each critical point, the vertex to show it at; empty: its own
+  std::string caption;                       ///< lines; none if empty
+  std::span<const core::Index> places = {};  ///< for each point, the vertex to show it at; empty: its own
+  const morse::CriticalPoints* points = nullptr;  ///< to show; null: the measurement's
 };
 
-/// What a picture of a method shows. `field_name`: of the field before the method. Refers to the outcome.
+/// What a picture of a method shows: chosen points where there are such. `field_name` and `unit`: of the
+/// field before the method. Refers to the outcome.
 Subject subject_of(const MethodOutcome& outcome, const std::string& field_name, const std::string& unit);
 
 /// One surface from one side, for any number of pictures. Holds the mesh by value.

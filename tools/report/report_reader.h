@@ -2,6 +2,7 @@
 /// Reading a report back, to run it again.
 
 #include <filesystem>
+#include <fstream>
 #include <istream>
 #include <string>
 
@@ -28,8 +29,11 @@ LoadedReport read_report(const std::filesystem::path& path);
 /// The same of a stream; errors call it `name`.
 LoadedReport read_report(std::istream& in, const std::string& name);
 
-/// The place of the report's mesh now: its path from the working folder, or else from the report's own
-/// folder. Empty if it is in neither.
-std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path);
+/// Opens the file of a report; throws BadInput if it is missing or a folder.
+std::ifstream open_report(const std::filesystem::path& path);
+
+/// The place of a report's input now: its path, as the report has it, from the working folder, or else from
+/// the report's own folder. Empty if it is in neither.
+std::filesystem::path find_input(const std::filesystem::path& path, const std::filesystem::path& report_path);
 
 }  // namespace morsel::tools

@@ -97,6 +97,9 @@ std::string described(const Quadrangulation& result, double diagonal) {
     text +=
         "        " + plural(result.layout.missed, "arc follows", "arcs follow") +
         " the path through the fewest triangles, as double precision does not suffice for a straight line\n";
+  if (result.layout.left > 0)
+    text += "        relaxations left a node in place " + plural(result.layout.left, "time", "times") +
+            ", as its arcs would need too many triangles\n";
   text += "quads: " + core::grouped(result.mesh.quads.size()) + " on " +
           core::grouped(result.mesh.positions.size()) + " vertices, of which " +
           core::grouped(q.extraordinary) + " extraordinary; by valence";

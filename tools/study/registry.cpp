@@ -20,7 +20,6 @@
 #include "morsel/morse/smoothing/gaussian.h"
 #include "morsel/morse/smoothing/saliency.h"
 #include "morsel/morse/smoothing/salient.h"
-#include "morsel/morse/smoothing/salient_method.h"
 #include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
 
