@@ -136,8 +136,8 @@ using SegmentsHandle = std::shared_ptr<SegmentsData>;
 
 struct PointsData {
   FieldHandle field;
-  tools::PointsPlan plan;
-  tools::MadePoints made;
+  tools::PointsRequest request;
+  std::shared_ptr<const tools::MadePoints> made;
 };
 using PointsHandle = std::shared_ptr<PointsData>;
 

@@ -13,10 +13,12 @@
 #include "morsel/python/documents/module.h"
 #include "morsel/python/documents/source.h"
 #include "morsel/tools/export/export_sink.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/report_check.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/results/result_folder.h"
 
 namespace morsel::python {
@@ -51,17 +53,16 @@ void write_report(const ComparisonHandle& comparison, const std::string& path,
   });
 }
 
+/// `page`: the one that is written; empty for none.
 std::string comparison_command(const ComparisonData& comparison, const DocumentMesh& mesh,
-                               const std::vector<std::string>& words) {
-  std::vector<std::string> all;
-  if (comparison.request.snap) all.emplace_back("--snap");
-  all.insert(all.end(), words.begin(), words.end());
-  return command_of("compare", mesh, comparison.request.field, comparison.request.methods,
-                    comparison.request.target, all);
+                               const std::string& page = {}) {
+  std::vector<std::string> words = tools::words_of(comparison.request, mesh.repair);
+  if (!page.empty()) tools::add_option(words, "--html", page);
+  return command_of("compare", mesh, words);
 }
 
 tools::Provenance provenance_of(const ComparisonData& comparison, const DocumentMesh& mesh) {
-  return {comparison_command(comparison, mesh, {}),
+  return {comparison_command(comparison, mesh),
           tools::request_section(mesh.about(), comparison.request),
           {mesh.file}};
 }
@@ -72,8 +73,7 @@ void write_page(const ComparisonHandle& comparison, const std::string& path,
     core::FileWriter file(path);
     const DocumentMesh mesh = document_mesh(comparison->input, {mesh_file, false}, progress);
     tools::HtmlSink page(file, mesh.loaded, mesh.about(), comparison->request,
-                         comparison_command(*comparison, mesh, {"--html", path}),
-                         provenance_of(*comparison, mesh));
+                         comparison_command(*comparison, mesh, path), provenance_of(*comparison, mesh));
     replay(*comparison, page, progress);
     page.finish();
     file.commit();
@@ -90,14 +90,14 @@ void export_to(const ComparisonHandle& comparison, const std::string& folder,
   });
 }
 
-/// (path of the mesh, whether it is missing, [(where, before, after)])
+/// (path of the mesh or of the list of meshes, whether it is missing, [(where, before, after)])
 py::tuple check(const std::string& path, const tools::Registry& registry, const py::object& report) {
   const tools::ReportCheck result = compute(
       report, [&](const core::Progress& progress) { return tools::check_report(path, progress, registry); });
   py::list differences;
   for (const tools::Difference& one : result.differences)
     differences.append(py::make_tuple(text(one.where), text(one.before), text(one.after)));
-  return py::make_tuple(text(result.mesh_path), result.mesh_is_missing, differences);
+  return py::make_tuple(text(result.input_path), result.input_is_missing, differences);
 }
 
 }  // namespace

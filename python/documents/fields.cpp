@@ -2,10 +2,12 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/persistence/threshold.h"
 #include "morsel/python/binding/job.h"
@@ -14,7 +16,9 @@
 #include "morsel/tools/export/field_file.h"
 #include "morsel/tools/export/label_file.h"
 #include "morsel/tools/export/points_file.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/report/points_writer.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/report/segments_writer.h"
 
 namespace morsel::python {
@@ -36,9 +40,9 @@ void write_field(const FieldHandle& field, const std::string& path, const tools:
 /// The words of the command line of a request.
 std::vector<std::string> words_of(const tools::SegmentRequest& request) {
   std::vector<std::string> words = {"--by", mscomplex::to_string(request.kind)};
-  if (request.segments) words.insert(words.end(), {"--segments", std::to_string(*request.segments)});
+  if (request.segments) tools::add_option(words, "--segments", std::to_string(*request.segments));
   if (request.persistence)
-    words.insert(words.end(), {"--persistence", persistence::to_string(*request.persistence)});
+    tools::add_option(words, "--persistence", persistence::to_string(*request.persistence));
   return words;
 }
 
@@ -64,14 +68,16 @@ void write_segments(const SegmentsHandle& segments, const std::string& path,
   });
 }
 
-std::vector<std::string> words_of(const tools::PointsRequest& request) {
-  std::vector<std::string> words = {"--points",  std::to_string(request.count),
-                                    "--kind",    std::string(morse::to_string(request.kind)),
-                                    "--rank",    std::string(morse::to_string(request.rank)),
-                                    "--spacing", core::to_string(request.spacing),
-                                    "--fill",    request.fill.value_or("none")};
-  if (request.scale) words.insert(words.end(), {"--salience-scale", core::to_string(*request.scale)});
+/// Of `morsel points`, which fills up unless it is told not to.
+std::vector<std::string> points_words(const tools::PointsRequest& request) {
+  std::vector<std::string> words = tools::words_of(request);
+  if (!request.fill) tools::add_option(words, "--fill", "none");
   return words;
+}
+
+bool are_in_place(const tools::MadePoints& made) {
+  return std::ranges::equal(made.places, made.chosen.points, {}, {},
+                            [](const morse::ChosenPoint& point) { return point.candidate.point.vertex; });
 }
 
 /// .json, .csv, .ply or .vtp.
@@ -80,17 +86,21 @@ void write_points(const PointsHandle& points, const std::string& path,
                   const py::object& report) {
   const bool is_document = core::file_extension(path) == ".json";
   if (!is_document) tools::check_points_path(path);
+  if (!are_in_place(*points->made))
+    throw core::InvalidArgument(
+        "points that are reported at their origins are in the files of their comparison, not in one of their "
+        "own");
   run_job(report, [&](const core::Progress& progress) {
     const DocumentField source(points->field, {mesh_file, false}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
-    const tools::Json request = tools::request_section(source.request(), points->plan.request, mesh.repair);
+    const tools::Json request = tools::request_section(source.request(), points->request, mesh.repair);
     if (is_document)
       return write_document(path, [&](tools::JsonSink& json) {
-        tools::write_points_document(json, request, source.source(), points->made, {});
+        tools::write_points_document(json, request, source.source(), *points->made, {});
       });
-    tools::Provenance provenance = source.provenance("points", words_of(points->plan.request), request);
-    if (points->made.fill) provenance.set_fill(*points->made.fill);
-    tools::write_points(path, points->made, mesh.loaded, source.made().input.name, provenance);
+    tools::Provenance provenance = source.provenance("points", points_words(points->request), request);
+    if (points->made->fill) provenance.set_fill(*points->made->fill);
+    tools::write_points(path, *points->made, mesh.loaded, source.made().input.name, provenance);
   });
 }
 

@@ -11,6 +11,7 @@
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/report/request_words.h"
 
 namespace morsel::python {
 namespace {
@@ -88,18 +89,15 @@ DocumentField::DocumentField(const FieldHandle& field, const MeshPlace& place,
 
 tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,
                                             const tools::Json& json) const {
-  return {command_of(command, mesh_, request().field, {request().method}, request().target, words), json,
-          source()};
+  std::vector<std::string> all = tools::words_of(request(), mesh_.repair);
+  tools::add_words(all, words);
+  return {command_of(command, mesh_, all), json, source()};
 }
 
-std::string command_of(const std::string& command, const DocumentMesh& mesh, const std::string& field,
-                       const std::vector<std::string>& methods, const std::optional<std::size_t>& target,
+std::string command_of(const std::string& command, const DocumentMesh& mesh,
                        const std::vector<std::string>& words) {
-  std::vector<std::string> line = {"morsel", command, mesh.file.path, "--field", field};
-  for (const std::string& method : methods) line.insert(line.end(), {"--method", method});
-  if (target) line.insert(line.end(), {"--target", std::to_string(*target)});
-  line.insert(line.end(), words.begin(), words.end());
-  if (mesh.repair) line.emplace_back("--repair");
+  std::vector<std::string> line = {"morsel", command, mesh.file.path};
+  tools::add_words(line, words);
   return tools::command_line(line);
 }
 

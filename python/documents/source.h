@@ -59,9 +59,8 @@ class DocumentField {
   Documented made_;
 };
 
-/// "morsel COMMAND MESH --field F --method M …": all that shapes the result.
-std::string command_of(const std::string& command, const DocumentMesh& mesh, const std::string& field,
-                       const std::vector<std::string>& methods, const std::optional<std::size_t>& target,
+/// "morsel COMMAND MESH --field F --method M …"; `words`: all that shapes the result.
+std::string command_of(const std::string& command, const DocumentMesh& mesh,
                        const std::vector<std::string>& words);
 
 /// Writes a JSON document whole or not at all.

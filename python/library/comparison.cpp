@@ -14,6 +14,7 @@
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
 #include "morsel/python/binding/job.h"
+#include "morsel/python/binding/request.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
 #include "morsel/python/library/results.h"
@@ -47,13 +48,14 @@ class Keeper : public tools::ComparisonSink {
 ComparisonRequest request_of(const std::optional<std::string>& field,
                              const std::optional<std::vector<std::string>>& methods,
                              const std::optional<std::string>& preset, std::optional<std::size_t> target,
-                             bool snap) {
+                             bool snap, const std::optional<py::dict>& points) {
   ComparisonRequest request;
   if (preset) tools::apply_preset(*preset, request);
   if (field) request.field = *field;
   if (methods) request.methods = *methods;
   request.target = target;
   request.snap = snap;
+  if (points) request.points = points_request(*points);
   return request;
 }
 
@@ -62,8 +64,9 @@ ComparisonHandle compare(const MeshHandle& mesh, const FieldHandle& values,
                          const std::optional<std::string>& field,
                          const std::optional<std::vector<std::string>>& methods,
                          const std::optional<std::string>& preset, std::optional<std::size_t> target,
-                         bool snap, const tools::Registry& registry, const py::object& report) {
-  ComparisonRequest request = request_of(field, methods, preset, target, snap);
+                         bool snap, const std::optional<py::dict>& points, const tools::Registry& registry,
+                         const py::object& report) {
+  ComparisonRequest request = request_of(field, methods, preset, target, snap, points);
   FieldHandle given;
   if (values) {
     const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
@@ -139,6 +142,14 @@ py::dict summary(const MethodOutcome& outcome) {
   return result;
 }
 
+/// The points that were chosen of a row's field; None where none were asked for.
+py::object chosen_points(const ComparisonHandle& c, const std::shared_ptr<const MethodOutcome>& outcome,
+                         const FieldHandle& field) {
+  if (!outcome->chosen) return py::none();
+  return py::cast(
+      std::make_shared<PointsData>(PointsData{field, *c->request.points, {outcome, &outcome->chosen->made}}));
+}
+
 py::dict row_dict(const ComparisonHandle& c, std::size_t i) {
   const std::shared_ptr<const MethodOutcome> outcome = row(c, i);
   const auto part = [&](const auto& member) {
@@ -147,13 +158,15 @@ py::dict row_dict(const ComparisonHandle& c, std::size_t i) {
   py::dict result;
   result["specification"] = text(outcome->specification);
   result["name"] = text(outcome->name);
-  result["field"] = row_field(c, outcome);
+  const FieldHandle field = row_field(c, outcome);
+  result["field"] = field;
   result["points"] = points_array(part(outcome->measurement.critical_points));
   result["diagram"] = diagram_handle(part(outcome->measurement.diagram));
   result["complex"] = complex_handle(part(outcome->measurement.complex));
   result["segmentation"] = segmentation_dict(part(outcome->measurement.segmentation));
   result["origins"] = view_of(std::span<const core::Index>(outcome->origins), outcome);
   result["places"] = view_of(std::span<const core::Index>(outcome->places), outcome);
+  result["chosen"] = chosen_points(c, outcome, field);
   result["summary"] = summary(*outcome);
   result["timings"] = timings(outcome->timings);
   return result;

@@ -3,16 +3,16 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
+#include <cstdint>
 #include <memory>
-#include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
 #include "morsel/python/binding/job.h"
+#include "morsel/python/binding/request.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
 #include "morsel/tools/study/made_points.h"
@@ -20,44 +20,21 @@
 namespace morsel::python {
 namespace {
 
-using morse::PointKind;
-using morse::PointRank;
-
-/// The choice that a word names.
-template <class Choice>
-Choice choice(const std::string& word, const char* what, std::initializer_list<Choice> all) {
-  std::string listed;
-  for (const Choice one : all) {
-    if (word == morse::to_string(one)) return one;
-    listed += (listed.empty() ? "" : ", ") + std::string(morse::to_string(one));
-  }
-  throw core::InvalidArgument(std::string(what) + " must be one of " + listed + ", not \"" + word + "\"");
-}
-
-PointsHandle choose(const FieldHandle& field, std::size_t count, const std::string& kind,
-                    const std::string& rank, const std::string& spacing,
-                    const std::optional<std::string>& fill, const std::optional<std::string>& scale,
-                    const tools::Registry& registry, const py::object& report) {
-  tools::PointsRequest request;
-  request.count = count;
-  request.kind =
-      choice(kind, "kind",
-             {PointKind::extrema, PointKind::maxima, PointKind::minima, PointKind::saddles, PointKind::all});
-  request.rank = choice(rank, "rank", {PointRank::persistence, PointRank::salience});
-  request.spacing = core::parse_length(spacing, "spacing");
-  request.fill = fill;
-  if (scale) request.scale = core::parse_length(*scale, "scale");
+PointsHandle choose(const FieldHandle& field, const py::dict& given, const tools::Registry& registry,
+                    const py::object& report) {
+  const tools::PointsRequest request = points_request(given);
   return compute(report, [&](const core::Progress& progress) {
-    tools::PointsPlan plan = tools::prepare(request, registry);
-    tools::MadePoints made = tools::make_points(plan, field->mesh->loaded, made_field(*field), progress);
-    return std::make_shared<PointsData>(PointsData{field, std::move(plan), std::move(made)});
+    const tools::PointsPlan plan = tools::prepare(request, registry);
+    const auto made = std::make_shared<const tools::MadePoints>(
+        tools::make_points(plan, field->mesh->loaded, made_field(*field), progress));
+    return std::make_shared<PointsData>(PointsData{field, request, made});
   });
 }
 
 /// An array of what each chosen point has.
 template <class Get>
 py::array each(const PointsHandle& points, const Get& get) {
-  const auto& chosen = points->made.chosen.points;
+  const auto& chosen = points->made->chosen.points;
   std::vector<decltype(get(chosen.front()))> values;
   values.reserve(chosen.size());
   for (const morse::ChosenPoint& point : chosen) values.push_back(get(point));
@@ -80,15 +57,18 @@ void add_points(py::module_& m) {
   array("rank", [](const Point& p) { return p.candidate.rank; });
   array("distance", [](const Point& p) { return p.distance; });
   array("source", [](const Point& p) { return static_cast<std::uint8_t>(p.source); });
-  type.def_property_readonly(
-          "percentile",
-          [](const PointsHandle& p) { return view_of(std::span<const double>(p->made.percentiles), p); })
-      .def_property_readonly("spacing", [](const PointsData& p) { return p.made.chosen.spacing; })
-      .def_property_readonly("candidates", [](const PointsData& p) { return p.made.candidates; })
-      .def_property_readonly("scale", [](const PointsData& p) { return p.made.scale; })
-      .def_property_readonly("note", [](const PointsData& p) { return text(p.made.note); })
+  type.def_property_readonly("percentile",
+                             [](const PointsHandle& p) {
+                               if (p->made->has_percentiles)
+                                 return view_of(std::span<const double>(p->made->percentiles), p);
+                               return taken(std::vector<double>(p->made->chosen.points.size(), std::nan("")));
+                             })
+      .def_property_readonly("spacing", [](const PointsData& p) { return p.made->chosen.spacing; })
+      .def_property_readonly("candidates", [](const PointsData& p) { return p.made->candidates; })
+      .def_property_readonly("scale", [](const PointsData& p) { return p.made->scale; })
+      .def_property_readonly("note", [](const PointsData& p) { return text(p.made->note); })
       .def_property_readonly("fill_warnings", [](const PointsData& p) {
-        return p.made.fill ? texts(p.made.fill->warnings) : py::list();
+        return p.made->fill ? texts(p.made->fill->warnings) : py::list();
       });
   m.def("choose_points", &choose);
   m.attr("points_field") = tools::kPointsField;

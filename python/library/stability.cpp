@@ -3,15 +3,16 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/python/binding/data.h"
 #include "morsel/python/binding/job.h"
+#include "morsel/python/binding/request.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
 #include "morsel/tools/study/stability.h"
@@ -21,56 +22,30 @@ namespace {
 
 using tools::StabilityRequest;
 
-/// What a dict gives of a request; what it lacks keeps its default.
-class RequestReader {
- public:
-  RequestReader(StabilityRequest& request, py::dict given) : request_(request), given_(std::move(given)) {}
-
-  StabilityRequest& read() {
-    take("fields", request_.fields);
-    take("methods", request_.methods);
-    take("noise", request_.noise);
-    take("decimate", request_.decimate);
-    take("subdivide", request_.subdivide);
-    take("trials", request_.trials);
-    take("seed", request_.seed);
-    take("target", request_.target);
-    take("radius", request_.radius);
-    take("reference_field", request_.reference_field);
-    take("reference", request_.reference);
-    choose("kind", request_.noise_kind, {tools::NoiseKind::normal, tools::NoiseKind::isotropic});
-    choose("points", request_.points, {tools::PointChoice::all, tools::PointChoice::extrema});
-    return request_;
-  }
-
- private:
-  template <class T>
-  void take(const char* key, T& value) {
-    if (given_.contains(key)) value = given_[key].cast<T>();
-  }
-  template <class T>
-  void choose(const char* key, T& value, std::initializer_list<T> all) {
-    if (!given_.contains(key)) return;
-    const auto word = given_[key].cast<std::string>();
-    std::string listed;
-    for (const T one : all) {
-      if (word == tools::to_string(one)) {
-        value = one;
-        return;
-      }
-      listed += (listed.empty() ? "" : " or ") + std::string(tools::to_string(one));
-    }
-    throw core::InvalidArgument(std::string(key) + " must be " + listed + ", not \"" + word + "\"");
-  }
-
-  StabilityRequest& request_;
-  py::dict given_;
-};
+/// What a dict gives of a request.
+StabilityRequest request_of(const py::dict& given) {
+  StabilityRequest request;
+  const RequestReader reader(given);
+  reader.take("fields", request.fields);
+  reader.take("methods", request.methods);
+  reader.take("noise", request.noise);
+  reader.take("decimate", request.decimate);
+  reader.take("subdivide", request.subdivide);
+  reader.take("trials", request.trials);
+  reader.take("seed", request.seed);
+  reader.take("target", request.target);
+  reader.take("radius", request.radius);
+  reader.take("reference_field", request.reference_field);
+  reader.take("reference", request.reference);
+  reader.choose("kind", request.noise_kind,
+                std::array{tools::NoiseKind::normal, tools::NoiseKind::isotropic});
+  reader.choose("points", request.points, std::array{tools::PointChoice::all, tools::PointChoice::extrema});
+  return request;
+}
 
 StabilityHandle stability(const MeshHandle& mesh, const FieldHandle& values, const py::dict& given,
                           const tools::Registry& registry, const py::object& report) {
-  StabilityRequest request;
-  RequestReader(request, given).read();
+  StabilityRequest request = request_of(given);
   FieldHandle field;
   if (values) {
     const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _library
 from ._field import Field, warn
-from ._made import field_of, mesh_file, number_text
+from ._made import Named, field_of, mesh_file, name_of, number_text
 from ._mesh import PathLike, path_bytes
 from ._points import TYPE_NAMES
 from ._progress import Progress, reporting
@@ -68,7 +69,8 @@ class Points:
 
     @property
     def percentile(self) -> NDArray[np.float64]:
-        """The share of all vertices that have less mesh saliency (k,)."""
+        """The share of all vertices that have less mesh saliency (k,); nan unless percentiles were asked
+        for."""
         return self._data.percentile
 
     @property
@@ -113,9 +115,29 @@ class Points:
             _documents.write_points(self._data, path_bytes(path), mesh_file(mesh), registry(), report)
 
 
+def choice(count: int = 20, kind: str = "extrema", rank: str = "persistence", spacing: str | float = "5%",
+           fill: Named | None = None, scale: str | float | None = None,
+           percentiles: bool = False) -> dict[str, Any]:
+    """How points are chosen, as the library reads it."""
+    wanted = {"count": operator.index(count), "kind": kind, "rank": rank, "spacing": number_text(spacing),
+              "percentiles": bool(percentiles)}
+    if fill is not None:
+        wanted["fill"] = name_of(fill)
+    if scale is not None:
+        wanted["scale"] = number_text(scale)
+    return wanted
+
+
+def warn_of_fill(made: Points, fill: Named | None, level: int) -> None:
+    """Warns of what the field that filled up does not mean."""
+    if fill is not None:
+        warn(name_of(fill).partition(":")[0], made._data.fill_warnings, level + 1)
+
+
 def points(f: Any, count: int = 20, *, kind: str = "extrema", rank: str = "persistence",
-           spacing: str | float = "5%", fill: str | None = _library.fill_field,
-           scale: str | float | None = None, progress: Progress = None) -> Points:
+           spacing: str | float = "5%", fill: Named | None = _library.fill_field,
+           scale: str | float | None = None, percentiles: bool = False,
+           progress: Progress = None) -> Points:
     """Chooses critical points of a field that stand out and lie apart, greedily by rank.
 
     Parameters
@@ -128,19 +150,20 @@ def points(f: Any, count: int = 20, *, kind: str = "extrema", rank: str = "persi
         Salience is persistence times the mesh saliency of the surface there (Lee, Varshney, Jacobs 2005).
     spacing : float or str
         The least distance of two points along the surface.
-    fill : str or None
+    fill : str, function or None
         A Morse function whose points come after those of the field, where these are too few.
     scale : float or str
         How far salience is smoothed; by default the last method's sigma, or 8eps.
+    percentiles : bool
+        Measure how salient the surface is at each point, Points.percentile; takes as long as ms.saliency().
 
     The same as `morsel points`. Raises ArgumentError for bad values.
 
     >>> ms.points(mesh, 50, spacing="5%").position
     """
+    wanted = choice(count, kind, rank, spacing, fill, scale, percentiles)
     field = field_of(f, _library.points_field, progress, 2)
     with reporting(progress) as report:
-        made = _library.choose_points(field._data, count, kind, rank, number_text(spacing), fill,
-                                      None if scale is None else number_text(scale), registry(), report)
-    if fill is not None:
-        warn(fill.partition(":")[0], made.fill_warnings, 2)
-    return Points(field, made)
+        made = Points(field, _library.choose_points(field._data, wanted, registry(), report))
+    warn_of_fill(made, fill, 2)
+    return made

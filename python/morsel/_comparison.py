@@ -6,37 +6,24 @@ import html as _html
 import os
 import sys
 import tempfile
-from typing import Any, Callable, Iterator, NamedTuple, Sequence, Union
+from typing import Any, Iterator, Mapping, NamedTuple, Sequence
 
 from . import _library
+from ._chosen import Points, choice, warn_of_fill
 from ._complex import MorseSmaleComplex, Segmentation, segmentation_of
 from ._field import Field, warn
-from ._made import mesh_file
+from ._made import Named, mesh_file, name_of
 from ._mesh import Mesh, PathLike, as_mesh, path_bytes
 from ._persistence import Diagram
 from ._points import Counts, CriticalPoints
 from ._progress import Progress, reporting
 from ._registry import registry
 
-Named = Union[str, Callable[..., Field]]
-
-
-def name_of(named: Named) -> str:
-    """A method or Morse function in the program's words: a text, or a function such as ms.salient."""
-    if isinstance(named, str):
-        return named
-    name = getattr(named, "name", None)
-    if not isinstance(name, str):
-        raise TypeError("methods and Morse functions are texts, or functions such as ms.salient, not "
-                        f"{type(named).__name__}")
-    return name
-
-
 class Row:
     """What one method gave; a row of a Comparison."""
 
     __slots__ = ("_made", "specification", "name", "field", "critical_points", "persistence", "complex",
-                 "segmentation")
+                 "segmentation", "chosen")
 
     def __init__(self, made: dict[str, Any], mesh: Mesh) -> None:
         self._made = made
@@ -50,6 +37,8 @@ class Row:
         self.persistence = Diagram(self.field, made["diagram"])
         self.complex = MorseSmaleComplex(self.field, made["complex"])
         self.segmentation: Segmentation = segmentation_of(made["segmentation"])
+        self.chosen = None if made["chosen"] is None else Points(self.field, made["chosen"])
+        """The points that were chosen of the field, if points were asked for."""
 
     def __repr__(self) -> str:
         return f"<morsel.Row {self.specification}: {self.counts.total:,} critical points>"
@@ -212,7 +201,7 @@ def input_of(mesh: Any, field: Any) -> tuple[Mesh, Any, str | None]:
 
 def compare(mesh: Any, *, field: Field | Named | None = None, methods: Sequence[Named] | None = None,
             preset: str | None = None, target: int | None = None, snap: bool = False,
-            progress: Progress = None) -> Comparison:
+            points: int | Mapping[str, Any] | None = None, progress: Progress = None) -> Comparison:
     """Runs methods on a field and compares their critical points, diagrams and complexes, as `morsel
     compare` does.
 
@@ -232,6 +221,10 @@ def compare(mesh: Any, *, field: Field | Named | None = None, methods: Sequence[
         Every method is to end with so many critical points.
     snap : bool
         Report critical points at their origins.
+    points : int or dict
+        Choose so many points of each row's field (Row.chosen), which table, report, page and exports then
+        show; or a dict of arguments of points(): {"count": 20, "rank": "salience"}. Nothing fills up unless
+        it has "fill".
 
     All results are kept in memory. Raises ArgumentError on unknown names and keys and bad values.
 
@@ -244,13 +237,17 @@ def compare(mesh: Any, *, field: Field | Named | None = None, methods: Sequence[
     if preset is not None and values is not None:
         raise TypeError("a preset sets the field: give it a mesh")
     named = None if methods is None else [name_of(method) for method in _listed(methods)]
+    keys = {} if points is None else dict(points) if isinstance(points, Mapping) else {"count": points}
     with reporting(progress) as report:
         made = Comparison(_library.compare(on._data, values, function, named, preset, target, bool(snap),
-                                           registry(), report), on)
+                                           None if points is None else choice(**keys), registry(), report),
+                          on)
     warn(made.field.function.partition(":")[0] or "values", made.field._data.warnings, 2)
     for row in made:
         for step in row.field.steps:
             warn(step.name, step.warnings, 2)
+    if made[0:1] and made[0].chosen is not None:
+        warn_of_fill(made[0].chosen, keys.get("fill"), 2)
     return made
 
 

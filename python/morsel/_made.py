@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import Any, Callable, Union
 
 from ._field import Field, evaluate
 from ._mesh import PathLike, path_bytes
 from ._progress import Progress
+
+
+Named = Union[str, Callable[..., Field]]
+
+
+def name_of(named: Named) -> str:
+    """A method or Morse function in the program's words: a text, or a function such as ms.salient."""
+    if isinstance(named, str):
+        return named
+    name = getattr(named, "name", None)
+    if not isinstance(name, str):
+        raise TypeError("methods and Morse functions are texts, or functions such as ms.salient, not "
+                        f"{type(named).__name__}")
+    return name
 
 
 def field_of(given: Any, function: str, progress: Progress, level: int) -> Field:

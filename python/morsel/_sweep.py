@@ -8,9 +8,9 @@ from typing import Any, Dict, Iterator, Mapping, Sequence, Union
 import numpy as np
 
 from . import _library
-from ._comparison import Named, input_of, name_of
+from ._comparison import input_of
 from ._field import Field, warn
-from ._made import mesh_file, number_text
+from ._made import Named, mesh_file, name_of, number_text
 from ._mesh import PathLike, path_bytes
 from ._progress import Progress, reporting
 from ._registry import registry

@@ -12,6 +12,7 @@
 #include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/points_options.h"
 #include "morsel/tools/render/request_words.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/reproduce/reproduction.h"
 
 namespace morsel::tools {
@@ -114,7 +115,8 @@ TEST_CASE("each option of compare that shapes its results is among the words of 
     Asked table({});
     const Option& option = table.command.option(name);
     // No batch chooses points, so its key is the same.
-    const bool is_of_points = name == "--points" || std::ranges::count(option.needed, std::string("--points")) > 0;
+    const bool is_of_points =
+        name == "--points" || std::ranges::count(option.needed, std::string("--points")) > 0;
     Words given = words_that_give(option);
     if (is_of_points && name != "--points") given.emplace_back("--points=7");
     if (name == "--salience-scale") given.emplace_back("--rank=salience");
@@ -164,7 +166,7 @@ TEST_CASE("each option of render that shapes a picture is among the words of its
   camera.up = render::UpAxis::x;
   core::VertexNumbering shifted;
   shifted.to_input = {10, 11, 12, 13, 14, 15};
-  const Words words = with(render::words_of(field, true), render::words_of(picture, camera, "auto", shifted));
+  const Words words = with(words_of(field, true), render::words_of(picture, camera, "auto", shifted));
   // With a flag of the opposite meaning: whichever is not the default.
   const std::map<std::string, std::string> opposite = {
       {"--points", "--no-points"}, {"--arcs", "--no-arcs"}, {"--legend", "--no-legend"}};

@@ -8,6 +8,7 @@
 #include "morsel/tools/render/request_words.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/results/file_list.h"
 
 namespace morsel::tools::batch {
@@ -93,7 +94,7 @@ Json mesh_key(const Json& common, const fs::path& mesh) {
 }
 
 std::vector<std::string> request_words(const BatchRequest& request) {
-  std::vector<std::string> words = render::words_of(request.comparison, request.repair);
+  std::vector<std::string> words = words_of(request.comparison, request.repair);
   add_flag(words, "--no-items", !request.items);
   if (!has_pictures(request)) return words;
   add_words(words, request.figures ? render::words_of(request.figure)

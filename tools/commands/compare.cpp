@@ -20,10 +20,10 @@
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
-#include "morsel/tools/render/request_words.h"
 #include "morsel/tools/render/thumbnail_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/report_writer.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools {
@@ -77,7 +77,7 @@ class SideBySide : public ComparisonSink {
 /// What makes the page again. What changes nothing in it is left out.
 std::string page_command(const Options& options, const CommonOptions& common) {
   std::vector<std::string> words = {"morsel", "compare", options.mesh};
-  add_words(words, render::words_of(options.request, common.repair));
+  add_words(words, words_of(options.request, common.repair));
   add_option(words, "--html", options.page_place.empty() ? options.page : options.page_place);
   return command_line(words);
 }

@@ -8,20 +8,6 @@
 namespace morsel::tools::render {
 namespace {
 
-void add_target(std::vector<std::string>& words, const std::optional<std::size_t>& target) {
-  if (target) add_option(words, "--target", std::to_string(*target));
-}
-
-void add_points(std::vector<std::string>& words, const PointsRequest& points) {
-  add_option(words, "--points", std::to_string(points.count));
-  add_option(words, "--kind", std::string(to_string(points.kind)));
-  add_option(words, "--rank", std::string(to_string(points.rank)));
-  add_option(words, "--spacing", core::to_string(points.spacing));
-  if (points.fill) add_option(words, "--fill", *points.fill);
-  if (points.scale) add_option(words, "--salience-scale", core::to_string(*points.scale));
-  add_flag(words, "--percentiles", points.percentiles);
-}
-
 void add_colors(std::vector<std::string>& words, const ScaleRequest& scale) {
   if (scale.limits)
     add_option(words, "--range",
@@ -33,26 +19,6 @@ void add_colors(std::vector<std::string>& words, const ScaleRequest& scale) {
 }
 
 }  // namespace
-
-std::vector<std::string> words_of(const ComparisonRequest& request, bool repair) {
-  std::vector<std::string> words;
-  add_option(words, "--field", request.field);
-  for (const std::string& method : request.methods) add_option(words, "--method", method);
-  add_target(words, request.target);
-  add_flag(words, "--snap", request.snap);
-  if (request.points) add_points(words, *request.points);
-  add_flag(words, "--repair", repair);
-  return words;
-}
-
-std::vector<std::string> words_of(const FieldRequest& request, bool repair) {
-  std::vector<std::string> words;
-  add_option(words, "--field", request.field);
-  add_option(words, "--method", request.method);
-  add_target(words, request.target);
-  add_flag(words, "--repair", repair);
-  return words;
-}
 
 std::vector<std::string> words_of_thumbnails(const CameraText& camera) {
   std::vector<std::string> words;

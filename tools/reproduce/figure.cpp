@@ -13,6 +13,7 @@
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/request_words.h"
 #include "morsel/tools/render/sheet.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/reproduce/region.h"
 #include "morsel/tools/study/hierarchy.h"
 
@@ -85,7 +86,7 @@ std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const Figur
   const Model& model = *figure.model;
   std::vector<std::string> words = {"morsel", "render", model.file().path.string()};
   const FieldRequest field{std::string(figure.recipe->field), panel.method, {}};
-  add_words(words, render::words_of(field, options.repair));
+  add_words(words, words_of(field, options.repair));
   add_words(words, render::words_of(request, options.camera, "", model.loaded().source.numbering));
   return words;
 }

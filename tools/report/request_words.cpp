@@ -1,0 +1,48 @@
+#include "morsel/tools/report/request_words.h"
+
+#include <optional>
+
+#include "morsel/tools/formats/command_line.h"
+
+namespace morsel::tools {
+namespace {
+
+void add_target(std::vector<std::string>& words, const std::optional<std::size_t>& target) {
+  if (target) add_option(words, "--target", std::to_string(*target));
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(const ComparisonRequest& request, bool repair) {
+  std::vector<std::string> words;
+  add_option(words, "--field", request.field);
+  for (const std::string& method : request.methods) add_option(words, "--method", method);
+  add_target(words, request.target);
+  add_flag(words, "--snap", request.snap);
+  if (request.points) add_words(words, words_of(*request.points));
+  add_flag(words, "--repair", repair);
+  return words;
+}
+
+std::vector<std::string> words_of(const FieldRequest& request, bool repair) {
+  std::vector<std::string> words;
+  add_option(words, "--field", request.field);
+  add_option(words, "--method", request.method);
+  add_target(words, request.target);
+  add_flag(words, "--repair", repair);
+  return words;
+}
+
+std::vector<std::string> words_of(const PointsRequest& points) {
+  std::vector<std::string> words;
+  add_option(words, "--points", std::to_string(points.count));
+  add_option(words, "--kind", std::string(to_string(points.kind)));
+  add_option(words, "--rank", std::string(to_string(points.rank)));
+  add_option(words, "--spacing", core::to_string(points.spacing));
+  if (points.fill) add_option(words, "--fill", *points.fill);
+  if (points.scale) add_option(words, "--salience-scale", core::to_string(*points.scale));
+  add_flag(words, "--percentiles", points.percentiles);
+  return words;
+}
+
+}  // namespace morsel::tools

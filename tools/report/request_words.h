@@ -1,0 +1,21 @@
+#pragma once
+/// Requests as the words of the command line that make them again. Every command that shows, runs or records
+/// a command line has its words from here, those of pictures from render/request_words.h; for each option of
+/// the tables that shapes a result, a test (tests/commands) checks that the words have it.
+
+#include <string>
+#include <vector>
+
+#include "morsel/tools/study/made_field.h"
+
+namespace morsel::tools {
+
+/// --field, --method, --target, --snap, --repair and the options of chosen points of the commands that run
+/// several methods.
+std::vector<std::string> words_of(const ComparisonRequest& request, bool repair);
+/// --field, --method, --target and --repair of the commands on one field.
+std::vector<std::string> words_of(const FieldRequest& request, bool repair);
+/// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles.
+std::vector<std::string> words_of(const PointsRequest& request);
+
+}  // namespace morsel::tools
