@@ -11,4 +11,5 @@ PYBIND11_MODULE(_documents, m) {
   add_study_documents(m);
   add_field_documents(m);
   add_surface_documents(m);
+  add_landmarks(m);
 }

@@ -11,5 +11,6 @@ void add_comparison_documents(py::module_& m);
 void add_study_documents(py::module_& m);
 void add_field_documents(py::module_& m);
 void add_surface_documents(py::module_& m);
+void add_landmarks(py::module_& m);
 
 }  // namespace morsel::python

@@ -21,6 +21,7 @@ from ._errors import (
     ArgumentError, Cancelled, Defect, Error, InputError, MeshError, MorselWarning, WriteError)
 from ._field import End, Field, Step, Target, field
 from ._hierarchy import Level, Levels, Links, PersistenceHierarchy, hierarchy
+from ._landmarks import Landmarks, Marks, MeshMean, landmarks
 from ._library import version as __version__
 from ._mesh import Mesh, defects, read
 from ._molecules import Molecule, molecule
@@ -35,12 +36,12 @@ from ._sweep import Estimate, Stability, Sweep, stability, sweep
 from ._threads import thread_count, threads
 
 __all__ = [
-    "ARC_KINDS", "ArgumentError", "Cancelled", "Comparison", "Counts", "CriticalPoints", "Cut",
-    "Defect", "Diagram", "Difference", "End", "Error", "Estimate", "Field", "File", "InputError", "Labels",
-    "Length", "Level", "Levels", "Links", "MAXIMUM", "MINIMUM", "MINIMUM_SADDLE", "Mesh", "MeshError",
-    "Molecule", "MorseSmaleComplex", "MorselWarning", "NODE_KINDS", "PersistenceHierarchy", "Points", "Quads",
-    "Row", "SADDLE", "SADDLE_CAP", "SADDLE_MAXIMUM", "Segmentation", "Segments", "Stability", "Step",
-    "Sweep", "Target", "WriteError", "check", "compare", "critical_points", "cut", "defects", "field",
-    "function", "functions", "hierarchy", "method", "methods", "molecule", "morse_smale", "persistence",
-    "points", "presets", "quads", "read", "segment", "stability", "sweep", "thread_count", "threads",
-    *_shipped]
+    "ARC_KINDS", "ArgumentError", "Cancelled", "Comparison", "Counts", "CriticalPoints", "Cut", "Defect",
+    "Diagram", "Difference", "End", "Error", "Estimate", "Field", "File", "InputError", "Labels",
+    "Landmarks", "Length", "Level", "Levels", "Links", "MAXIMUM", "MINIMUM", "MINIMUM_SADDLE", "Marks",
+    "Mesh", "MeshError", "MeshMean", "Molecule", "MorseSmaleComplex", "MorselWarning", "NODE_KINDS",
+    "PersistenceHierarchy", "Points", "Quads", "Row", "SADDLE", "SADDLE_CAP", "SADDLE_MAXIMUM",
+    "Segmentation", "Segments", "Stability", "Step", "Sweep", "Target", "WriteError", "check", "compare",
+    "critical_points", "cut", "defects", "field", "function", "functions", "hierarchy", "landmarks",
+    "method", "methods", "molecule", "morse_smale", "persistence", "points", "presets", "quads", "read",
+    "segment", "stability", "sweep", "thread_count", "threads", *_shipped]

@@ -128,6 +128,47 @@ def test_sweeps_and_stability(tmp_path):
     assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
 
 
+def test_chosen_points_of_a_comparison(tmp_path):
+    path = sample("eight.off")
+    words = ["--method", "conventional", "--method", "salient", "--points", "9", "--rank", "salience",
+             "--fill", "height", "--percentiles"]
+    program("compare", path, *words, "-o", tmp_path / "program.json")
+    r = ms.compare(ms.read(path), methods=["conventional", "salient"],
+                   points={"count": 9, "rank": "salience", "fill": "height", "percentiles": True})
+    r.save(tmp_path / "python.json")
+    assert without_timings(tmp_path / "program.json") == without_timings(tmp_path / "python.json")
+    assert ms.check(tmp_path / "python.json") == []
+    program("points", path, "--field", "mean-curvature", "--method", "salient", *words[4:],
+            "-o", tmp_path / "program.csv")
+    r["salient"].chosen.save(tmp_path / "python.csv")
+    rows = [[line.split(",\"")[0] for line in (tmp_path / f"{who}.csv").read_text().splitlines()]
+            for who in ("program", "python")]
+    assert rows[0] == rows[1] and len(rows[0]) == 10
+
+
+def test_landmarks(tmp_path):
+    marked = tmp_path / "marked.txt"
+    lines = []
+    for name, step in (("eight.off", 40), ("sphere966.off", 90)):
+        count = ms.read(sample(name)).vertex_count
+        (tmp_path / f"{name}.txt").write_text(" ".join(map(str, range(1, count, step))))
+        lines.append(f"{sample(name)},{name}.txt")
+    marked.write_text("\n".join(lines))
+    words = ["--method", "conventional", "--method", "salient", "--points", "15", "--fill", "mean-curvature",
+             "--first", "1", "--seed", "4"]
+    program("landmarks", marked, *words, "-o", tmp_path / "program.json")
+    program("landmarks", marked, *words, "-o", tmp_path / "program.csv")
+    found = ms.landmarks(marked, methods=["conventional", "salient"], points=15, fill="mean-curvature", first=1,
+                         seed=4)
+    found.save(tmp_path / "python.json")
+    found.save(tmp_path / "python.csv")
+    assert without_timings(tmp_path / "program.json") == without_timings(tmp_path / "python.json")
+    assert (tmp_path / "program.csv").read_bytes() == (tmp_path / "python.csv").read_bytes()
+    assert ms.check(tmp_path / "python.json") == []
+    with pytest.raises(ms.ArgumentError):
+        found.save(tmp_path / "python.txt")
+
+
 def test_any_number_of_threads(lion):
     values = []
     for count in (1, 3):

@@ -185,15 +185,22 @@ def test_points(lion):
     p = ms.points(lion, 30, spacing="4%")
     assert len(p) == 30 and p.note == "" and (p.distance >= p.spacing).all()
     assert p.position.shape == (30, 3) and (np.diff(p.rank[~p.is_fill]) <= 0).all()
-    assert set(p.type.tolist()) <= {ms.MINIMUM,
-                                    ms.MAXIMUM} and ((p.percentile >= 0) & (p.percentile <= 1)).all()
+    assert set(p.type.tolist()) <= {ms.MINIMUM, ms.MAXIMUM} and np.isnan(p.percentile).all()
+    measured = ms.points(lion, 30, spacing="4%", percentiles=True)
+    assert np.array_equal(measured.vertex, p.vertex)
+    assert ((measured.percentile > 0) & (measured.percentile < 1)).all() and measured.percentile.mean() > 0.5
     few = ms.points(ms.height(lion), 500, spacing=0, kind="maxima", fill=None)
     assert len(few) < 500 and few.note != ""
+    filled = ms.points(ms.height(lion), len(few) + 5, spacing=0, kind="maxima", fill=ms.mean_curvature)
+    assert np.array_equal(filled.vertex[~filled.is_fill], few.vertex) and filled.is_fill.sum() == 5
     assert ms.points(ms.mean_curvature(lion), 5, rank="salience").vertex.shape == (5,)
     for options in ({"kind": "other"}, {"rank": "other"}, {"spacing": -1}, {"fill": "none-such"},
                     {"count": 0},
                     {"scale": 1}):
         with pytest.raises(ms.ArgumentError):
+            ms.points(lion, **options)
+    for options in ({"count": 2.5}, {"count": -1}, {"fill": 3}):
+        with pytest.raises(TypeError):
             ms.points(lion, **options)
 
 

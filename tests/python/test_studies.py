@@ -51,6 +51,31 @@ def test_what_may_be_compared(small, curvature):
             ms.compare(small, **wrong)
 
 
+def test_chosen_points_of_each_row(small, tmp_path):
+    r = ms.compare(small, methods=["conventional", "salient:iterations=2"], points=8)
+    assert [len(row.chosen) for row in r] == [8, 8]
+    wanted = ms.points(r[1].field, 8, fill=None)
+    assert np.array_equal(r[1].chosen.vertex, wanted.vertex) and r[1].chosen.spacing == wanted.spacing
+    assert "chosen" in r.table() and r[1].chosen.field.method == "salient:iterations=2"
+    keys = {"count": 5, "kind": "maxima", "rank": "salience", "spacing": "3%", "percentiles": True,
+            "fill": ms.height, "scale": "6eps"}
+    chosen = ms.compare(small, methods=["salient"], points=keys)[0].chosen
+    assert np.array_equal(chosen.vertex, ms.points(ms.salient(ms.mean_curvature(small)), **keys).vertex)
+    assert np.isfinite(chosen.percentile).all() and set(chosen.type[~chosen.is_fill]) <= {ms.MAXIMUM}
+    assert ms.compare(small, methods=["conventional"])[0].chosen is None
+    snapped = ms.compare(ms.read(sample("eight.off")), methods=["salient:iterations=9"], snap=True, points=8)
+    moved = snapped[0].critical_points
+    if (moved.origin[moved.origin >= 0] != moved.vertex[moved.origin >= 0]).any():
+        with pytest.raises(ms.ArgumentError, match="origins"):
+            snapped[0].chosen.save(tmp_path / "points.csv")
+    for wrong in (0, {"count": 3, "kind": "other"}, {"count": 3, "scale": 1}):
+        with pytest.raises(ms.ArgumentError):
+            ms.compare(small, points=wrong)
+    for wrong in (-1, 2.5, "many", {"number": 3}):
+        with pytest.raises(TypeError):
+            ms.compare(small, points=wrong)
+
+
 def test_presets(small):
     assert set(ms.presets()) == {"paper", "noise", "resampled", "landmarks", "molecule"}
     r = ms.compare(small, preset="paper")
@@ -123,6 +148,57 @@ def test_stability(small):
                   {"radius": "far"}, {"subdivide": [1.5]}):
         with pytest.raises(ms.ArgumentError):
             ms.stability(small, **wrong)
+
+
+def test_landmarks_in_memory(small, lion):
+    marks = ms.points(small, 12).vertex
+    found = ms.landmarks([(small, marks), (lion, np.arange(0, 8000, 400))], fill="mean-curvature",
+                         methods=["conventional", ms.salient], seed=3)
+    assert [row["name"] for row in found] == ["conventional", "salient", "random", "farthest points"]
+    assert found.mesh_count == 2 and found.seed == 3 and "farthest points" in found.table()
+    first = found.on_mesh(0)[0]
+    assert np.array_equal(first.points, marks) and first.f_score == 1 and first.note == ""
+    assert len(found.on_mesh(0)[2].points) == 0 and len(found.on_mesh(1)[3].points) == 20
+    assert found[0]["points"].mean == 16 and found[0]["recall"].low <= found[0]["recall"].mean
+    assert found[0]["f_score_gain"].mean == 0 and found[2]["method"] is None
+    frame = found.to_pandas()
+    assert frame["f_score"].tolist() == [row["f_score"].mean for row in found] and "f_score_low" in frame
+    assert ms.landmarks([(small, marks)])[0]["f_score"].low is None
+    with pytest.raises(ms.ArgumentError, match="list of files"):
+        found.save("landmarks.json")
+    with pytest.raises(IndexError):
+        found.on_mesh(2)
+    for wrong in ([], [(small, [small.vertex_count])], [(small, [1, 1])]):
+        with pytest.raises(ms.ArgumentError):
+            ms.landmarks(wrong)
+    for options in ({"points": 0}, {"radius": -1}, {"resamples": 5}, {"first": 2}, {"kind": "other"}):
+        with pytest.raises(ms.ArgumentError):
+            ms.landmarks([(small, marks)], **options)
+    for wrong in ([(small, [])], [(small, [-1])], [(small, [0.5])]):
+        with pytest.raises(ValueError):
+            ms.landmarks(wrong)
+    with pytest.raises(TypeError):
+        ms.landmarks([(small, marks)], points=-1)
+    with pytest.raises(ms.InputError):
+        ms.landmarks("missing.txt")
+
+
+def test_landmarks_of_ones_own_method(small):
+    @ms.method("halved")
+    def halved(f):
+        return f.values / 2
+
+    marks = ms.points(small, 12).vertex
+    with ms.threads(3):
+        found = ms.landmarks([(small, marks)] * 3, methods=["conventional", "halved"])
+    assert found[0]["f_score"] == found[1]["f_score"]
+
+    @ms.method("failing")
+    def failing(f):
+        raise KeyError("of one's own")
+
+    with pytest.raises(KeyError, match="of one's own"):
+        ms.landmarks([(small, marks)], methods=["failing"])
 
 
 def test_of_a_constant_field():
