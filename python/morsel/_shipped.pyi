@@ -272,7 +272,8 @@ class _saliency(_Shipped):
         self,
         f: Field,
         *,
-        scales: str | Sequence[float | str | PathLike[str]] = '0.006rootarea/0.009rootarea/0.012rootarea/0.015rootarea/0.018rootarea',
+        scales: str | Sequence[float | str | PathLike[str]] =
+            '0.006rootarea/0.009rootarea/0.012rootarea/0.015rootarea/0.018rootarea',
         suppression: str = 'itti',
         support: float | str = 2.0,
         weights: str = 'none',

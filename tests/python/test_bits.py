@@ -158,8 +158,8 @@ def test_landmarks(tmp_path):
              "--first", "1", "--seed", "4"]
     program("landmarks", marked, *words, "-o", tmp_path / "program.json")
     program("landmarks", marked, *words, "-o", tmp_path / "program.csv")
-    found = ms.landmarks(marked, methods=["conventional", "salient"], points=15, fill="mean-curvature", first=1,
-                         seed=4)
+    found = ms.landmarks(marked, methods=["conventional", "salient"], points=15, fill="mean-curvature",
+                         first=1, seed=4)
     found.save(tmp_path / "python.json")
     found.save(tmp_path / "python.csv")
     assert without_timings(tmp_path / "program.json") == without_timings(tmp_path / "python.json")
