@@ -266,10 +266,11 @@ class Difference(NamedTuple):
 
 
 def check(path: PathLike, *, progress: Progress = None) -> list[Difference]:
-    """Runs a report's comparison again and returns what changed; empty if nothing did. As `morsel check`,
-    with the user's own methods and Morse functions.
+    """Runs a report's comparison, or its study of landmarks, again and returns what changed; empty if
+    nothing did. As `morsel check`, with the user's own methods and Morse functions.
 
-    Raises InputError if the mesh is missing, or the report is none or requests what there is not.
+    Raises InputError if the mesh or the list of meshes is missing, or the report is none or requests what
+    there is not.
 
     >>> r.save("report.json"); assert ms.check("report.json") == []
     """
@@ -277,7 +278,7 @@ def check(path: PathLike, *, progress: Progress = None) -> list[Difference]:
     from ._errors import InputError
 
     with reporting(progress) as report:
-        mesh, is_missing, differences = _documents.check(path_bytes(path), registry(), report)
+        made_of, is_missing, differences = _documents.check(path_bytes(path), registry(), report)
     if is_missing:
-        raise InputError(f"the mesh {mesh} of the report is missing")
+        raise InputError(f"{made_of}, which the report is of, is missing")
     return [Difference(*one) for one in differences]

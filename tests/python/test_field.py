@@ -14,6 +14,9 @@ def test_values_and_order(octahedron):
     assert (f.min, f.max, f.extent) == (-9, 9, 18)
     assert np.array_equal(np.asarray(f), f.values) and np.asarray(f, np.float32).dtype == np.float32
     assert (f.function, f.method, f.steps, f.target) == ("", "", [], None)
+    for made in (f.input, f.input.input, ms.height(octahedron).input, ms.salient(f, iterations=1).input):
+        assert made.method == "" and made.steps == [] and len(made.values) == 6
+    assert np.array_equal(ms.salient(f, iterations=1).input.values, f.values)
     assert np.array_equal((-f).values, -f.values) and (-f).order.tolist() == f.order[::-1].tolist()
     with pytest.raises(ValueError):
         f.values[0] = 1
