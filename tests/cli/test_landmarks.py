@@ -228,7 +228,7 @@ class Interruption(Landmarks):
             self.assertGreaterEqual(done, 3)
             self.assertFalse((self.folder / "s.json").exists())
             result = self.morsel("landmarks", self.many, *self.ARGUMENTS, "-o", "s.json")
-            self.assertRegex(result.stderr, r"going on with [0-9]+ meshes done: s.json.journal")
+            self.assertRegex(result.stderr, r"resuming with [0-9]+ meshes done: s.json.journal")
             document = json.loads((self.folder / "s.json").read_text())
             del document["timings"]
             self.assertEqual(document, whole)

@@ -287,7 +287,7 @@ class Reproduction(ProgramTest):
                                     ["--view", "front"]],
                    "figure2b.png": [["--method", "salient:iterations=9,range=local,support=1"], ["--no-arcs"],
                                     ["--show", "descending"]],
-                   "figure3d.png": [["--method", "conventional"], ["--no-points"], ["--no-arcs"]],
+                   "figure3d.png": [["--method", "conventional"], ["--show", "descending"], ["--no-arcs"]],
                    "figure4c.png": [["--method", "salient:iterations=9,range=local,support=1"],
                                     ["--no-points"]]}
         for file, options in changes.items():

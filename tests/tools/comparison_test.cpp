@@ -299,8 +299,9 @@ TEST_CASE("regression: default lengths other than the paper's sigma changed as t
         "gaussian-curvature:estimator=quadric", "principal-curvature", "curvedness", "shape-index",
         "geodesic:source=3", "geodesic:mode=average", "heat-kernel-signature:modes=20"}) {
     INFO(text);
-    const core::MorseFunction& function = *registry.make_function(text).function;
-    CHECK(same(function.evaluate(mesh, {}).parameters, function.evaluate(turned, {}).parameters));
+    const tools::NamedFunction named = registry.make_function(text);
+    CHECK(
+        same(named.function->evaluate(mesh, {}).parameters, named.function->evaluate(turned, {}).parameters));
   }
   const auto step = [&](const std::string& text, const TriangleMesh& on) {
     return tools::apply_chain(registry.make_method(text), {on, {}}, registry.make_function("mean-curvature"),

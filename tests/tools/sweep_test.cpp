@@ -59,7 +59,7 @@ Json by_itself(const core::LoadedMesh& mesh, const tools::Combination& combinati
           {"min", made.field.min()},
           {"max", made.field.max()},
           {"critical_points", counts_section(measured.critical_points)},
-          {"persistence", persistence_section(measured.diagram, made.field.extent())}};
+          {"persistence", persistence_section(measured.diagram, field.field.extent())}};
 }
 
 Json comparable(const SweepRow& row) {

@@ -118,7 +118,7 @@ class ShrinkingMesh {
   bool has(Index t, Index v) const { return std::ranges::find(triangles_[t], v) != triangles_[t].end(); }
 
   Index fewest(std::initializer_list<Index> vertices) const {
-    return std::ranges::min(vertices, {}, [&](Index v) { return around_[v].size(); });
+    return std::min(vertices, [&](Index u, Index w) { return around_[u].size() < around_[w].size(); });
   }
 
   /// One of the triangles around v is gone. They are swept when they are half of the list.
