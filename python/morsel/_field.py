@@ -26,7 +26,7 @@ class End(NamedTuple):
 
 
 class Step(NamedTuple):
-    """What a method did."""
+    """What one method of a chain did."""
 
     name: str
     parameters: dict[str, Any]

@@ -40,7 +40,8 @@ def test_fields(name, tmp_path, monkeypatch):
     np.savetxt("values.txt", mesh.vertices[:, 1])
     function = getattr(ms, name.replace("-", "_"))
     keys = FUNCTIONS[name]
-    program("field", path, "--field", function.spec(**keys), "-o", "program.txt", cwd=tmp_path)
+    program("field", path, "--field", function.spec(**keys), "--method", "conventional", "-o", "program.txt",
+            cwd=tmp_path)
     function(mesh, **keys).save("python.txt")
     assert (tmp_path / "program.txt").read_bytes() == (tmp_path / "python.txt").read_bytes()
 
