@@ -73,10 +73,10 @@ def test_a_field_by_its_text(lion, curvature):
 
 
 def test_methods_step_by_step_are_the_chain(curvature):
-    chain = curvature.apply("salient:iterations=5+tps:count=150")
-    steps = ms.tps(ms.salient(curvature, iterations=5), count=150)
+    chain = curvature.apply("salient:iterations=5+tps:count=100")
+    steps = ms.tps(ms.salient(curvature, iterations=5), count=100)
     assert np.array_equal(chain.values, steps.values) and np.array_equal(chain.ranks, steps.ranks)
-    assert chain.method == steps.method == "salient:iterations=5+tps:count=150"
+    assert chain.method == steps.method == "salient:iterations=5+tps:count=100"
     assert [step.name for step in steps.steps] == ["salient", "tps"]
     assert steps.steps[0].parameters["sigma"] == pytest.approx(curvature.mesh.length("8eps"))
     assert steps.steps[0].details["iterations_run"] == 5
@@ -84,7 +84,7 @@ def test_methods_step_by_step_are_the_chain(curvature):
     assert steps.steps[0].sigma == steps.steps[0].parameters["sigma"] and steps.steps[1].sigma is None
     assert np.array_equal(steps.input.values, curvature.values) and steps.input.method == ""
     assert steps.function == curvature.function == "mean-curvature"
-    assert ms.critical_points(steps).counts.total == 150 - ms.critical_points(steps).counts.total % 2
+    assert ms.critical_points(steps).counts.total == 100 - ms.critical_points(steps).counts.total % 2
 
 
 def test_reference_figures(curvature, smooth):
