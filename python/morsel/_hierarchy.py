@@ -254,4 +254,6 @@ def hierarchy(f: Any, *, by: str = "persistence", method: str = "salient", level
         if by != "iteration":
             raise ArgumentError(f'a hierarchy is by "persistence" or by "iteration", not by "{by}"')
         numbers = ",".join(str(one) for one in levels)
+        if not numbers:
+            raise ArgumentError("there are no levels")
         return Levels(_library.iteration_levels(field._data, method, numbers, registry(), report), field.mesh)

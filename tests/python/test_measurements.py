@@ -239,5 +239,5 @@ def test_views_outlive_what_they_are_of(lion):
         gc.collect()
         arrays()
     for array, copy in zip(kept, copies):
-        assert array.tobytes() == copy.tobytes() and not array.flags.writeable and not array.flags.owndata
+        assert np.array_equal(array, copy) and not array.flags.writeable and not array.flags.owndata
     assert np.array_equal(kept[0], lion.vertices)
