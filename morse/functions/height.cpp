@@ -1,7 +1,6 @@
 #include "morsel/morse/functions/height.h"
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,19 +22,22 @@ Point unit(const Point& direction) {
   return scaled / scaled.norm();
 }
 
-/// "a/b/c" as three numbers.
-Point parse_direction(std::string_view text, const std::string& what) {
+/// Three numbers.
+Point parse_direction(const std::vector<std::string>& numbers, const std::string& what) {
   std::vector<double> parts;
-  for (std::string_view rest = text;;) {
-    const std::size_t slash = rest.find('/');
-    parts.push_back(core::parse_number(rest.substr(0, slash), what + " (three numbers, as in 1/0/-2)"));
-    if (slash == std::string_view::npos) break;
-    rest.remove_prefix(slash + 1);
-  }
+  for (const std::string& number : numbers)
+    parts.push_back(core::parse_number(number, what + " (three numbers, as in 1/0/-2)"));
   if (parts.size() != 3)
     throw core::InvalidArgument(what + " must be three numbers, as in 1/0/-2, not " +
                                 std::to_string(parts.size()));
   return {parts[0], parts[1], parts[2]};
+}
+
+/// As it is written: "a/b/c".
+std::string joined(const std::vector<std::string>& numbers) {
+  std::string text;
+  for (const std::string& number : numbers) text += (text.empty() ? "" : "/") + number;
+  return text;
 }
 
 class Height final : public core::MorseFunction {
@@ -66,8 +68,8 @@ core::ScalarField height(const core::TriangleMesh& mesh, const HeightOptions& op
 
 std::unique_ptr<core::MorseFunction> make_height(core::ParameterReader& reader) {
   const std::string axis = reader.choice("axis", "z", {"x", "y", "z"}, "the coordinate to take");
-  const std::string text =
-      reader.text("direction", "", "any direction a/b/c instead of an axis; its length does not matter");
+  const std::vector<std::string> numbers =
+      reader.list("direction", "", "any direction a/b/c instead of an axis; its length does not matter");
   if (!reader.given("direction")) {
     Point direction = Point::Zero();
     direction[axis[0] - 'x'] = 1;
@@ -75,9 +77,9 @@ std::unique_ptr<core::MorseFunction> make_height(core::ParameterReader& reader) 
   }
   if (reader.given("axis"))
     throw core::InvalidArgument(reader.owner() + " takes axis or direction, not both");
-  const Point direction = parse_direction(text, reader.owner() + ":direction");
+  const Point direction = parse_direction(numbers, reader.owner() + ":direction");
   unit(direction);  // refuses zero here, before any mesh is read
-  return std::make_unique<Height>(direction, core::Parameters{{"direction", text}});
+  return std::make_unique<Height>(direction, core::Parameters{{"direction", joined(numbers)}});
 }
 
 }  // namespace morsel::morse

@@ -102,7 +102,7 @@ class _height(_Shipped):
         mesh: Any,
         *,
         axis: str = 'z',
-        direction: float | str | PathLike[str] | None = None,
+        direction: str | Sequence[float | str | PathLike[str]] | None = None,
         progress: Progress = None,
     ) -> Field: ...
 
