@@ -42,7 +42,10 @@ def faces_of(given: Any) -> NDArray[Any] | Polygons:
             sizes = [len(face) for face in given]
             corners = [array(face, "the corners of a face") for face in given]
             return Polygons(np.concatenate(corners), np.concatenate([[0], np.cumsum(sizes)]))
-    return array(given, "the faces")
+    made = array(given, "the faces")
+    if made.size == 0 and made.dtype.kind == "f":  # what numpy makes of an empty list
+        made = made.astype(np.int64)
+    return made.reshape(0, 3) if made.shape == (0,) else made
 
 
 def _counted(cells: NDArray[Any]) -> Polygons | NDArray[Any]:

@@ -65,8 +65,6 @@ class Mesh:
                 self._data = _library.mesh_from_polygons(positions, corners.corners, corners.offsets,
                                                          bool(repair), report)
             else:
-                if corners.size == 0 and corners.dtype.kind == "f":
-                    corners = corners.astype(np.int64)  # what numpy makes of an empty list
                 self._data = _library.mesh_from_arrays(positions, corners, bool(repair), report)
 
     @classmethod

@@ -51,7 +51,8 @@ def _result(made: Any) -> Any:
     """What a function returned, as the library takes it."""
     if isinstance(made, Field):
         return made._data
-    return np.asarray(made)
+    values = np.asarray(made)
+    return made if values.ndim == 0 else values  # which the library refuses
 
 
 def _summary(function: Callable[..., Any], name: str) -> str:

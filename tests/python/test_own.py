@@ -96,8 +96,8 @@ def test_files_are_hashed(tmp_path):
     np.savetxt(values, mesh.vertices[:, 0])
     r = ms.compare(mesh, field=f"from-file:path={values}", methods=["conventional"])
     r.save(tmp_path / "report.json")
-    assert [file["path"] for file in json.loads((tmp_path / "report.json").read_text())["inputs"]] \
-        == [str(values)]
+    given = json.loads((tmp_path / "report.json").read_text())["field"]["parameters"]
+    assert given["path"] == str(values) and len(given["path_sha256"]) == 64
     assert ms.check(tmp_path / "report.json") == []
     np.savetxt(values, -mesh.vertices[:, 0])
     assert ms.check(tmp_path / "report.json")
