@@ -130,8 +130,8 @@ std::string LandmarksPlan::name_of(std::size_t row) const {
   if (row >= made_rows()) return kChances[row - made_rows()] == Chance::random ? "random" : "farthest points";
   const std::string& field = functions[field_of(row)].specification;
   const std::string& method = chains[method_of(row)].specification;
-  if (chains.size() == 1 && (functions.size() > 1 || method == "conventional")) return field;
-  return functions.size() == 1 ? method : field + ", " + method;
+  if (chains.size() == 1 && method == "conventional") return field;
+  return chains.size() > 1 && functions.size() == 1 ? method : field + ", " + method;
 }
 
 LandmarksPlan prepare(const LandmarksRequest& request, const Registry& registry) {
