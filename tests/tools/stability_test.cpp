@@ -107,6 +107,17 @@ TEST_CASE("the chance level of a radius that reaches everything is that of equal
   }
 }
 
+TEST_CASE("trials whose drift may be too large are counted in a warning") {
+  StabilityRequest asked = request({"conventional"});
+  asked.noise = {0.1};
+  asked.trials = 3;
+  StabilityResult result = run(bumpy(), asked);
+  CHECK(result.warnings().empty());
+  result.outcomes[0].perturbations[0].trials[1].agreement.is_least = false;
+  REQUIRE(result.warnings().size() == 1);
+  CHECK(result.warnings()[0].find("in 1 of 3 trials") == 0);
+}
+
 TEST_CASE("the chance level of a radius of nothing is the share of vertices that are hit") {
   StabilityRequest asked = request({"conventional"});
   asked.noise = {0};

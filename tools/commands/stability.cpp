@@ -40,6 +40,7 @@ int measure_stability(const Options& options, const Run& run) {
   const StabilityResult result =
       run_stability(input.loaded, prepared, run.console.progress(), trials ? &*trials : nullptr);
   for (const FieldOutcome& field : result.fields) tell_warnings(field, run.console);
+  for (const std::string& warning : result.warnings()) run.console.warning(warning);
   for (std::size_t i = 0; i < result.outcomes.size() / prepared.targets.size(); ++i)  // the first target's
     tell_warnings(result.outcomes[i].clean.steps, run.console);
 

@@ -139,11 +139,14 @@ void write_stability(JsonSink& json, const StabilityReport& report) {
   json.member("request", request_section(report.request, report.input.repair));
   json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded.mesh,
                                    report.loaded.source.repairs));
-  json.member("matching", {{"radius", result.radius},
-                           {"radius_of_diagonal", result.radius / diagonal},
-                           {"mean_edge_length", result.mean_edge_length},
-                           {"confidence", kConfidence},
-                           {"placements", kPlacements}});
+  Json matching = {{"radius", result.radius},
+                   {"radius_of_diagonal", result.radius / diagonal},
+                   {"mean_edge_length", result.mean_edge_length},
+                   {"confidence", kConfidence},
+                   {"placements", kPlacements}};
+  if (const std::vector<std::string> warnings = result.warnings(); !warnings.empty())
+    matching["warnings"] = warnings;
+  json.member("matching", matching);
   json.begin_array("fields");
   for (std::size_t f = 0; f < result.fields.size(); ++f) {
     Json section = {{"specification", report.plan.functions[f].specification}};

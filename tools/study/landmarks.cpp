@@ -86,16 +86,21 @@ class MeshRun {
                  spread_points(distances_, result_.wanted, RandomStream(seed, RandomUse::spread_points, {})));
     } else {
       for (std::uint64_t set = 0; set < kPlacements; ++set)
-        row.sets.push_back(
-            scorer_.score(random_points(loaded_.mesh, distances_, result_.wanted, result_.spacing,
-                                        RandomStream(seed, RandomUse::random_points, {set}))));
+        add_set(row, random_points(loaded_.mesh, distances_, result_.wanted, result_.spacing,
+                                   RandomStream(seed, RandomUse::random_points, {set})));
     }
     return row;
   }
 
   void add_points(LandmarkRow& row, const std::vector<Index>& vertices) const {
-    row.sets.push_back(scorer_.score(vertices));
+    add_set(row, vertices);
     for (const Index v : vertices) row.points.push_back(loaded_.source.numbering.input_vertex(v));
+  }
+
+  void add_set(LandmarkRow& row, std::span<const Index> vertices) const {
+    row.sets.push_back(scorer_.score(vertices));
+    if (!row.sets.back().one_to_one.is_least && row.warnings.empty())
+      row.warnings.push_back("points and marks are too many for the least sum of distances of matched ones");
   }
 
   /// Calls `work`; its errors begin with `where`.
