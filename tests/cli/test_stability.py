@@ -7,7 +7,7 @@ import signal
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted, made_in
 
 STABILITY_SCHEMA = SCHEMA.parent / "stability.schema.json"
 LION = SAMPLES / "lion-head.off"
@@ -151,16 +151,33 @@ class Files(Stability):
                     self.assertEqual(float(row[what + "_half_width"]), half)
 
     def test_the_same_bytes_at_any_number_of_threads_but_for_timings(self):
-        documents, tables, files = [], [], []
+        documents, tables, files, plots = [], [], [], []
         for threads in (1, 2, 5):
-            document = self.stability(SMALL, *ALL, "--threads", threads)
+            document = self.stability(SMALL, *ALL, "--threads", threads, "--figures", "plots")
+            plots.append({path.name: path.read_bytes() for path in (self.folder / "plots").iterdir()})
             del document["timings"]
             documents.append(document)
             tables.append(self.morsel("stability", SMALL, *ALL, "--threads", threads, "-o", "s.csv").stdout)
             files.append((self.folder / "s.csv").read_bytes())
-        for each in (documents, tables, files):
+        for each in (documents, tables, files, plots):
             self.assertEqual(each[0], each[1])
             self.assertEqual(each[0], each[2])
+
+    def test_plots(self):
+        self.morsel("stability", SMALL, *ALL, "--method", "conventional", "--method", "gaussian",
+                    "--figures", "plots")
+        self.assertEqual([path.name for path in made_in(self.folder / "plots")],
+                         [f"{over}.{kind}" for over in ("noise", "vertices") for kind in ("png", "svg")])
+        for over, unit in (("noise", "mean edge lengths"), ("vertices", "of the clean surface")):
+            drawing = (self.folder / f"plots/{over}.svg").read_text()
+            for text in (over, unit, "F-score", "gaussian", "30 points", "own count", "random vertices"):
+                self.assertIn(text, drawing)
+
+    def test_no_plot_without_a_perturbation(self):
+        self.morsel("stability", SMALL, "--method", "conventional", "--decimate", "0.8", "--trials", "1",
+                    "--figures", "plots")
+        self.assertEqual([path.name for path in made_in(self.folder / "plots")],
+                         ["vertices.png", "vertices.svg"])
 
     def test_standard_output(self):
         result = self.morsel("stability", self.file("o.off", OCTAHEDRON), "--field", "height", "--trials",

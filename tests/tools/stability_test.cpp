@@ -6,6 +6,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/tools/plot/stability_plots.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
@@ -198,6 +199,61 @@ TEST_CASE("an error in a trial names it, and of several the first is reported") 
   CHECK_THAT(error, Catch::StartsWith("decimation 0.") && Catch::Contains(", trial ") &&
                         Catch::Contains("geodesic:source=0: ") && Catch::Contains("vertex 0"));
   CHECK(error_at(4) == error);
+}
+
+TEST_CASE("plots show F over noise and over vertices, a panel for each count") {
+  StabilityRequest asked = request({"conventional", "gaussian:iterations=2"});
+  asked.noise = {0.3, 0.1};
+  asked.decimate = {0.5};
+  asked.subdivide = {3, 1};
+  asked.target = 40;
+  asked.trials = 1;
+  const core::LoadedMesh clean = bumpy();
+  const tools::StabilityPlan plan = tools::prepare(asked);
+  const StabilityResult result = run_stability(clean, plan);
+  const auto score = [&](std::size_t outcome, std::size_t perturbation) {
+    return result.outcomes[outcome].perturbations[perturbation].f_score().mean;
+  };
+  const auto noise = tools::plot::noise_plot(plan, result);
+  REQUIRE(noise);
+  REQUIRE(noise->panels.size() == 2);
+  CHECK(noise->panels[1].title == "40 points");
+  for (std::size_t panel = 0; panel < 2; ++panel) {
+    const auto& series = noise->panels[panel].series;
+    REQUIRE(series.size() == 4);  // each after its chance level
+    for (std::size_t m = 0; m < 2; ++m) {
+      const auto& line = series[2 * m + 1];
+      CHECK(line.name == asked.methods[m]);
+      CHECK(line.x == std::vector<double>{0.1, 0.3});
+      CHECK(line.y == std::vector<double>{score(2 * panel + m, 1), score(2 * panel + m, 0)});
+      CHECK(series[2 * m].name.empty());
+      CHECK(series[2 * m].color == line.color);
+      CHECK(series[2 * m].y[0] == result.outcomes[2 * panel + m].perturbations[1].chance().mean);
+    }
+  }
+  const auto vertices = tools::plot::vertices_plot(plan, result, clean.mesh);
+  REQUIRE(vertices);
+  const auto& line = vertices->panels.at(0).series.at(1);
+  const tools::PerturbedMesh finer = tools::perturb(clean, plan.perturbations[3], 1, 0);
+  REQUIRE(line.x.size() == 3);
+  CHECK(line.x[0] == 0.5);
+  CHECK(line.x[1] == 1);
+  CHECK(line.x[2] == static_cast<double>(finer.loaded.mesh.vertex_count()) / clean.mesh.vertex_count());
+  CHECK(line.y == std::vector<double>{score(0, 2), score(0, 4), score(0, 3)});
+}
+
+TEST_CASE("what did not happen to the surface is not plotted, and many lines are without chance levels") {
+  StabilityRequest asked = request(std::vector<std::string>(8, "conventional"));
+  asked.noise = {0.1};
+  asked.trials = 1;
+  const core::LoadedMesh clean = bumpy();
+  const tools::StabilityPlan plan = tools::prepare(asked);
+  const StabilityResult result = run_stability(clean, plan);
+  CHECK_FALSE(tools::plot::vertices_plot(plan, result, clean.mesh));
+  const auto noise = tools::plot::noise_plot(plan, result);
+  REQUIRE(noise);
+  CHECK(noise->panels.at(0).series.size() == 8);
+  CHECK(noise->notes.empty());
 }
 
 TEST_CASE("stability requests are checked") {

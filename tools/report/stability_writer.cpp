@@ -7,7 +7,6 @@
 
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/version.h"
-#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 
@@ -19,24 +18,6 @@ Json estimate_section(const Estimate& estimate) {
   return {{"mean", estimate.mean},
           {"deviation", estimate.count > 1 ? Json(estimate.deviation) : Json()},
           {"half_width", estimate.half_width ? Json(*estimate.half_width) : Json()}};
-}
-
-Json request_section(const StabilityRequest& request, bool repair) {
-  Json asked = {{"fields", request.fields},
-                {"methods", request.methods},
-                {"noise", request.noise},
-                {"kind", to_string(request.noise_kind)},
-                {"decimate", request.decimate},
-                {"subdivide", request.subdivide},
-                {"trials", request.trials},
-                {"seed", request.seed},
-                {"radius", request.radius},
-                {"points", to_string(request.points)},
-                {"reference_field", request.reference_field},
-                {"reference", request.reference},
-                {"repair", repair}};
-  if (request.target) asked["target"] = *request.target;
-  return asked;
 }
 
 Cell cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(nullptr); }
@@ -118,16 +99,38 @@ void add(CsvLine& line, const Estimate& estimate) {
 
 }  // namespace
 
+Json request_section(const StabilityRequest& request, bool repair) {
+  Json asked = {{"fields", request.fields},
+                {"methods", request.methods},
+                {"noise", request.noise},
+                {"kind", to_string(request.noise_kind)},
+                {"decimate", request.decimate},
+                {"subdivide", request.subdivide},
+                {"trials", request.trials},
+                {"seed", request.seed},
+                {"radius", request.radius},
+                {"points", to_string(request.points)},
+                {"reference_field", request.reference_field},
+                {"reference", request.reference},
+                {"repair", repair}};
+  if (request.target) asked["target"] = *request.target;
+  return asked;
+}
+
+std::vector<HashedFile> input_files(const StabilityRequest& request) {
+  std::vector<std::string> fields = request.fields;
+  if (!request.reference_field.empty()) fields.push_back(request.reference_field);
+  return input_files(fields);
+}
+
 Json trials_key(const StabilityRequest& request, const ReportInput& input) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
-  std::vector<std::string> fields = request.fields;
-  if (!request.reference_field.empty()) fields.push_back(request.reference_field);
   return {{"schema", "morsel.stability/1"},
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},
           {"request", std::move(asked)},
-          {"files", files_section(input_files(fields))}};
+          {"files", files_section(input_files(request))}};
 }
 
 void write_stability(JsonSink& json, const StabilityReport& report) {
