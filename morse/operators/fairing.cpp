@@ -1,5 +1,6 @@
 #include "morsel/morse/operators/fairing.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -13,7 +14,7 @@ namespace {
 using core::Point;
 using core::TriangleMesh;
 
-constexpr int kRounds = 2;
+constexpr std::array kShares = {0.5, 1.0};  // of the scale, round by round
 
 void check_fairing(const TriangleMesh& mesh, double scale) {
   if (!(scale >= 0) || !std::isfinite(scale))
@@ -67,10 +68,10 @@ TriangleMesh faired(const TriangleMesh& mesh, double scale, const core::Progress
   const UnitSized sized = unit_sized(mesh);
   const std::vector<Point> x = centred(sized.mesh);
   TriangleMesh surface = sized.mesh;
-  for (int round = 0; round < kRounds; ++round) {
-    progress.update("surface", static_cast<double>(round) / kRounds);
+  for (const double share : kShares) {
+    progress.update("surface", share - kShares.front());
     const SurfaceLaplacian laplacian = surface_laplacian(surface);
-    const double own = std::ldexp(scale, -sized.exponent) / laplacian.unit;
+    const double own = share * std::ldexp(scale, -sized.exponent) / laplacian.unit;
     const HeatStep step(laplacian, (std::sqrt(2 + std::sqrt(2.0)) - 1) * own * own, "surface", progress);
     surface = mesh.with_positions(twice_diffused(x, step, progress));
   }

@@ -21,8 +21,9 @@ std::vector<core::Point> diffused(std::vector<core::Point> positions, const Heat
 /// irregular meshes using diffusion and curvature flow", SIGGRAPH 1999). What G takes away is smoothed, too,
 /// and given back ("twicing", Tukey 1977), so that long waves lose their height to second order only: thin
 /// parts keep their shape where G alone would shrink them. Δ is the surface's own Laplacian
-/// (surface_laplacian()). Noise falsifies its lengths, so Δ is first that of the surface itself and then that
-/// of the result, and x' is made again from x: after two rounds the lengths are those of a smooth surface.
+/// (surface_laplacian()). Noise falsifies its lengths, so x' is made twice from x: first at half the scale,
+/// with the Laplacian of the surface as it is, then with that of the result, which has few of the noise's
+/// lengths and still nearly those of thin parts.
 ///
 /// In contrast to low_pass() neither shapes of triangles nor how densely a surface is sampled matter: another
 /// sampling of the same surface becomes nearly the same surface, and vertices do not slide along it. The

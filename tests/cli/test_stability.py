@@ -87,6 +87,19 @@ class Results(Stability):
             counts = outcome["clean"]["critical_points"]
             self.assertEqual(outcome["clean"]["points"], counts["minima"] + counts["maxima"])
 
+    def test_a_preset_sets_field_and_methods_for_the_wanted_number_of_points(self):
+        few = self.stability(SMALL, "--preset", "resampled", "--trials", "1", "--decimate", "0.5", "--target",
+                             "20")
+        field, = few["request"]["fields"]
+        self.assertRegex(field, "^heat-kernel-signature:.*time=0.246rootarea")
+        self.assertEqual([o["method"] for o in few["outcomes"]], few["request"]["methods"] * 2)
+        self.assertEqual(few["request"]["methods"][0], "conventional")
+        many = self.stability(SMALL, "--target", "80", "--preset", "resampled", "--trials", "1", "--noise",
+                              "0.1")
+        self.assertIn("time=0.123rootarea", many["request"]["fields"][0])
+        noise = self.stability(SMALL, "--preset", "noise", "--trials", "1", "--noise", "0.1")
+        self.assertEqual(noise["request"]["methods"], ["conventional", "salient", "salient:preset=robust"])
+
     def test_the_table(self):
         out = self.morsel("stability", SMALL, "--method", "conventional", "--noise", "0.1", "--trials", "2",
                           "--target", "20").stdout
@@ -229,6 +242,9 @@ class Refused(Stability):
         self.refuse("--method", "nonsense", naming=["nonsense", "salient"])
         self.refuse("--field", "nonsense", naming=["nonsense", "height"])
         self.refuse("--reference", "nonsense", naming=["nonsense"])
+        self.refuse("--preset", "best", naming=["paper", "resampled", "best"])
+        self.refuse("--preset", "noise", "--field", "height", naming=["--preset", "--field"])
+        self.refuse("--preset", "noise", "--method", "tps", naming=["--preset", "--method"])
         self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2",
                     naming=["vertex-scalar", "--subdivide"])
 

@@ -6,6 +6,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/text/nearest_name.h"
 #include "morsel/core/text/numbers.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/core/text/specification.h"
 
 namespace morsel::tools {
