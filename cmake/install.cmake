@@ -55,11 +55,17 @@ foreach(module core persistence morse mscomplex study)
     COMPONENT development)
 endforeach()
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel
-  COMPONENT runtime)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
-  ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
-              ${PROJECT_SOURCE_DIR}/LICENSE
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/morsel COMPONENT runtime)
+set(pages_folder ${CMAKE_INSTALL_DATADIR}/doc/morsel)
+set(schema_folder "")
+if(MORSEL_BUILD_TOOLS)
+  set(schema_folder ${CMAKE_INSTALL_DATADIR}/morsel)
+endif()
+install(CODE "
+  set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+  set(BINARY \"${PROJECT_BINARY_DIR}\")
+  set(PAGES_FOLDER \"${pages_folder}\")
+  set(SCHEMA_FOLDER \"${schema_folder}\")" COMPONENT runtime)
+install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_pages.cmake COMPONENT runtime)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pages_folder} COMPONENT runtime)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libmorsel-dev
   COMPONENT development)

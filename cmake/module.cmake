@@ -20,8 +20,8 @@ endif()
 #                    shares. Sources include what they use all the same: tools/lint compiles them without
 #                    precompiled headers and one by one.
 #   PART             MOLECULES or PICTURES. With MORSEL_WITH_NAME it has SOURCES_OF_PART, which need the
-#                    packages DEPENDS_OF_PART privately; without, in their place, REPLACED_BY (without_name.cpp
-#                    if not given), which defines the same functions
+#                    packages DEPENDS_OF_PART privately; without, in their place, REPLACED_BY
+#                    (without_name.cpp if not given), which defines the same functions
 function(morsel_add_module name)
   cmake_parse_arguments(
     PARSE_ARGV 1 arg "PROGRAM" "WITHIN;PART;REPLACED_BY"

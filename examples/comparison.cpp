@@ -7,7 +7,7 @@
 
 using namespace morsel;
 
-/// Is told each method's field and measurement in turn; none is kept.
+/// Prints each method's result when it is ready; none is kept.
 class Table : public tools::ComparisonSink {
  public:
   void field(const tools::FieldOutcome& outcome) override {

@@ -1,11 +1,14 @@
-// own_method MESH: a Morse function and a method of one's own, by name, in a comparison with those that ship.
+// own_method MESH REPORT.json: a Morse function and a method of one's own, by name, in a comparison with
+// those that ship, as a table and as a report.
 
-#include <cstdio>
+#include <fstream>
+#include <iostream>
 #include <memory>
 #include <vector>
 
-#include "morsel/core/io/mesh_io.h"
-#include "morsel/tools/study/comparison.h"
+#include "morsel/tools/report/comparison_table.h"
+#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/report_writer.h"
 
 using namespace morsel;
 
@@ -34,26 +37,24 @@ class Steps : public core::Method {
   std::int64_t count_;
 };
 
-class Table : public tools::ComparisonSink {
-  void field(const tools::FieldOutcome& outcome) override { std::printf("%s\n", outcome.name.c_str()); }
-  void method(const tools::MethodOutcome& outcome) override {
-    std::printf("%s: %zu points\n", outcome.specification.c_str(),
-                outcome.measurement.critical_points.total());
-  }
-};
-
 int main(int, char** arguments) {
   tools::Registry registry = tools::Registry::standard();
   registry.add(tools::FunctionEntry{"radius", "distance from the middle of the bounding box",
-                                    [](core::ParameterReader&) { return std::make_unique<Radius>(); }});
+                                    [](core::ParameterReader&) { return std::make_unique<Radius>(); },
+                                    "length"});
   registry.add(tools::MethodEntry{"steps", "values rounded to steps", [](core::ParameterReader& reader) {
                                     return std::make_unique<Steps>(
                                         reader.count("count", 100, 1, 1000000, "how many"));
                                   }});
-  Table table;
-  tools::run_comparison(
-      core::read_mesh(arguments[1]),
-      tools::prepare({.field = "radius", .methods = {"conventional", "steps:count=20+tps"}, .target = {}},
-                     registry),
-      {&table});
+  tools::ComparisonRequest request;
+  request.field = "radius";
+  request.methods = {"conventional", "steps:count=20+tps"};
+  const tools::HashedMesh mesh = tools::read_hashed_mesh(arguments[1]);
+  std::ofstream out(arguments[2]);
+  tools::JsonStream json(out);
+  tools::ReportWriter report(json, mesh.loaded, {arguments[1], mesh.sha256}, request);
+  tools::ComparisonTable table;
+  tools::run_comparison(mesh.loaded, tools::prepare(request, registry), {&report, &table});
+  report.finish();
+  std::cout << table.text();
 }

@@ -1,7 +1,6 @@
 #include "morsel/morse/chosen_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -58,10 +57,17 @@ std::pair<int, std::int64_t> key_of(const ScalarField& field, const CriticalPoin
   return {point.type == CriticalType::maximum ? 0 : 2, -height};
 }
 
+SaliencyOptions area_weighted() {
+  SaliencyOptions options;
+  options.weights = NeighborWeights::area;
+  return options;
+}
+
 }  // namespace
 
 std::string_view to_string(PointKind kind) {
-  static constexpr std::array<std::string_view, 5> kNames = {"extrema", "maxima", "minima", "saddles", "all"};
+  static constexpr std::array<std::string_view, kPointKinds.size()> kNames = {"extrema", "maxima", "minima",
+                                                                              "saddles", "all"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -93,7 +99,7 @@ std::vector<PointCandidate> point_candidates(const ScalarField& field, PointKind
 }
 
 PointChooser::PointChooser(const core::TriangleMesh& mesh, std::size_t count, double spacing)
-    : distances_(mesh), search_(distances_), count_(count), is_near_(mesh.vertex_count()) {
+    : distances_(mesh), taken_(distances_, spacing), count_(count) {
   if (!(spacing >= 0) || !std::isfinite(spacing))
     throw core::InvalidArgument("the spacing of points must be finite and at least 0, not " +
                                 core::shortest(spacing));
@@ -106,19 +112,16 @@ void PointChooser::add(std::span<const PointCandidate> candidates, const core::P
   for (const PointCandidate& candidate : candidates) {
     if (missing() == 0) break;
     progress.update("points", static_cast<double>(chosen_.points.size()) / static_cast<double>(count_));
-    const Index v = candidate.point.vertex;
-    if (is_near_[v]) {
+    if (taken_.take(candidate.point.vertex))
+      chosen_.points.push_back({candidate, source, 0});
+    else
       ++chosen_.too_near.back();
-      continue;
-    }
-    chosen_.points.push_back({candidate, source, 0});
-    is_near_[v] = true;
-    for (const auto& [u, distance] : search_.within(v, chosen_.spacing)) is_near_[u] = true;
   }
 }
 
 ChosenPoints PointChooser::finish() {
   std::vector<Index> vertices;
+  vertices.reserve(chosen_.points.size());
   for (const ChosenPoint& point : chosen_.points) vertices.push_back(point.candidate.point.vertex);
   const std::vector<double> nearest = distances_.to_nearest_other(vertices);
   for (std::size_t i = 0; i < nearest.size(); ++i) chosen_.points[i].distance = nearest[i];
@@ -133,25 +136,29 @@ ChosenPoints choose_points(const core::TriangleMesh& mesh,
   return chooser.finish();
 }
 
-std::vector<double> mesh_salience(const core::TriangleMesh& mesh, core::Length scale,
-                                  const core::Progress& progress) {
-  SaliencyOptions options;
+MeshSalience::MeshSalience(const core::TriangleMesh& mesh, const core::Progress& progress)
+    : map_(saliency(mean_curvature(mesh, progress), area_weighted(), progress).field) {}
+
+std::vector<double> MeshSalience::at(core::Length scale, const core::Progress& progress) const {
+  GaussianOptions options;
+  options.sigma = scale;
   options.weights = NeighborWeights::area;
-  GaussianOptions average;
-  average.sigma = scale;
-  average.weights = NeighborWeights::area;
-  const ScalarField map =
-      gaussian(saliency(mean_curvature(mesh, progress), options, progress).field, average, progress);
-  const std::vector<double> areas = vertex_areas(unit_sized(mesh).mesh, VertexArea::mixed);
+  const ScalarField map = gaussian(map_, options, progress);
+  const std::vector<double> areas = vertex_areas(unit_sized(map.mesh()).mesh, VertexArea::mixed);
   double sum = 0;
   double total = 0;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+  for (Index v = 0; v < areas.size(); ++v) {
     sum += areas[v] * map.value(v);
     total += areas[v];
   }
   std::vector<double> result(map.values().begin(), map.values().end());
   for (double& value : result) value = sum > 0 ? value / (sum / total) : 1;
   return result;
+}
+
+std::vector<double> mesh_salience(const core::TriangleMesh& mesh, core::Length scale,
+                                  const core::Progress& progress) {
+  return MeshSalience(mesh, progress).at(scale, progress);
 }
 
 }  // namespace morsel::morse

@@ -1,6 +1,7 @@
 #pragma once
 /// A wanted number of critical points that stand out and lie apart.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,10 +18,13 @@
 namespace morsel::morse {
 
 enum class PointKind : std::uint8_t { extrema, maxima, minima, saddles, all };
+inline constexpr std::array kPointKinds = {PointKind::extrema, PointKind::maxima, PointKind::minima,
+                                           PointKind::saddles, PointKind::all};
 enum class PointRank : std::uint8_t {
   persistence,
   salience  ///< persistence times mesh_salience()
 };
+inline constexpr std::array kPointRanks = {PointRank::persistence, PointRank::salience};
 
 std::string_view to_string(PointKind kind);
 std::string_view to_string(PointRank rank);
@@ -72,9 +76,8 @@ class PointChooser {
 
  private:
   SurfaceDistances distances_;
-  SurfaceDistances::Search search_;
+  SpacedVertices taken_;
   std::size_t count_;
-  std::vector<bool> is_near_;  // per vertex: to a point that was taken
   ChosenPoints chosen_;
 };
 
@@ -83,11 +86,24 @@ ChosenPoints choose_points(const core::TriangleMesh& mesh,
                            std::span<const std::vector<PointCandidate>> candidates, std::size_t count,
                            double spacing, const core::Progress& progress = {});
 
-/// How salient the surface is around each vertex, 1 on average over its area; no unit: mesh saliency
-/// (saliency.h: Lee, Varshney, Jacobs 2005) of the mean curvature, with neighbours counted by their areas,
-/// averaged by the Gaussian of σ = `scale`, again by areas. All 1 if the saliency is 0 everywhere, or the
-/// surface has no area. Time of gaussian() at several scales; throws InvalidArgument if the scale is not
-/// above 0 and finite, BadInput if it is 0 on the mesh.
+/// Mesh saliency as a weight of ranks, at any number of scales.
+class MeshSalience {
+ public:
+  /// Time of saliency(); throws BadInput if its scales are 0 on the mesh.
+  explicit MeshSalience(const core::TriangleMesh& mesh, const core::Progress& progress = {});
+
+  /// How salient the surface is around each vertex, 1 on average over its area; no unit: mesh saliency
+  /// (saliency.h: Lee, Varshney, Jacobs 2005) of the mean curvature, with neighbours counted by their areas,
+  /// averaged by the Gaussian of σ = `scale`, again by areas. All 1 if the saliency is 0 everywhere, or the
+  /// surface has no area. Time of gaussian(); throws InvalidArgument if the scale is not above 0 and finite,
+  /// BadInput if it is 0 on the mesh.
+  std::vector<double> at(core::Length scale, const core::Progress& progress = {}) const;
+
+ private:
+  core::ScalarField map_;
+};
+
+/// The same at one scale.
 std::vector<double> mesh_salience(const core::TriangleMesh& mesh,
                                   core::Length scale = core::Length::epsilons(8),
                                   const core::Progress& progress = {});

@@ -19,6 +19,18 @@ CriticalPoint classify_vertex(const core::ScalarField& field, Index v) {
   return {v, kind.type, kind.multiplicity};
 }
 
+CriticalPoints counts_of(std::span<const CriticalPoint> points) {
+  CriticalPoints counts;
+  for (const CriticalPoint& point : points) {
+    const bool is_saddle = point.type == CriticalType::saddle;
+    counts.minima += point.type == CriticalType::minimum ? 1 : 0;
+    counts.saddles += is_saddle ? 1 : 0;
+    counts.saddle_multiplicity += is_saddle ? point.multiplicity : 0;
+  }
+  counts.maxima = points.size() - counts.minima - counts.saddles;
+  return counts;
+}
+
 namespace {
 
 /// LinkChanges::bits() from which on a vertex is a saddle whose link must be walked.
@@ -55,15 +67,7 @@ CriticalPoints find_critical(const core::ScalarField& field, std::span<const cor
     points[found] = {v, verdict.type, verdict.multiplicity};
     found += verdict.is_critical ? 1 : 0;
   }
-  CriticalPoints counts;
-  for (const CriticalPoint& point : points) {
-    const bool is_saddle = point.type == CriticalType::saddle;
-    counts.minima += point.type == CriticalType::minimum ? 1 : 0;
-    counts.saddles += is_saddle ? 1 : 0;
-    counts.saddle_multiplicity += is_saddle ? point.multiplicity : 0;
-  }
-  counts.maxima = points.size() - counts.minima - counts.saddles;
-  return counts;
+  return counts_of(points);
 }
 
 }  // namespace

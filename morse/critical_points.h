@@ -2,6 +2,7 @@
 /// Critical points of a piecewise-linear function, vertex by vertex.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "morsel/core/field/link.h"
@@ -33,6 +34,9 @@ struct CriticalPoints {
   /// The paper's "#CP".
   std::size_t total() const { return minima + saddles + maxima; }
 };
+
+/// The counts of these points, without their list.
+CriticalPoints counts_of(std::span<const CriticalPoint> points);
 
 /// The kind of a vertex from the lower part of its link; is_lower(u) says whether neighbour u is lower.
 /// O(degree).

@@ -16,7 +16,7 @@ using core::kNone;
 using core::Point;
 using core::TriangleMesh;
 
-namespace {
+namespace detail {
 
 /// From critical edges to saddles, in half a byte an edge: a bit each, counts before each word, and the
 /// saddles by edge.
@@ -45,7 +45,7 @@ class SaddleOfEdge {
   std::vector<Index> saddle_;
 };
 
-}  // namespace
+}  // namespace detail
 
 /// Finds the ends of arcs, then their order: the V-paths that end in one extremum form a tree, embedded in
 /// the surface; a walk around it meets the arcs that enter it in their cyclic order, though many share the
@@ -190,7 +190,7 @@ class MorseSmaleComplex::Builder {
   MorseSmaleComplex& complex_;
   const DiscreteGradient& gradient_;
   const TriangleMesh& mesh_;
-  SaddleOfEdge saddle_of_edge_;
+  detail::SaddleOfEdge saddle_of_edge_;
   std::vector<Index> vertex_end_;    // node; kNone off the arcs
   std::vector<Index> triangle_end_;  // node; kNone off the arcs
 };

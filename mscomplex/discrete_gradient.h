@@ -104,7 +104,7 @@ class DiscreteGradient {
 
  private:
   static constexpr std::uint8_t kCritical = 3;
-  struct Scratch;
+  class LowerStar;
   struct CriticalCells {
     std::vector<core::Index> minima;
     std::vector<CriticalCell> saddles;
@@ -112,8 +112,6 @@ class DiscreteGradient {
   };
   void reverse_descent(core::Index edge, core::Index arc);
   void reverse_ascent(core::Index edge, core::Index arc);
-  void process_lower_star(std::span<const core::Index> rank, core::Index v, Scratch& scratch,
-                          CriticalCells& critical);
 
   core::TriangleMesh mesh_;
   std::vector<core::Index> lower_;  // per vertex

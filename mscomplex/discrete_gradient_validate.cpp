@@ -13,7 +13,7 @@ using core::kNone;
 
 namespace {
 
-constexpr core::Require require("DiscreteGradient::validate");
+constexpr core::Require require_gradient("DiscreteGradient::validate");
 
 /// Follows next() from everywhere; a walk that meets itself is a closed V-path.
 template <class Next>
@@ -22,7 +22,7 @@ void require_acyclic(Index count, const Next& next, const char* what) {
   for (Index i = 0; i < count; ++i) {
     Index j = i;
     for (; j != kNone && walk_of[j] == kNone; j = next(j)) walk_of[j] = i;
-    require(j == kNone || walk_of[j] != i, what, i);
+    require_gradient(j == kNone || walk_of[j] != i, what, i);
   }
 }
 
@@ -35,24 +35,24 @@ void DiscreteGradient::validate() const {
   for (Index v = 0; v < mesh_.vertex_count(); ++v) {
     if (lower_[v] == kNone) continue;
     mesh_.neighbors(v, ring);
-    require(std::find(ring.begin(), ring.end(), lower_[v]) != ring.end(),
-            "paired with no edge of its own: vertex", v);
+    require_gradient(std::find(ring.begin(), ring.end(), lower_[v]) != ring.end(),
+                     "paired with no edge of its own: vertex", v);
   }
   for (Index e = 0; e < mesh_.edge_count(); ++e) {
     const auto [a, b] = mesh_.edge_vertices(e);
-    require(lower_[a] != b || lower_[b] != a, "both ends are paired with edge", e);
+    require_gradient(lower_[a] != b || lower_[b] != a, "both ends are paired with edge", e);
     if (lower_[a] == b || lower_[b] == a) ++edge_pairs[e];
   }
   for (Index t = 0; t < mesh_.triangle_count(); ++t) {
-    require(side_[t] <= kCritical, "no such side of triangle", t);
+    require_gradient(side_[t] <= kCritical, "no such side of triangle", t);
     if (side_[t] == kCritical) continue;
     const Index e = mesh_.edge(3 * t + side_[t]);
     ++edge_pairs[e];
-    require(paired_triangle(e) == t, "paired_triangle() of edge", e);
+    require_gradient(paired_triangle(e) == t, "paired_triangle() of edge", e);
   }
   for (Index e = 0; e < mesh_.edge_count(); ++e) {
-    require(edge_pairs[e] <= 1, "several pairs of edge", e);
-    require(is_critical_edge(e) == (edge_pairs[e] == 0), "is_critical_edge() of edge", e);
+    require_gradient(edge_pairs[e] <= 1, "several pairs of edge", e);
+    require_gradient(is_critical_edge(e) == (edge_pairs[e] == 0), "is_critical_edge() of edge", e);
   }
   require_acyclic(
       mesh_.vertex_count(), [&](Index v) { return descend(v); }, "closed V-path through vertex");
@@ -63,18 +63,19 @@ void DiscreteGradient::validate() const {
   std::vector<Index> minima;
   for (Index v = 0; v < mesh_.vertex_count(); ++v)
     if (lower_[v] == kNone) minima.push_back(v);
-  require(minima == minima_, "list of minima; vertices", static_cast<Index>(minima.size()));
+  require_gradient(minima == minima_, "list of minima; vertices", static_cast<Index>(minima.size()));
   const auto by_vertex = [](const CriticalCell& a, const CriticalCell& b) { return a.vertex < b.vertex; };
   const auto check_list = [&](const std::vector<CriticalCell>& list, const auto& is_critical, Index cells,
                               const char* what) {
-    require(std::is_sorted(list.begin(), list.end(), by_vertex), what, static_cast<Index>(list.size()));
+    require_gradient(std::is_sorted(list.begin(), list.end(), by_vertex), what,
+                     static_cast<Index>(list.size()));
     std::vector<Index> listed;
     for (const CriticalCell& critical : list) listed.push_back(critical.cell);
     std::sort(listed.begin(), listed.end());
     std::vector<Index> found;
     for (Index cell = 0; cell < cells; ++cell)
       if (is_critical(cell)) found.push_back(cell);
-    require(listed == found, what, static_cast<Index>(found.size()));
+    require_gradient(listed == found, what, static_cast<Index>(found.size()));
   };
   check_list(
       saddles_, [&](Index e) { return edge_pairs[e] == 0; }, mesh_.edge_count(), "list of saddles; edges");
@@ -87,12 +88,12 @@ void DiscreteGradient::validate() const {
   for (const CriticalCell& s : saddles_) --euler[mesh_.component_of_vertex(s.vertex)];
   for (const CriticalCell& m : maxima_) ++euler[mesh_.component_of_vertex(m.vertex)];
   for (Index c = 0; c < mesh_.component_count(); ++c)
-    require(euler[c] == mesh_.euler_characteristic(c), "Euler's identity in component", c);
+    require_gradient(euler[c] == mesh_.euler_characteristic(c), "Euler's identity in component", c);
 }
 
 void DiscreteGradient::validate(const core::ScalarField& field) const {
-  require(field.mesh().is_same(mesh_), "the field is on another mesh than the gradient; vertices",
-          mesh_.vertex_count());
+  require_gradient(field.mesh().is_same(mesh_), "the field is on another mesh than the gradient; vertices",
+                   mesh_.vertex_count());
   validate();
   const auto rank = field.ranks();
   const auto by_rank = [&](Index a, Index b) { return rank[a] < rank[b]; };
@@ -101,27 +102,30 @@ void DiscreteGradient::validate(const core::ScalarField& field) const {
   for (Index v = 0; v < mesh_.vertex_count(); ++v) {
     mesh_.neighbors(v, ring);
     const Index lowest = *std::min_element(ring.begin(), ring.end(), by_rank);
-    require(lower_[v] == (rank[lowest] < rank[v] ? lowest : kNone),
-            "not its lowest neighbour: the pair of vertex", v);
+    require_gradient(lower_[v] == (rank[lowest] < rank[v] ? lowest : kNone),
+                     "not its lowest neighbour: the pair of vertex", v);
   }
   for (Index t = 0; t < mesh_.triangle_count(); ++t)
     if (side_[t] != kCritical)
-      require(highest(mesh_.edge_vertices(mesh_.edge(3 * t + side_[t]))) == highest(mesh_.triangle(t)),
-              "pair across lower stars: triangle", t);
+      require_gradient(
+          highest(mesh_.edge_vertices(mesh_.edge(3 * t + side_[t]))) == highest(mesh_.triangle(t)),
+          "pair across lower stars: triangle", t);
   for (const CriticalCell& m : maxima_)
-    require(m.vertex == highest(mesh_.triangle(m.cell)), "not at its highest vertex: triangle", m.cell);
+    require_gradient(m.vertex == highest(mesh_.triangle(m.cell)), "not at its highest vertex: triangle",
+                     m.cell);
   for (const CriticalCell& s : saddles_)
-    require(s.vertex == highest(mesh_.edge_vertices(s.cell)), "not at its highest vertex: edge", s.cell);
+    require_gradient(s.vertex == highest(mesh_.edge_vertices(s.cell)), "not at its highest vertex: edge",
+                     s.cell);
   const auto lower_end_rank = [&](const CriticalCell& saddle) {
     const auto [a, b] = mesh_.edge_vertices(saddle.cell);
     return std::min(rank[a], rank[b]);
   };
-  require(std::is_sorted(saddles_.begin(), saddles_.end(),
-                         [&](const CriticalCell& a, const CriticalCell& b) {
-                           return a.vertex < b.vertex ||
-                                  (a.vertex == b.vertex && lower_end_rank(a) < lower_end_rank(b));
-                         }),
-          "order of saddles at one vertex; saddles", static_cast<Index>(saddles_.size()));
+  require_gradient(std::is_sorted(saddles_.begin(), saddles_.end(),
+                                  [&](const CriticalCell& a, const CriticalCell& b) {
+                                    return a.vertex < b.vertex ||
+                                           (a.vertex == b.vertex && lower_end_rank(a) < lower_end_rank(b));
+                                  }),
+                   "order of saddles at one vertex; saddles", static_cast<Index>(saddles_.size()));
 }
 
 }  // namespace morsel::mscomplex

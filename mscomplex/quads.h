@@ -36,7 +36,8 @@ RepairedComplex repair_dangling(const core::ScalarField& field, MorseSmaleComple
 struct LayoutOptions {
   /// How often all nodes are moved to the middle of the patches around them, and their arcs drawn again. 0
   /// leaves minima and maxima at their critical vertices, and saddles at the midpoints of their critical
-  /// edges. Each time edges are split along the new arcs: time and triangles grow by a third or so.
+  /// edges. Each time edges are split along the new arcs: time and triangles grow by a third or so. At most
+  /// as many triangles as there are, or 65,536, are added each time; nodes whose arcs need more are left.
   int relaxation = 2;
 };
 
@@ -57,6 +58,9 @@ struct QuadLayout {
   /// Arcs drawn through the fewest triangles, where triangles are too small for a straight line in double
   /// precision.
   core::Index missed = 0;
+  /// How often a relaxation left a node where it was, for its arcs would have cut the surface into too many
+  /// triangles. It happens where dozens of arcs meet on a few triangles.
+  core::Index left = 0;
 
   core::Index cap_count() const { return input.boundary_loop_count(); }
   bool is_cap(core::Index node) const { return node + cap_count() >= node_vertex.size(); }
@@ -80,7 +84,8 @@ struct QuadLayout {
 ///
 /// Boundary loops are nodes above all others, their caps; the arcs to them, and the patches there, end at the
 /// loop. No arc of a minimum or maximum may dangle (repair_dangling()) and no
-/// component be without a saddle; throws BadInput otherwise. A sparse system is solved for each region;
+/// component be without a saddle; throws BadInput otherwise, and where arcs that meet in a node cut the
+/// surface into 4 million triangles and 16 times its own. A sparse system is solved for each region;
 /// parallel in part, the same bits for every number of threads.
 QuadLayout embed_layout(const MorseSmaleComplex& complex, const LayoutOptions& options = {},
                         const core::Progress& progress = {});

@@ -15,6 +15,12 @@ using core::Index;
 using core::kNone;
 using core::TriangleMesh;
 
+std::string to_string(SegmentKind kind) {
+  return kind == SegmentKind::descending  ? "descending"
+         : kind == SegmentKind::ascending ? "ascending"
+                                          : "morse-smale";
+}
+
 namespace {
 
 using Pair = std::uint64_t;  // ascending label, descending label

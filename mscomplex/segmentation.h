@@ -3,6 +3,8 @@
 /// and by both.
 
 #include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "morsel/core/field/scalar_field.h"
@@ -10,6 +12,17 @@
 #include "morsel/mscomplex/discrete_gradient.h"
 
 namespace morsel::mscomplex {
+
+/// What segments are the regions of.
+enum class SegmentKind : std::uint8_t {
+  descending,  ///< a maximum, or the cap of a boundary loop: all from which the V-path up leads there
+  ascending,   ///< a minimum: all from which the V-path down leads there
+  morse_smale  ///< a quad of the complex: a minimum and a maximum or cap
+};
+inline constexpr std::array kSegmentKinds = {SegmentKind::descending, SegmentKind::ascending,
+                                             SegmentKind::morse_smale};
+/// "descending", "ascending", "morse-smale".
+std::string to_string(SegmentKind kind);
 
 /// A label for each vertex and each triangle.
 struct SegmentLabels {

@@ -14,13 +14,6 @@
 
 namespace morsel::mscomplex {
 
-/// What the segments are the regions of.
-enum class SegmentKind : std::uint8_t {
-  descending,  ///< a maximum, or the cap of a boundary loop: all from which the V-path up leads there
-  ascending,   ///< a minimum: all from which the V-path down leads there
-  morse_smale  ///< a quad of the complex: a minimum and a maximum or cap
-};
-
 struct Segment {
   core::Index minimum = core::kNone;  ///< node of the complex; kNone if descending
   core::Index top = core::kNone;      ///< node, a maximum or a cap; kNone if ascending

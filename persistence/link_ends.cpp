@@ -16,31 +16,18 @@ using core::kNone;
 constexpr std::size_t kTriangles = std::size_t{1} << 13;  // a chunk
 constexpr std::size_t kSaddles = 128;                     // whose links are walked, a chunk
 
-/// Calls visit(lowest, middle, highest) for the triangles around v, of the surface and of its cap, of which
-/// it is the middle.
+/// Calls visit(lower, higher) for each change in the link of v on the capped surface.
 template <class Visit>
 void for_each_change(const core::ScalarField& field, Index v, const Visit& visit) {
   const core::TriangleMesh& mesh = field.mesh();
-  const auto note = [&](Index u, bool u_is_higher, Index w, bool w_is_higher) {
-    if (u_is_higher != w_is_higher) visit(u_is_higher ? w : u, v, u_is_higher ? u : w);
-  };
-  const bool boundary = mesh.is_boundary_vertex(v);
-  Index first = boundary ? mesh.vertex_count() + mesh.boundary_loop_of_vertex(v) : kNone;
-  bool first_is_higher = boundary;
-  Index previous = first;
-  bool previous_is_higher = boundary;
-  core::for_each_neighbor(mesh, v, [&](Index u) {
-    const bool is_higher = field.is_lower(v, u);
-    if (previous == kNone) {
-      first = u;
-      first_is_higher = is_higher;
-    } else {
-      note(previous, previous_is_higher, u, is_higher);
-    }
-    previous = u;
-    previous_is_higher = is_higher;
-  });
-  note(previous, previous_is_higher, first, first_is_higher);
+  core::for_each_link_pair(
+      mesh, v, [&](Index u) { return field.is_lower(u, v); },
+      [&](const core::LinkElement& a, const core::LinkElement& b) {
+        if (a.is_lower == b.is_lower) return;
+        const Index higher = a.is_lower ? b.vertex : a.vertex;
+        visit(a.is_lower ? a.vertex : b.vertex,
+              higher == kNone ? mesh.vertex_count() + mesh.boundary_loop_of_vertex(v) : higher);
+      });
 }
 
 /// Reserves an entry for each change of each saddle, in the order of the vertices.
@@ -103,9 +90,9 @@ LinkEnds link_ends(const core::ScalarField& field, std::span<const core::LinkCha
       for (std::size_t s = first; s < last; ++s) {
         const Index v = field.order()[saddles[s].rank];
         Index place = ends.offset[v];
-        for_each_change(field, v, [&](Index lowest, Index, Index highest) {
-          ends.lower[place] = lowest;
-          ends.higher[place++] = highest;
+        for_each_change(field, v, [&](Index lower, Index higher) {
+          ends.lower[place] = lower;
+          ends.higher[place++] = higher;
         });
       }
     });

@@ -39,57 +39,43 @@ void for_each_neighbor(const TriangleMesh& mesh, Index v, Visit&& visit) {
   if (h == kNone) detail::visit_neighbor(visit, apex, kNone);
 }
 
-/// The part of a link that satisfies a predicate, such as its lower part.
-struct LinkPart {
-  Index runs = 0;     ///< maximal runs around the vertex; 0 if the part is empty or the whole link
-  bool empty = true;  ///< no element of the link is in the part
-  bool whole = true;  ///< every element is
-
-  /// The kind of the vertex, if this is the lower part of its link.
-  VertexKind kind() const { return kind_of_link(runs, whole); }
+/// A neighbour in the link of a vertex, or the cap of the vertex's boundary loop.
+struct LinkElement {
+  Index vertex = kNone;   ///< kNone for the cap
+  bool is_lower = false;  ///< than the vertex; the cap is higher
 };
 
-/// Walks the link of v on the capped surface, a cycle: its neighbours, and at a boundary the loop's cap,
-/// which is in the part if `cap_inside`. Calls inside(u), or inside(u, h) as above, once for each neighbour
-/// u, and on_run(u) for one element of each run (u = kNone: the cap). O(degree).
-template <class Inside, class OnRun>
-LinkPart link_part(const TriangleMesh& mesh, Index v, bool cap_inside, Inside&& inside, OnRun&& on_run) {
-  LinkPart part;
-  const bool boundary = mesh.is_boundary_vertex(v);
-  bool previous = cap_inside;
-  bool first_inside = cap_inside;
-  Index first = kNone;
-  bool started = boundary;
-  const auto note = [&](bool is_inside) {
-    part.empty &= !is_inside;
-    part.whole &= is_inside;
-    previous = is_inside;
-  };
-  const auto enter = [&](Index u) {
-    ++part.runs;
-    on_run(u);
-  };
-  if (boundary) note(cap_inside);
+/// Calls visit(a, b) for each two consecutive elements of the link of v on the capped surface, a cycle:
+/// counter-clockwise, from the cap on at a boundary. is_lower(u), or is_lower(u, h) as above, says whether
+/// neighbour u is lower; it is called once for each neighbour in turn. O(degree).
+template <class IsLower, class Visit>
+void for_each_link_pair(const TriangleMesh& mesh, Index v, const IsLower& is_lower, const Visit& visit) {
+  LinkElement first;
+  LinkElement previous;
+  bool started = mesh.is_boundary_vertex(v);  // with the cap
   for_each_neighbor(mesh, v, [&](Index u, Index halfedge) {
-    const bool is_inside = detail::visit_neighbor(inside, u, halfedge);
-    if (!started) {
+    const LinkElement here{u, detail::visit_neighbor(is_lower, u, halfedge)};
+    if (started) {
+      visit(previous, here);
+    } else {
       started = true;
-      first = u;
-      first_inside = is_inside;
-    } else if (is_inside && !previous) {
-      enter(u);
+      first = here;
     }
-    note(is_inside);
+    previous = here;
   });
-  if (first_inside && !previous) enter(first);
-  return part;
+  visit(previous, first);
 }
 
-/// The kind of v, where is_lower(u), or is_lower(u, h) as in for_each_neighbor(), says whether neighbour u is
-/// lower; it is called once for each neighbour in turn. O(degree).
+/// The kind of v, by is_lower as above. The cap of a boundary loop is higher. O(degree).
 template <class IsLower>
 VertexKind vertex_kind(const TriangleMesh& mesh, Index v, const IsLower& is_lower) {
-  return link_part(mesh, v, /*cap_inside=*/false, is_lower, [](Index) {}).kind();
+  Index runs = 0;  // maximal runs of lower elements around v
+  bool whole = true;
+  for_each_link_pair(mesh, v, is_lower, [&](const LinkElement& a, const LinkElement& b) {
+    if (b.is_lower && !a.is_lower) ++runs;
+    whole &= b.is_lower;
+  });
+  return kind_of_link(runs, whole);
 }
 
 }  // namespace morsel::core

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,12 +34,20 @@ struct FunctionContext {
   Progress progress;
 };
 
+/// Traits of a Morse function.
+struct FunctionTraits {
+  /// It has values for the vertices of the mesh's file alone: none for vertices that are added to the
+  /// surface.
+  bool needs_input_vertices = false;
+};
+
 /// A Morse function: a way to make a scalar field from a mesh alone (and its file's vertex data). Immutable,
 /// may be evaluated from several threads at once.
 class MorseFunction {
  public:
   virtual ~MorseFunction() = default;
   virtual FunctionResult evaluate(const TriangleMesh& mesh, const FunctionContext& context) const = 0;
+  virtual FunctionTraits traits() const { return {}; }
 };
 
 /// The critical points of one of the fields that an iterative method passes through (the field's `total` is
@@ -54,6 +64,13 @@ struct IterationRecord {
   friend bool operator==(const IterationRecord&, const IterationRecord&) = default;
 };
 
+/// How many iterations a method ran, and what ended them.
+struct IterationEnd {
+  std::int64_t iterations_run = 0;
+  std::string
+      stopped_by;  ///< "iterations", the key of another condition, or "caller": MethodContext's callback
+};
+
 /// A field, the parameters as resolved on this mesh, and further details of the run
 /// ("iterations_run": 7).
 struct MethodResult {
@@ -61,7 +78,10 @@ struct MethodResult {
   Parameters parameters;
   Parameters details;
   std::vector<IterationRecord> iterations = {};  ///< from the input on, where they were counted
-  std::vector<std::string> warnings = {};        ///< what the method could not do here, a sentence each
+  std::optional<IterationEnd> end = {};          ///< of a method that iterates
+  /// The standard deviation of the weight of distances, in the mesh's unit, of a method that averages by one.
+  std::optional<double> sigma = {};
+  std::vector<std::string> warnings = {};  ///< what the method could not do here, a sentence each
 };
 
 /// A callback for the iterations of an iterative method, and the choice of those for which it is called.
@@ -105,15 +125,23 @@ struct MethodContext {
   IterationCallback on_iteration = {};
 };
 
+/// The key of every method that iterates: how many iterations at most. 0 returns the input.
+inline constexpr std::string_view kIterationsKey = "iterations";
+
 /// Traits of a method, for composing methods.
 struct MethodTraits {
   /// It removes critical points pair by pair: a run that cancels fewer of them is the same method.
   bool cancels_pairs = false;
   /// It evaluates the Morse function again whatever its input: no method can come before it in a chain.
   bool reevaluates_function = false;
-  /// The field that MethodContext::on_iteration receives for iteration i is, bit for bit, what this method
-  /// returns with `iterations=i`: so one run gives the results for all smaller numbers.
+  /// It has the key kIterationsKey, and passes the fields of its iterations to MethodContext::on_iteration.
+  bool iterates = false;
+  /// It iterates, and the field that MethodContext::on_iteration receives for iteration i is, bit for bit,
+  /// what this method returns with `iterations=i`: so one run gives the results for all smaller numbers.
   bool iterates_are_results = false;
+  /// What its values are ("saliency") if they are not of the input's quantity but a number without a unit;
+  /// otherwise empty.
+  std::string quantity = {};
   /// It does not return the field of its last iteration but another one, computed during the iterations.
   bool returns_other = false;
 };

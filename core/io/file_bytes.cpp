@@ -6,37 +6,51 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 
+#include "morsel/core/error.h"
 #include "morsel/core/parallel/exhaustion.h"
-#include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
 namespace {
 
-[[noreturn]] void fail(const std::string& name, int error) {
-  fail_to_read(error, "cannot read \"" + name + "\"");
+struct Descriptor {
+  const int number;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+/// The size of an open file; of one that could not be opened, errno says why.
+std::size_t size_of(const Descriptor& file, const std::string& what) {
+  struct stat status {};
+  if (file.number < 0 || ::fstat(file.number, &status) != 0) fail_to_read(errno, what);
+  if (S_ISDIR(status.st_mode)) throw BadInput(what + ": it is a directory");
+  if (!S_ISREG(status.st_mode)) throw BadInput(what + ": it is not a regular file");
+  return static_cast<std::size_t>(status.st_size);
+}
+
+/// Without waiting for the other end of a pipe.
+int open_to_read(const std::filesystem::path& path) {
+  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
 }
 
 }  // namespace
 
+void check_regular_file(const std::filesystem::path& path, const std::string& what) {
+  const Descriptor file{open_to_read(path)};
+  static_cast<void>(size_of(file, what));
+}
+
 FileBytes::FileBytes(const std::filesystem::path& path, const std::string& name) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) fail(name, errno);
-  const struct Closer {
-    int file;
-    ~Closer() { ::close(file); }
-  } closer{file};
-  struct stat status {};
-  if (::fstat(file, &status) != 0) fail(name, errno);
-  if (S_ISDIR(status.st_mode)) fail_reading(name, "it is a directory");
-  if (!S_ISREG(status.st_mode)) fail_reading(name, "it is not a regular file");
-  const auto size = static_cast<std::size_t>(status.st_size);
+  const std::string what = "cannot read \"" + name + "\"";
+  const Descriptor file{open_to_read(path)};
+  const std::size_t size = size_of(file, what);
   bytes_ = std::make_unique_for_overwrite<char[]>(size);
   while (size_ < size) {
-    const ssize_t got = ::read(file, bytes_.get() + size_, std::min<std::size_t>(size - size_, 1 << 28));
+    const ssize_t got =
+        ::read(file.number, bytes_.get() + size_, std::min<std::size_t>(size - size_, 1 << 28));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(name, errno);
+    if (got < 0) fail_to_read(errno, what);
     if (got == 0) break;
     size_ += static_cast<std::size_t>(got);
   }

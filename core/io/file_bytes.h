@@ -9,6 +9,10 @@
 
 namespace morsel::core {
 
+/// Throws BadInput, which begins with `what`, if the file is missing, unreadable or not a regular file: of a
+/// pipe, opening it or reading its bytes can take for ever.
+void check_regular_file(const std::filesystem::path& path, const std::string& what);
+
 /// All bytes of a file. Read, not mapped: a mapped file that is truncated while it is parsed ends the program
 /// (SIGBUS).
 class FileBytes {

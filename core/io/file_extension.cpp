@@ -1,6 +1,10 @@
 #include "morsel/core/io/file_extension.h"
 
 #include <algorithm>
+#include <vector>
+
+#include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 
 namespace morsel::core {
 
@@ -8,6 +12,16 @@ std::string file_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+std::string checked_extension(const std::filesystem::path& path, std::string_view what,
+                              std::initializer_list<std::string_view> allowed) {
+  std::string extension = file_extension(path);
+  if (std::ranges::find(allowed, extension) == allowed.end())
+    throw InvalidArgument(std::string(what) + " to " +
+                          listed(std::vector<std::string>(allowed.begin(), allowed.end()), " or ") +
+                          ", not to \"" + path.string() + "\"");
   return extension;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/links.h"
 #include "morsel/core/io/made_folders.h"
 #include "morsel/core/io/temporary_file.h"
 #include "morsel/core/text/numbers.h"
@@ -34,18 +35,10 @@ constexpr std::size_t kBufferSize = std::size_t{1} << 18;
   fail(path, std::generic_category().message(error));
 }
 
-/// The file that a chain of symbolic links ends at, which need not exist.
-fs::path followed(fs::path path) {
-  std::error_code error;
-  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
-    path = path.parent_path() / fs::read_symlink(path);
-  return path;
-}
-
 }  // namespace
 
 struct FileWriter::Output {
-  Output(const fs::path& target, Sync sync);
+  Output(const FileTarget& file_target, Sync sync);
   ~Output() {
     if (device >= 0) ::close(device);
     temporary.discard();
@@ -69,6 +62,7 @@ struct FileWriter::Output {
   void flush() { write_out(buffer.data(), std::exchange(used, 0)); }
   void write_out(const char* data, std::size_t size);
   void commit();
+  int publish();
   void open_temporary(const fs::path& target);
   int file() const { return device >= 0 ? device : temporary.descriptor(); }
 
@@ -88,8 +82,10 @@ struct FileWriter::Output {
   };
 
   fs::path shown;  // as the caller named it
+  std::function<void(int)> before_appearing;
   TemporaryFile temporary;
   int device = -1;   // written to instead, if there is one
+  fs::path folder;   // of the target
   MadeFolders made;  // removed without commit()
   bool synced = false;
   std::vector<char> buffer;
@@ -98,7 +94,9 @@ struct FileWriter::Output {
   std::ostream stream{&stream_buffer};
 };
 
-FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), buffer(kBufferSize) {
+FileWriter::Output::Output(const FileTarget& file_target, Sync sync)
+    : shown(file_target.path), before_appearing(file_target.before_appearing), buffer(kBufferSize) {
+  const fs::path& target = shown;
   if (!target.has_filename()) fail(shown, "that is not the name of a file");
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -119,8 +117,14 @@ FileWriter::Output::Output(const fs::path& target, Sync sync) : shown(target), b
 }
 
 void FileWriter::Output::open_temporary(const fs::path& target) {
-  static_cast<void>(made.make(target.parent_path()));  // if this fails, open() reports the reason
-  if (const int error = temporary.open(target); error != 0) {
+  constexpr int kTries = 3;  // another run may remove the folder that it made, too
+  folder = target.parent_path();
+  int error = ENOENT;
+  for (int i = 0; i < kTries && error == ENOENT; ++i) {
+    static_cast<void>(made.make(folder));  // if this fails, open() reports the reason
+    error = temporary.open(target);
+  }
+  if (error != 0) {
     made.remove();
     fail(shown, error);
   }
@@ -138,19 +142,28 @@ void FileWriter::Output::write_out(const char* data, std::size_t size) {
   }
 }
 
+/// A file without a name does not keep its folder: another run that made the folder may have removed it.
+int FileWriter::Output::publish() {
+  const int error = temporary.publish(synced);
+  if (error != ENOENT || made.make(folder)) return error;
+  return temporary.publish(synced);
+}
+
 void FileWriter::Output::commit() {
   if (file() < 0) return;
   flush();
+  if (device < 0 && before_appearing) before_appearing(temporary.descriptor());
   int error = 0;
   if (device < 0)
-    error = temporary.publish(synced);
+    error = publish();
   else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
     error = errno;
   if (error != 0) fail(shown, error);
   made.keep();
 }
 
-FileWriter::FileWriter(const fs::path& path, Sync sync) : output_(std::make_unique<Output>(path, sync)) {}
+FileWriter::FileWriter(const FileTarget& target, Sync sync)
+    : output_(std::make_unique<Output>(target, sync)) {}
 
 FileWriter::~FileWriter() = default;
 
@@ -168,8 +181,8 @@ std::ostream& FileWriter::stream() { return output_->stream; }
 
 void FileWriter::commit() { output_->commit(); }
 
-void write_file(const fs::path& path, std::string_view contents, Sync sync) {
-  FileWriter writer(path, sync);
+void write_file(const FileTarget& target, std::string_view contents, Sync sync) {
+  FileWriter writer(target, sync);
   writer.write(contents);
   writer.commit();
 }

@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <ostream>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace morsel::core {
 
@@ -15,6 +18,19 @@ namespace morsel::core {
 enum class Sync {
   when_replacing,  ///< so that a power failure never takes both the old file and the new
   never            ///< for large files that are easily made again
+};
+
+/// Where a file is to be written: made from a path.
+struct FileTarget {
+  FileTarget(std::filesystem::path target, std::function<void(int)> before = {})
+      : path(std::move(target)), before_appearing(std::move(before)) {}
+  FileTarget(const std::string& target) : path(target) {}
+  FileTarget(const char* target) : path(target) {}
+
+  std::filesystem::path path;
+  /// Is called with the descriptor of the complete file before it appears; if it throws, the file does not
+  /// appear. Not called for a device or pipe.
+  std::function<void(int)> before_appearing;
 };
 
 /// Writes to a file without a name in the target's folder (temporary_file.h); commit() makes it the target.
@@ -26,7 +42,7 @@ enum class Sync {
 /// All functions throw WriteFailed with the path and the system's reason. Buffered; not thread-safe.
 class FileWriter {
  public:
-  explicit FileWriter(const std::filesystem::path& path, Sync sync = Sync::when_replacing);
+  explicit FileWriter(const FileTarget& target, Sync sync = Sync::when_replacing);
   ~FileWriter();
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
@@ -49,7 +65,6 @@ class FileWriter {
 };
 
 /// A whole file at once.
-void write_file(const std::filesystem::path& path, std::string_view contents,
-                Sync sync = Sync::when_replacing);
+void write_file(const FileTarget& target, std::string_view contents, Sync sync = Sync::when_replacing);
 
 }  // namespace morsel::core

@@ -14,7 +14,7 @@ class MadeFolders {
   std::error_code make(const std::filesystem::path& folder);
   /// Keeps what was made.
   void keep() noexcept { made_.clear(); }
-  /// Removes what was made, from the inside out, until one is not empty.
+  /// Removes what was made, from the inside out, as far as it is empty.
   void remove() noexcept;
 
  private:

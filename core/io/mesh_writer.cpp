@@ -75,9 +75,9 @@ void declare(FileWriter& writer, std::span<const PropertyView> properties) {
 
 }  // namespace
 
-void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, Comments comments,
+void write_off(const FileTarget& target, const TriangleMesh& mesh, Comments comments,
                const Progress& progress) {
-  FileWriter writer(path);
+  FileWriter writer(target);
   writer.write("OFF\n");
   write_comments(writer, "# ", comments);
   writer.write_number(std::uint64_t{mesh.vertex_count()});

@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/mesh/mesh.h"
 #include "morsel/core/parallel/progress.h"
@@ -23,7 +24,7 @@ using Comments = std::span<const std::string>;
 
 /// Text, with as many digits as reading back the same doubles takes. The file is written whole or not at all
 /// (file_writer.h). Throws WriteFailed.
-void write_off(const std::filesystem::path& path, const TriangleMesh& mesh, Comments comments = {},
+void write_off(const FileTarget& target, const TriangleMesh& mesh, Comments comments = {},
                const Progress& progress = {});
 
 /// A named array for a file's vertices or faces, one value for each; refers to the caller's data. Numbers

@@ -1,158 +1,20 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <set>
 #include <string>
-#include <type_traits>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/io/ply_header.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
+namespace ply {
 namespace {
-
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-struct TypeName {
-  std::string_view name;
-  Type type;
-};
-constexpr std::array<TypeName, 16> kTypes = {{{"char", Type::int8},
-                                              {"uchar", Type::uint8},
-                                              {"short", Type::int16},
-                                              {"ushort", Type::uint16},
-                                              {"int", Type::int32},
-                                              {"uint", Type::uint32},
-                                              {"float", Type::float32},
-                                              {"double", Type::float64},
-                                              {"int8", Type::int8},
-                                              {"uint8", Type::uint8},
-                                              {"int16", Type::int16},
-                                              {"uint16", Type::uint16},
-                                              {"int32", Type::int32},
-                                              {"uint32", Type::uint32},
-                                              {"float32", Type::float32},
-                                              {"float64", Type::float64}}};
-
-std::size_t size_of(Type type) {
-  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
-}
-
-bool is_whole(Type type) { return type != Type::float32 && type != Type::float64; }
-
-struct Property {
-  std::string name;
-  Type type = Type::float32;
-  bool is_list = false;
-  Type count_type = Type::uint8;
-};
-
-struct Element {
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<Property> properties;
-
-  std::string plural() const { return name == "vertex" ? "vertices" : name + "s"; }
-};
-
-enum class Encoding { ascii, little_endian, big_endian };
-
-struct Header {
-  Encoding encoding = Encoding::ascii;
-  std::vector<Element> elements;
-};
-
-/// Reads the header's lines; `scanner` stands at the end of its last one afterwards.
-class HeaderReader {
- public:
-  explicit HeaderReader(TextScanner& scanner) : scanner_(scanner) {}
-
-  Header read() {
-    if (!scanner_.next_raw_line() || scanner_.word() != "ply" || !scanner_.at_line_end())
-      scanner_.fail("a PLY file begins with a line \"ply\"");
-    for (;;) {
-      if (!scanner_.next_line()) scanner_.fail_at_end("within its header");
-      const std::string_view keyword = scanner_.word();
-      if (keyword == "comment" || keyword == "obj_info") continue;
-      if (keyword == "end_header") break;
-      if (keyword == "format")
-        read_format();
-      else if (keyword == "element")
-        read_element();
-      else if (keyword == "property")
-        read_property();
-      else
-        scanner_.fail("a PLY header has no line " + shown(keyword));
-      if (!scanner_.at_line_end()) scanner_.fail("this header line has more words than it should");
-    }
-    if (!has_format_) scanner_.fail("the header has no format line");
-    return std::move(header_);
-  }
-
- private:
-  void read_format() {
-    const std::string_view word = scanner_.word();
-    if (word == "ascii")
-      header_.encoding = Encoding::ascii;
-    else if (word == "binary_little_endian")
-      header_.encoding = Encoding::little_endian;
-    else if (word == "binary_big_endian")
-      header_.encoding = Encoding::big_endian;
-    else
-      scanner_.fail("unknown format " + shown(word));
-    if (has_format_) scanner_.fail("the header has two format lines");
-    has_format_ = true;
-    const std::string_view version = scanner_.word();
-    if (version != "1.0") scanner_.fail("unknown version " + shown(version) + " of the format");
-  }
-
-  void read_element() {
-    Element element;
-    element.name = scanner_.word();
-    const std::int64_t count = scanner_.integer("the number of elements");
-    if (count < 0) scanner_.fail("the number of elements is " + std::to_string(count));
-    element.count = static_cast<std::uint64_t>(count);
-    if (!element_names_.insert(element.name).second)
-      scanner_.fail("element " + shown(element.name) + " is declared twice");
-    header_.elements.push_back(std::move(element));
-    property_names_.clear();
-  }
-
-  void read_property() {
-    if (header_.elements.empty()) scanner_.fail("a property before any element");
-    Property property;
-    std::string_view word = scanner_.word();
-    property.is_list = word == "list";
-    if (property.is_list) {
-      property.count_type = type(scanner_.word());
-      if (!is_whole(property.count_type)) scanner_.fail("the length of a list must have a whole type");
-      word = scanner_.word();
-    }
-    property.type = type(word);
-    property.name = scanner_.word();
-    if (property.name.empty()) scanner_.fail("a property without a name");
-    if (!property_names_.insert(property.name).second)
-      scanner_.fail("property " + shown(property.name) + " is declared twice");
-    header_.elements.back().properties.push_back(std::move(property));
-  }
-
-  Type type(std::string_view name) {
-    for (const TypeName& entry : kTypes)
-      if (entry.name == name) return entry.type;
-    scanner_.fail("unknown type " + shown(name));
-  }
-
-  TextScanner& scanner_;
-  Header header_;
-  std::set<std::string> element_names_;
-  std::set<std::string> property_names_;  // of the last element
-  bool has_format_ = false;
-};
 
 /// Values of a text body: one element a line.
 class TextBody {
@@ -384,7 +246,7 @@ class BodyReader {
     for (std::uint64_t f = 0; f < element.count; ++f) {
       body_.begin(element, f);
       for (const Property& p : element.properties) {
-        if (!p.is_list || (p.name != "vertex_indices" && p.name != "vertex_index")) {
+        if (!is_corner_list(p)) {
           skip(p);
           continue;
         }
@@ -414,32 +276,8 @@ class BodyReader {
   LoadedSoup result_;
 };
 
-/// Refuses headers that describe no mesh.
-void check(const Header& header, const std::string& file) {
-  bool has_vertices = false;
-  for (const Element& element : header.elements) {
-    if (element.name == "vertex") {
-      has_vertices = true;
-      if (element.count >= kNone) fail_reading(file, "it has more vertices than can be numbered");
-      for (const char* axis : {"x", "y", "z"})
-        if (std::none_of(element.properties.begin(), element.properties.end(),
-                         [&](const Property& p) { return !p.is_list && p.name == axis; }))
-          fail_reading(file, std::string("its vertices have no property ") + axis);
-    }
-    if (element.name == "face" && element.count > 0) {
-      const auto lists =
-          std::count_if(element.properties.begin(), element.properties.end(), [](const Property& p) {
-            return p.is_list && is_whole(p.type) && (p.name == "vertex_indices" || p.name == "vertex_index");
-          });
-      if (lists != 1) fail_reading(file, "its faces need one list of whole numbers called vertex_indices");
-    }
-    if (element.name == "tristrips" && element.count > 0)
-      fail_reading(file, "it holds triangle strips, which are not supported: export it as triangles");
-  }
-  if (!has_vertices) fail_reading(file, "its header declares no vertices");
-}
-
 }  // namespace
+}  // namespace ply
 
 LoadedSoup read_ply(std::string_view bytes, const std::string& file, const Progress& progress) {
   if (bytes.empty()) fail_reading(file, "it is empty");
@@ -449,16 +287,15 @@ LoadedSoup read_ply(std::string_view bytes, const std::string& file, const Progr
                        (first + 1 == bytes.size() || bytes[first + 1] != '\n');
   TextScanner scanner(bytes, file, {.comment = 0, .continuation = false, .terminator = old_mac ? '\r' : '\n'},
                       progress);
-  const Header header = HeaderReader(scanner).read();
-  check(header, file);
+  const ply::Header header = ply::read_header(scanner, file);
   constexpr bool kLittle = std::endian::native == std::endian::little;
   switch (header.encoding) {
-    case Encoding::ascii:
-      return BodyReader(header, TextBody(scanner, file, progress)).read();
-    case Encoding::little_endian:
-      return BodyReader(header, BinaryBody<!kLittle>(scanner, file, progress)).read();
+    case ply::Encoding::ascii:
+      return ply::BodyReader(header, ply::TextBody(scanner, file, progress)).read();
+    case ply::Encoding::little_endian:
+      return ply::BodyReader(header, ply::BinaryBody<!kLittle>(scanner, file, progress)).read();
     default:
-      return BodyReader(header, BinaryBody<kLittle>(scanner, file, progress)).read();
+      return ply::BodyReader(header, ply::BinaryBody<kLittle>(scanner, file, progress)).read();
   }
 }
 

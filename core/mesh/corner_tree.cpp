@@ -170,7 +170,8 @@ void CornerTree::remove(std::size_t corner) {
   for (std::size_t k = 0; k < trees_.size(); ++k)
     for (Index n = site.leaf[k]; n != kNone; n = trees_[k].nodes[n].parent) --trees_[k].nodes[n].count;
   --left_;
-  if (2 * left_ < trees_[0].order.size() && trees_[0].order.size() > 8 * kLeaf) build();  // tighter boxes
+  if (2 * left_ < trees_[0].order.size() && trees_[0].order.size() > 8 * std::size_t{kLeaf})
+    build();  // tighter boxes
 }
 
 bool CornerTree::any_in(std::size_t a, std::size_t b, std::size_t c, std::uint64_t& tests) {

@@ -231,14 +231,14 @@ std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std:
     return std::any_of(defects.begin(), defects.end(), [&](const Defect& d) { return d.kind == kind; });
   };
   std::vector<std::string> found;
-  std::vector<std::string> mends;
+  std::vector<std::string> fixes;
   std::vector<std::string> lasting;
   for (const Defect& d : defects) {
     found.push_back(describe(d));
     if (!words(d.kind).lasting.empty()) lasting.emplace_back(words(d.kind).lasting);
     // Orienting other components does not help while one cannot be oriented.
     if (d.kind == DefectKind::inconsistent_orientation && has(DefectKind::non_orientable)) continue;
-    if (!repair_of(d.kind).empty()) mends.emplace_back(repair_of(d.kind));
+    if (!repair_of(d.kind).empty()) fixes.emplace_back(repair_of(d.kind));
   }
   std::string text = std::string(subject) + " cannot be used: " + (repair_tried ? "after repair it " : "it ");
   text += repair_tried && !has(DefectKind::empty) ? "still has " : "has ";
@@ -247,10 +247,10 @@ std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std:
   // Repair removes a vertex with a non-finite coordinate if no face uses it, which is not known here.
   const bool may_go = has(DefectKind::unreferenced_vertex) && has(DefectKind::non_finite_position);
   if (lasting.empty() || (may_go && lasting.size() == 1)) {
-    text += "; repair (--repair) would mend this by " + listed(mends, " and ");
+    text += "; repair (--repair) would fix this by " + listed(fixes, " and ");
     if (may_go) text += ", if no face uses the vertices with non-finite coordinates";
   } else {
-    text += "; repair cannot mend " + listed(lasting, " and ");
+    text += "; repair cannot fix " + listed(lasting, " and ");
   }
   return text;
 }

@@ -9,7 +9,7 @@
 #include "morsel/core/error.h"
 
 namespace morsel::core {
-namespace {
+namespace detail {
 
 /// The points as nanoflann's data set, scaled by a power of two so that squares stay in range. Such a
 /// scaling changes no digit (unless the points span 300 orders of magnitude), so distances compare as the
@@ -24,6 +24,13 @@ struct Cloud {
     return false;
   }
 };
+using KdTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, Index>;
+
+}  // namespace detail
+namespace {
+
+using detail::Cloud;
 
 /// Takes what nanoflann finds within a slightly wider radius (its own test is strict, and on squared
 /// distances) and keeps what is within the true one.
@@ -86,9 +93,6 @@ class Nearest {
   std::vector<double> distances_;  // a heap, the largest first
 };
 
-using KdTree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, Index>;
-
 Cloud scaled(std::span<const Point> points, int exponent) {
   Cloud cloud;
   cloud.points.assign(points.begin(), points.end());
@@ -120,8 +124,8 @@ struct PointSearch::Tree {
       : exponent(exponent_of(points)), cloud(scaled(points, exponent)), index(3, cloud) {}
 
   int exponent;
-  Cloud cloud;
-  KdTree index;
+  detail::Cloud cloud;
+  detail::KdTree index;
 };
 
 PointSearch::PointSearch(std::span<const Point> points) : tree_(std::make_shared<const Tree>(points)) {}

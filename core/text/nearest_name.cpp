@@ -55,4 +55,9 @@ std::string nearest_of(std::string_view word, std::span<const std::string> candi
   return hint + (hint.empty() ? "; " : " ") + lead + ": " + listed(candidates);
 }
 
+std::string must_be_one_of(std::span<const std::string> choices, std::string_view word) {
+  return "must be " + listed(choices, " or ") + ", not \"" + std::string(word) + "\"" +
+         nearest_hint(word, choices);
+}
+
 }  // namespace morsel::core

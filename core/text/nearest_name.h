@@ -18,4 +18,7 @@ std::string nearest_hint(std::string_view word, std::span<const std::string> can
 /// `listed` is "there are".
 std::string nearest_of(std::string_view word, std::span<const std::string> candidates, std::string lead);
 
+/// What is wrong with a word that is none of `choices`: "must be a, b or c, not "WORD"", with nearest_hint().
+std::string must_be_one_of(std::span<const std::string> choices, std::string_view word);
+
 }  // namespace morsel::core

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/nearest_name.h"
 
 namespace morsel::core {
@@ -79,10 +80,20 @@ Length parse_length(std::string_view text, std::string_view what) {
 
 ParameterReader::ParameterReader(Specification specification) : specification_(std::move(specification)) {}
 
+ParameterReader ParameterReader::of_options(Specification specification) {
+  ParameterReader reader(std::move(specification));
+  reader.are_options_ = true;
+  return reader;
+}
+
 ParameterReader ParameterReader::for_help(std::string name) {
   ParameterReader reader(Specification{std::move(name), {}});
   reader.for_help_ = true;
   return reader;
+}
+
+std::string ParameterReader::shown(std::string_view key) const {
+  return (are_options_ ? "--" : owner() + ":") + std::string(key);
 }
 
 const std::string* ParameterReader::declare(std::string_view key, std::string default_text,
@@ -104,7 +115,7 @@ double ParameterReader::number(std::string_view key, double default_value, Range
                                std::string_view description) {
   const std::string* text = declare(key, shortest(default_value), description);
   if (text == nullptr) return default_value;
-  const std::string what = owner() + ":" + std::string(key);
+  const std::string what = shown(key);
   const double value = parse_number(*text, what);
   check_range(value, range, what);
   return value;
@@ -114,7 +125,7 @@ std::int64_t ParameterReader::count(std::string_view key, std::int64_t default_v
                                     std::int64_t max, std::string_view description) {
   const std::string* text = declare(key, std::to_string(default_value), description);
   if (text == nullptr) return default_value;
-  const std::string what = owner() + ":" + std::string(key);
+  const std::string what = shown(key);
   const std::int64_t value = parse_integer(*text, what);
   if (value < min || value > max)
     throw InvalidArgument(what + " must be between " + std::to_string(min) + " and " + std::to_string(max) +
@@ -126,7 +137,7 @@ Length ParameterReader::length(std::string_view key, Length default_value, Range
                                std::string_view description) {
   const std::string* text = declare(key, to_string(default_value), description);
   if (text == nullptr) return default_value;
-  const std::string what = owner() + ":" + std::string(key);
+  const std::string what = shown(key);
   const Length value = parse_length(*text, what);
   check_range(value.value, range, what);
   return value;
@@ -139,14 +150,12 @@ bool ParameterReader::flag(std::string_view key, bool default_value, std::string
 std::string ParameterReader::choice(std::string_view key, std::string_view default_value,
                                     const std::vector<std::string_view>& choices,
                                     std::string_view description) {
-  std::string allowed;
-  for (const std::string_view c : choices) allowed += (allowed.empty() ? "" : ", ") + std::string(c);
+  const std::vector<std::string> allowed(choices.begin(), choices.end());
   const std::string* text =
-      declare(key, std::string(default_value), std::string(description) + " [" + allowed + "]");
+      declare(key, std::string(default_value), std::string(description) + " [" + listed(allowed) + "]");
   if (text == nullptr) return std::string(default_value);
   if (std::find(choices.begin(), choices.end(), *text) != choices.end()) return *text;
-  throw InvalidArgument(owner() + ":" + std::string(key) + " must be one of " + allowed + ", not " +
-                        in_quotes(*text));
+  throw InvalidArgument(shown(key) + " " + must_be_one_of(allowed, *text));
 }
 
 std::string ParameterReader::text(std::string_view key, const char* default_value,
@@ -155,6 +164,13 @@ std::string ParameterReader::text(std::string_view key, const char* default_valu
   const std::string fallback = required ? "" : default_value;
   const std::string* text = declare(key, fallback, description, required);
   return text == nullptr ? fallback : unescape(*text);
+}
+
+std::string ParameterReader::file(std::string_view key, const char* default_value,
+                                  std::string_view description) {
+  std::string path = text(key, default_value, description);
+  if (!path.empty()) files_.push_back({std::string(key), path});
+  return path;
 }
 
 std::vector<std::string> ParameterReader::list(std::string_view key, const char* default_value,
@@ -179,8 +195,7 @@ void ParameterReader::finish() const {
                             (valid.empty() ? "; it takes none" : nearest_of(key, valid, "it takes")));
     }
     for (std::size_t j = 0; j < i; ++j)
-      if (specification_.given[j].first == key)
-        throw InvalidArgument(owner() + ":" + key + " is given twice");
+      if (specification_.given[j].first == key) throw InvalidArgument(shown(key) + " is given twice");
   }
 }
 

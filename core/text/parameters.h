@@ -29,6 +29,12 @@ struct ParameterInfo {
   std::string description;
 };
 
+/// A file that a key names, to be read besides the mesh's.
+struct FileParameter {
+  std::string key;
+  std::string path;
+};
+
 /// Inclusive or exclusive lower bound and inclusive upper bound of a number.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
@@ -56,6 +62,9 @@ class ParameterReader {
                      const std::vector<std::string_view>& choices, std::string_view description);
   /// Free text; a null default makes the key mandatory.
   std::string text(std::string_view key, const char* default_value, std::string_view description);
+  /// The path of a file that is going to be read, as text(); files() then lists it, so that reports hash it
+  /// and no output may overwrite it.
+  std::string file(std::string_view key, const char* default_value, std::string_view description);
   /// Texts separated by "/"; the default is given in the same form, null makes the key mandatory.
   std::vector<std::string> list(std::string_view key, const char* default_value,
                                 std::string_view description);
@@ -67,17 +76,27 @@ class ParameterReader {
 
   const std::string& owner() const { return specification_.name; }
   const std::vector<ParameterInfo>& declared() const { return declared_; }
+  /// The files that file() has returned, but for empty paths.
+  const std::vector<FileParameter>& files() const { return files_; }
 
   /// A reader that returns defaults (and empty text for mandatory keys), to list the declared keys.
   static ParameterReader for_help(std::string name);
+  /// A reader of keys that are options of a command: errors name them as such, "--model" for
+  /// "molecule:model".
+  static ParameterReader of_options(Specification specification);
 
  private:
   const std::string* declare(std::string_view key, std::string default_text, std::string_view description,
                              bool required = false);
 
+  /// A key as errors name it.
+  std::string shown(std::string_view key) const;
+
   Specification specification_;
   std::vector<ParameterInfo> declared_;
+  std::vector<FileParameter> files_;
   bool for_help_ = false;
+  bool are_options_ = false;
 };
 
 /// The whole text as a finite number ("1e-3", "-2"); throws InvalidArgument naming `what` otherwise.

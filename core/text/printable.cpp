@@ -1,5 +1,6 @@
 #include "morsel/core/text/printable.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -49,23 +50,43 @@ std::string escaped(std::uint32_t code) {
   return escaped(code < 0x80 ? "\\x%02x" : "\\u%04x", code);
 }
 
-}  // namespace
-
-std::string printable(std::string_view text, std::string_view but) {
+/// The text with what is not shown as escape(code) and bytes that are not UTF-8 as escape_byte(byte); control
+/// characters in `but` stay.
+template <class Escape, class EscapeByte>
+std::string with_escapes(std::string_view text, std::string_view but, const Escape& escape,
+                         const EscapeByte& escape_byte) {
   std::string shown;
   shown.reserve(text.size());
   while (!text.empty()) {
     const Character first = first_character(text);
     const std::size_t size = first.size == 0 ? 1 : first.size;
     if (first.size == 0)
-      shown += escaped("\\x%02x", static_cast<unsigned char>(text.front()));
+      shown += escape_byte(text.front());
     else if (is_shown(first.code) || but.find(text.front()) != std::string_view::npos)
       shown += text.substr(0, size);
     else
-      shown += escaped(first.code);
+      shown += escape(first.code);
     text.remove_prefix(size);
   }
   return shown;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::string_view but) {
+  return with_escapes(
+      text, but, [](std::uint32_t code) { return escaped(code); },
+      [](char byte) { return escaped("\\x%02x", static_cast<unsigned char>(byte)); });
+}
+
+std::string json_printable(std::string text, std::string_view but) {
+  const auto stays = [but](char c) {
+    return (c >= ' ' && c <= '~') || but.find(c) != std::string_view::npos;
+  };
+  if (std::all_of(text.begin(), text.end(), stays)) return text;
+  return with_escapes(
+      text, but, [](std::uint32_t code) { return escaped("\\u%04x", code); },
+      [](char byte) { return std::string(1, byte); });
 }
 
 }  // namespace morsel::core

@@ -12,4 +12,9 @@ namespace morsel::core {
 /// stays, backslashes too, so the result cannot be parsed back. Control characters in `but` stay as well.
 std::string printable(std::string_view text, std::string_view but = {});
 
+/// JSON text, or a part of a JSON string, with the characters that printable() escapes as \u009b, which is
+/// the same string for a parser. Bytes that are not UTF-8, which JSON cannot escape, stay, and so do control
+/// characters in `but`. Copies ASCII text without control characters at once.
+std::string json_printable(std::string text, std::string_view but = {});
+
 }  // namespace morsel::core

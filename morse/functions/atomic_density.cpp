@@ -110,7 +110,7 @@ core::ScalarField atomic_density(const core::TriangleMesh& mesh, std::span<const
 
 std::unique_ptr<core::MorseFunction> make_atomic_density(core::ParameterReader& reader) {
   const std::filesystem::path structure =
-      reader.text("structure", nullptr, "the molecule of the surface: a .pdb, .ent, .cif or .mmcif file");
+      reader.file("structure", nullptr, "the molecule of the surface: a .pdb, .ent, .cif or .mmcif file");
   AtomicDensityOptions options;
   options.decay = reader.number("decay", options.decay, core::kPositive,
                                 "D of the sum of exp(-D d²/r²) over the atoms, r their van der Waals radii");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/file_bytes.h"
 #include "morsel/core/parallel/exhaustion.h"
 #include "morsel/core/text/text_scanner.h"
 
@@ -26,12 +27,11 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 ValueFile ValueFile::read(const std::filesystem::path& path, const core::Progress& progress) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw BadInput("cannot read values from " + path.string() + ": it is a folder");
+  const std::string what = "cannot read values from " + path.string();
+  core::check_regular_file(path, what);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) core::fail_to_read(errno, "cannot read values from " + path.string());
+  if (!stream) core::fail_to_read(errno, what);
   return {stream, path.string(), progress};
 }
 

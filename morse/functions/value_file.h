@@ -19,7 +19,7 @@ class ValueFile {
  public:
   /// Throws BadInput, naming the file as `name`, the line and its text, if a line is not one number.
   ValueFile(std::istream& stream, std::string name, const core::Progress& progress);
-  /// Throws BadInput also if the file is missing or unreadable.
+  /// Throws BadInput also if the file is missing, unreadable or not a regular file.
   static ValueFile read(const std::filesystem::path& path, const core::Progress& progress);
 
   std::span<const double> values() const { return values_; }

@@ -72,6 +72,7 @@ class VertexScalar final : public core::MorseFunction {
       parameters.emplace_back("file", options_.file.string());
     return {vertex_scalar(mesh, context.source, options_, context.progress), std::move(parameters)};
   }
+  core::FunctionTraits traits() const override { return {.needs_input_vertices = true}; }
 
  private:
   VertexScalarOptions options_;
@@ -99,7 +100,7 @@ std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& r
   const bool by_property = reader.given("property");
   VertexScalarOptions options;
   options.file =
-      reader.text("file", by_property ? "" : nullptr,
+      reader.file("file", by_property ? "" : nullptr,
                   "a text file with a value a line for each vertex of the mesh's file, or else a property");
   options.property = reader.text("property", "", "a scalar property of the vertices in the mesh's PLY file");
   const bool by_file = reader.given("file");

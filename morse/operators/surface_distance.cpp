@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
 #include "morsel/morse/operators/edge_lengths.h"
 #include "morsel/morse/operators/unit_size.h"
 
@@ -97,6 +98,34 @@ std::vector<double> SurfaceDistances::to_nearest_other(std::span<const Index> ve
   return result;
 }
 
+std::vector<Index> SurfaceDistances::farthest_points(Index start, std::size_t count) const {
+  std::vector<Index> chosen;
+  const auto reach_from = [&](ShortestPaths& paths, Index source) {
+    core::throw_if_stopped();
+    paths.lower(source, 0);
+    paths.run([&](Index from, double d) {
+      for_each_path(from, [&](Index u, double path) { paths.lower(u, d + path); });
+    });
+  };
+  const auto farthest = [&](const ShortestPaths& paths, bool only_reached) {
+    Index best = kNone;
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (only_reached && std::isinf(paths.distance(v))) continue;
+      if (best == kNone || paths.distance(v) > paths.distance(best)) best = v;
+    }
+    return best;
+  };
+  ShortestPaths from_start(mesh_.vertex_count());
+  reach_from(from_start, start);
+  ShortestPaths from_chosen(mesh_.vertex_count());
+  for (Index next = farthest(from_start, true); chosen.size() < count; next = farthest(from_chosen, false)) {
+    if (!(from_chosen.distance(next) > 0)) break;
+    chosen.push_back(next);
+    reach_from(from_chosen, next);
+  }
+  return chosen;
+}
+
 SurfaceDistances::Search::Search(const SurfaceDistances& distances)
     : distances_(distances), paths_(distances.mesh_.vertex_count()) {}
 
@@ -113,6 +142,13 @@ const std::vector<SurfaceDistances::Reached>& SurfaceDistances::Search::within(I
   });
   for (const Reached& reached : reached_) paths_.forget(reached.vertex);  // all that was lowered
   return reached_;
+}
+
+bool SpacedVertices::take(Index v) {
+  if (is_near_[v]) return false;
+  is_near_[v] = true;
+  for (const auto& [u, distance] : search_.within(v, spacing_)) is_near_[u] = true;
+  return true;
 }
 
 }  // namespace morsel::morse

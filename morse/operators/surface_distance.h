@@ -25,6 +25,15 @@ class SurfaceDistances {
   /// its component has no other. O(n log n).
   std::vector<double> to_nearest_other(std::span<const core::Index> vertices) const;
 
+  /// Farthest point sampling (Gonzalez 1985, "Clustering to minimize the maximum intercluster distance"; on
+  /// surfaces Moenning, Dodgson 2003): `count` vertices, fewer if the mesh has fewer at different places. The
+  /// first is the farthest from `start` on its component, each of the others the farthest from all before it,
+  /// first those of components without one; the smallest number where several are as far. O(count n log n)
+  /// at worst, serial; each search covers only what comes nearer.
+  std::vector<core::Index> farthest_points(core::Index start, std::size_t count) const;
+
+  core::Index vertex_count() const { return mesh_.vertex_count(); }
+
   struct Reached {
     core::Index vertex;
     double distance;
@@ -53,6 +62,23 @@ class SurfaceDistances {
   core::TriangleMesh mesh_;     // of unit size
   int exponent_;                // lengths are divided by 2^exponent
   std::vector<double> across_;  // per edge: from apex to apex; infinite if that does not cross the edge
+};
+
+/// Vertices that lie apart along the surface, taken one by one. Not thread-safe.
+class SpacedVertices {
+ public:
+  /// `spacing` is in the mesh's unit, at least 0. Refers to `distances`.
+  SpacedVertices(const SurfaceDistances& distances, double spacing)
+      : search_(distances), spacing_(spacing), is_near_(distances.vertex_count(), false) {}
+
+  /// Takes v, unless it was taken before or is nearer than the spacing to one that was: then returns false.
+  /// O(m log m) for m vertices within the spacing.
+  bool take(core::Index v);
+
+ private:
+  SurfaceDistances::Search search_;
+  double spacing_;
+  std::vector<bool> is_near_;  // per vertex: to one that was taken
 };
 
 }  // namespace morsel::morse

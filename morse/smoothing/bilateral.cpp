@@ -37,14 +37,7 @@ constexpr double kMost = (1 << (kBits - 1)) - 1;
 
 enum class Pass : std::uint8_t { spread, fixed, local };
 
-std::size_t arrays_of(Pass pass) { return pass == Pass::local ? 5 : 4; }
 std::size_t sums_of(Pass pass) { return pass == Pass::spread ? 1 : 2; }
-
-template <class Real, class Mask>
-auto function_of(const PairFunctions<Real, Mask>& functions, Pass pass) {
-  if (pass == Pass::spread) return functions.spread;
-  return pass == Pass::local ? functions.local : functions.fixed;
-}
 
 /// Points in a chunk: enough to reuse the cache, few enough for the chunks to balance the load.
 std::size_t chunk_size(std::size_t points) { return std::clamp<std::size_t>(points / 64, 256, 4096); }
@@ -69,6 +62,10 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
         memory_left_(options.memory),
         per_sigma_(std::min(kUnit / std::ldexp(options.sigma, -tree_.exponent()), 1e300)),
         values_(tree_.block_count() * kLanes) {
+    if (!options.weights.empty()) {
+      weights_.resize(values_.size());
+      sort(options.weights, weights_);
+    }
     if (tree_.block_count() > 0) divide(0, tree_.block_count(), chunk_size(points.size()) / kLanes);
   }
 
@@ -87,6 +84,7 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
       });
     }
     denominators_.assign(order.size(), 1);  // the point itself
+    if (!weights_.empty()) std::copy_n(weights_.begin(), order.size(), denominators_.begin());
     if (!sigma_s || *sigma_s > 0)
       run(sigma_s ? Pass::fixed : Pass::local, sigma_s ? kUnit / *sigma_s : 1,
           [&](double done) { report(sigma_s ? done : 0.25 + 0.75 * done); });
@@ -95,7 +93,7 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
     if (shared_ && !(sigma_s && shared_->complete(values_, *sigma_s, numerators_, denominators_)))
       failed_ = true;
     core::parallel_for_each(order.size(), [&](std::size_t i) {
-      const bool none = sigma_s ? *sigma_s == 0 : units_[i] == 0;
+      const bool none = (sigma_s ? *sigma_s == 0 : units_[i] == 0) || denominators_[i] == 0;
       result[order[i]] = none ? 0 : numerators_[i] / denominators_[i];
     });
   }
@@ -224,7 +222,8 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
   void visit(const Chunk& chunk, const BallPairs<Mask>& pairs, const PairFunctions<Number, Mask>& functions,
              Pass pass, double unit, Sums& sums) const {
     const std::size_t blocks = pairs.reached.size();
-    const std::size_t arrays = arrays_of(pass);
+    const bool weighted = !weights_.empty() && pass != Pass::spread;
+    const std::size_t arrays = 4 + (pass == Pass::local ? 1 : 0) + (weighted ? 1 : 0);
     AlignedVector<Number> points(blocks * arrays * kLanes);
     const BlockBox& box = tree_.box(chunk.first, chunk.last);
     constexpr bool kIntegers = std::is_same_v<Number, float>;
@@ -255,7 +254,10 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
           to[3 * kLanes + i] = value;
         }
       }
-      if (arrays == 4) continue;
+      if (weighted)
+        for (std::size_t i = 0; i < kLanes; ++i)
+          to[(arrays - 1) * kLanes + i] = static_cast<Number>(weights_[block * kLanes + i]);
+      if (pass != Pass::local) continue;
       const double* const units = &units_[block * kLanes];
       for (std::size_t i = 0; i < kLanes; ++i)
         to[4 * kLanes + i] = i < count ? in_range(units[i]) : Number{0};
@@ -266,8 +268,17 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
     sums.step = step;
     sums.values.assign(count, 0);
     AlignedVector<Number> parts(kIntegers ? count : 0);
-    function_of(functions, pass)(pairs.view(), points.data(), sums.values.data(), in_range(unit),
-                                 {whole.data(), steps.data(), parts.data()});
+    function_of(functions, pass, weighted)(pairs.view(), points.data(), sums.values.data(), in_range(unit),
+                                           {whole.data(), steps.data(), parts.data()});
+  }
+
+  template <class Number>
+  PairFunction<Number, Mask> function_of(const PairFunctions<Number, Mask>& functions, Pass pass,
+                                         bool weighted) const {
+    if constexpr (std::is_same_v<PairFunctions<Number, Mask>, decltype(PairKernels::double8)>)
+      if (weighted) return pass == Pass::local ? kernels_.weighted8.local : kernels_.weighted8.fixed;
+    if (pass == Pass::spread) return functions.spread;
+    return pass == Pass::local ? functions.local : functions.fixed;
   }
 
   /// Adds the sums of chunks in their order, block by block.
@@ -319,6 +330,7 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
   bool failed_ = false;
   // In the tree's order:
   AlignedVector<double> values_;    // with all lanes of the last block
+  AlignedVector<double> weights_;   // likewise; empty: all are 1
   std::vector<double> numerators_;  // or the largest differences
   std::vector<double> denominators_;
   std::vector<double> units_;  // kUnit / σ_s(v)
@@ -326,9 +338,9 @@ class BilateralFilter::EngineOf final : public BilateralEngine {
 
 BilateralFilter::BilateralFilter(std::span<const core::Point> points, const Options& options,
                                  const core::Progress& progress) {
-  if (!options.weights.empty() || options.connected_by)
+  if (options.connected_by)
     engine_ = std::make_unique<ListedSums>(points, options, progress);
-  else if (options.precision == Precision::float64 && !(options.tolerance > 0))
+  else if (!options.weights.empty() || (options.precision == Precision::float64 && !(options.tolerance > 0)))
     engine_ = std::make_unique<EngineOf<std::uint8_t, double>>(points, options, progress);
   else
     engine_ = std::make_unique<EngineOf<std::uint16_t, float>>(points, options, progress);

@@ -30,10 +30,10 @@ class BilateralEngine;
 /// wholly, so that the inner loop tests no distances. It visits each pair of points once for both directions
 /// and takes one exponential for both weights. Sums are computed chunk by chunk and added in the order of the
 /// chunks: the same bits for any number of threads and any memory; for the instruction sets see PairKernels.
-/// With weights or connected balls the sums are computed vertex by vertex instead (ListedSums), in float64
-/// and without a tolerance. In float64 the weights are 2e-15 from the true ones. In float32 coordinates and
-/// values are relative to a point within the chunk, sums over chunks are in double, and chunks that are wide
-/// compared with σ are computed in float64, so S stays within about 1e-7 of the extent.
+/// With connected balls the sums are computed vertex by vertex instead (ListedSums), in float64 and without a
+/// tolerance, which holds for weights, too. In float64 the weights are 2e-15 from the true ones. In float32
+/// coordinates and values are relative to a point within the chunk, sums over chunks are in double, and
+/// chunks that are wide compared with σ are computed in float64, so S stays within about 1e-7 of the extent.
 class BilateralFilter {
  public:
   struct Options {

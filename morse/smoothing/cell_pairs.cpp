@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "morsel/core/parallel/parallel.h"
 
@@ -44,6 +45,31 @@ double radius_of(const BlockTree& tree, std::size_t first, std::size_t last) {
   return std::sqrt(square);
 }
 
+/// The error of the Taylor polynomials.
+class Remainder {
+ public:
+  explicit Remainder(const CellPairs::Options& options) : tolerance_(options.tolerance) {
+    const double support = std::min(options.radius / options.sigma, 2.0);
+    least_weight_ = std::exp(-support * support / 2);
+  }
+  /// Whether the largest error where the radii of two cells add up to `reach` σ is tolerated, relative to the
+  /// least weight within the radius, or to that at 2 σ if it is beyond.
+  bool is_tolerated(int order, double reach) const {
+    return kRemainder[order - CellPairs::kLeastOrder] * std::pow(reach, order + 1) / least_weight_ <=
+           tolerance_;
+  }
+  /// The least order that is tolerated; kMostOrder + 1 if none is.
+  int order_for(double reach) const {
+    int order = CellPairs::kLeastOrder;
+    while (order <= CellPairs::kMostOrder && !is_tolerated(order, reach)) ++order;
+    return order;
+  }
+
+ private:
+  double tolerance_;
+  double least_weight_;
+};
+
 /// What one cell finds.
 struct Found {
   std::vector<std::uint32_t> partners;
@@ -65,86 +91,66 @@ void flatten(const std::vector<Found>& found, std::vector<std::uint32_t> Found::
   });
 }
 
+/// The first blocks of the halves of cells.
+std::vector<std::uint32_t> halved(const std::vector<std::uint32_t>& firsts) {
+  const std::size_t cells = 2 * (firsts.size() - 1);
+  std::vector<std::uint32_t> result(cells + 1);
+  result[cells] = firsts.back();
+  for (std::size_t c = 0; c + 1 < firsts.size(); ++c) {
+    result[2 * c] = firsts[c];
+    result[2 * c + 1] = (firsts[c] + firsts[c + 1]) / 2;
+  }
+  return result;
+}
+
+/// The lower median.
+double usual(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
+
+/// The cells of one depth, while they are paired.
+struct CellPairs::Depth {
+  std::vector<std::uint32_t> firsts;
+  std::vector<double> radii;  // in σ
+  int order;
+  double points;       // of a cell, on average
+  double translation;  // what one costs
+  bool used;           // whether the depth saves time
+
+  std::size_t size() const { return radii.size(); }
+};
 
 CellPairs::CellPairs(const BlockTree& tree, const Options& options, const core::Progress& progress)
     : tree_(tree) {
-  const double scale = std::ldexp(1.0, -tree.exponent());
-  const double per_sigma = 1 / (options.sigma * scale);
-  // Largest error of the polynomial where the radii of two cells add up to `reach` σ, relative to the least
-  // weight within the radius, or to that at 2 σ if it is beyond.
-  const double support = std::min(options.radius / options.sigma, 2.0);
-  const double least_weight = std::exp(-support * support / 2);
-  const auto error_of = [&](int order, double reach) {
-    return kRemainder[order - kLeastOrder] * std::pow(reach, order + 1) / least_weight;
-  };
-  const double square = options.radius * scale * options.radius * scale;
-  const double inside = square * (1 - 1e-12);
-  const double outside = square * (1 + 1e-12);
+  const double per_sigma = 1 / (options.sigma * std::ldexp(1.0, -tree.exponent()));
+  const Remainder remainder(options);
   const auto blocks = static_cast<std::uint32_t>(tree.block_count());
-  const std::size_t full_blocks = tree.size() / tree.lanes();
   firsts_ = {0, blocks};
   rest_ends_ = {1};
   rest_ = {0};
-  std::vector<std::uint32_t> no_partners;
   for (;;) {
     progress.throw_if_cancelled();
     const std::size_t cells = 2 * (firsts_.size() - 1);
     if (blocks / cells < 2) break;
-    std::vector<std::uint32_t> firsts(cells + 1);
-    firsts[cells] = blocks;
-    for (std::size_t c = 0; c + 1 < firsts_.size(); ++c) {
-      firsts[2 * c] = firsts_[c];
-      firsts[2 * c + 1] = (firsts_[c] + firsts_[c + 1]) / 2;
-    }
-    const auto box = [&](std::size_t c) -> const BlockBox& { return tree.box(firsts[c], firsts[c + 1]); };
-    // The order that suits half of the cells, if it saves time; smaller cells take the rest.
-    std::vector<double> radii(cells);
-    core::parallel_for_each(
-        cells, [&](std::size_t c) { radii[c] = radius_of(tree, firsts[c], firsts[c + 1]) * per_sigma; });
-    std::vector<double> sorted = radii;
-    const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>((cells - 1) / 2);
-    std::nth_element(sorted.begin(), usual, sorted.end());
-    int order = kLeastOrder;
-    while (order <= kMostOrder && error_of(order, 2 * *usual) > options.tolerance) ++order;
-    const double points = static_cast<double>(tree.size()) / static_cast<double>(cells);
-    const double translation = terms(order) * options.panels * kTermCost + kCellPairCost;
-    const bool used = order <= kMostOrder && translation < 0.7 * points * points * kPairCost;
-    const bool too_small = order == kLeastOrder && !used;
-
-    std::vector<Found> found(cells);
-    if (too_small) break;
-    core::parallel_for(0, cells, 16, [&](std::size_t first, std::size_t last) {
-      for (std::size_t c = first; c < last; ++c) {
-        const std::size_t parent = c / 2;
-        const std::size_t begin = parent == 0 ? 0 : rest_ends_[parent - 1];
-        for (std::size_t k = begin; k < rest_ends_[parent]; ++k)
-          for (std::uint32_t other = 2 * rest_[k]; other < 2 * rest_[k] + 2; ++other) {
-            const SquareSpan span = squares_between(box(c), box(other));
-            if (span.least > outside) continue;
-            if (used && c != other && span.most < inside && firsts[c + 1] <= full_blocks &&
-                firsts[other + 1] <= full_blocks &&
-                error_of(order, radii[c] + radii[other]) <= options.tolerance)
-              found[c].partners.push_back(other);
-            else
-              found[c].rest.push_back(other);
-          }
-      }
+    Depth depth;
+    depth.firsts = halved(firsts_);
+    depth.radii.resize(cells);
+    core::parallel_for_each(cells, [&](std::size_t c) {
+      depth.radii[c] = radius_of(tree, depth.firsts[c], depth.firsts[c + 1]) * per_sigma;
     });
-    flatten(found, &Found::rest, rest_ends_, rest_);
-    firsts_ = std::move(firsts);
-    if (!used) continue;
-    CellLayer layer;
-    layer.order = order;
-    layer.points = static_cast<std::size_t>(points);
-    flatten(found, &Found::partners, layer.pair_ends, layer.partners);
-    if (layer.partners.empty()) continue;
-    layer.firsts = firsts_;
-    const auto pairs = static_cast<double>(layer.partners.size());
-    cost_ += pairs * translation +
-             2 * static_cast<double>(tree.size()) * coefficients(order) * options.panels * kPointCost;
-    cost_without_ += pairs * points * points * kPairCost;
-    layers_.push_back(std::move(layer));
+    // The order that suits half of the cells, if it saves time; smaller cells take the rest.
+    depth.order = remainder.order_for(2 * usual(depth.radii));
+    depth.points = static_cast<double>(tree.size()) / static_cast<double>(cells);
+    depth.translation = terms(depth.order) * options.panels * kTermCost + kCellPairCost;
+    depth.used =
+        depth.order <= kMostOrder && depth.translation < 0.7 * depth.points * depth.points * kPairCost;
+    const bool too_small = depth.order == kLeastOrder && !depth.used;
+    if (too_small) break;
+    add(std::move(depth), options);
   }
   // Of the rest, half is within reach.
   const double points = static_cast<double>(tree.size()) / static_cast<double>(firsts_.size() - 1);
@@ -152,6 +158,49 @@ CellPairs::CellPairs(const BlockTree& tree, const Options& options, const core::
   rest_cost_ = rest;
   cost_ += rest;
   cost_without_ += rest;
+}
+
+void CellPairs::add(Depth depth, const Options& options) {
+  const double scale = std::ldexp(1.0, -tree_.exponent());
+  const double square = options.radius * scale * options.radius * scale;
+  const double inside = square * (1 - 1e-12);
+  const double outside = square * (1 + 1e-12);
+  const std::size_t full_blocks = tree_.size() / tree_.lanes();
+  const Remainder remainder(options);
+  const auto& firsts = depth.firsts;
+  const auto box = [&](std::size_t c) -> const BlockBox& { return tree_.box(firsts[c], firsts[c + 1]); };
+  std::vector<Found> found(depth.size());
+  core::parallel_for(0, depth.size(), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      const std::size_t parent = c / 2;
+      const std::size_t begin = parent == 0 ? 0 : rest_ends_[parent - 1];
+      for (std::size_t k = begin; k < rest_ends_[parent]; ++k)
+        for (std::uint32_t other = 2 * rest_[k]; other < 2 * rest_[k] + 2; ++other) {
+          const SquareSpan span = squares_between(box(c), box(other));
+          if (span.least > outside) continue;
+          if (depth.used && c != other && span.most < inside && firsts[c + 1] <= full_blocks &&
+              firsts[other + 1] <= full_blocks &&
+              remainder.is_tolerated(depth.order, depth.radii[c] + depth.radii[other]))
+            found[c].partners.push_back(other);
+          else
+            found[c].rest.push_back(other);
+        }
+    }
+  });
+  flatten(found, &Found::rest, rest_ends_, rest_);
+  firsts_ = std::move(depth.firsts);
+  if (!depth.used) return;
+  CellLayer layer;
+  layer.order = depth.order;
+  layer.points = static_cast<std::size_t>(depth.points);
+  flatten(found, &Found::partners, layer.pair_ends, layer.partners);
+  if (layer.partners.empty()) return;
+  layer.firsts = firsts_;
+  const auto pairs = static_cast<double>(layer.partners.size());
+  cost_ += pairs * depth.translation +
+           2 * static_cast<double>(tree_.size()) * coefficients(depth.order) * options.panels * kPointCost;
+  cost_without_ += pairs * depth.points * depth.points * kPairCost;
+  layers_.push_back(std::move(layer));
 }
 
 void CellPairs::rest(std::size_t block, std::vector<std::pair<std::uint32_t, std::uint32_t>>& ranges) const {

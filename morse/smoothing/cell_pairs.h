@@ -65,6 +65,10 @@ class CellPairs {
   static constexpr int kMostOrder = 6;
 
  private:
+  struct Depth;
+  /// Splits the rest among the cells of the next depth.
+  void add(Depth depth, const Options& options);
+
   const BlockTree& tree_;
   std::vector<CellLayer> layers_;
   std::vector<std::uint32_t> firsts_;  // of the deepest cells that were visited

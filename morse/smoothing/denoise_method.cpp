@@ -103,7 +103,7 @@ class Denoise final : public core::Method {
   }
 
   core::MethodTraits traits() const override {
-    return {.reevaluates_function = true, .iterates_are_results = true};
+    return {.reevaluates_function = true, .iterates = true, .iterates_are_results = true};
   }
 
  private:

@@ -87,7 +87,7 @@ class LaplacianSmoothing final : public core::Method {
     return control.result(std::move(parameters));
   }
 
-  core::MethodTraits traits() const override { return {.iterates_are_results = true}; }
+  core::MethodTraits traits() const override { return {.iterates = true, .iterates_are_results = true}; }
 
  private:
   DiffusionOptions options_;

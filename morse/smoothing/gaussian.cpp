@@ -3,7 +3,9 @@
 #include <string>
 #include <utility>
 
-#include "morsel/morse/smoothing/salient_method.h"
+#include "morsel/morse/smoothing/ball_keys.h"
+#include "morsel/morse/smoothing/empty_balls.h"
+#include "morsel/morse/smoothing/salient_iterations.h"
 
 namespace morsel::morse {
 namespace {
@@ -24,18 +26,19 @@ class Gaussian final : public core::Method {
   core::MethodResult apply(const core::ScalarField& input,
                            const core::MethodContext& context) const override {
     IterationControl control(input, criteria_, context);
-    const SalientResult result = run_salient(input, options_, criteria_, control, context.progress);
-    core::MethodResult made =
-        control.result({{"sigma", result.sigma},
+    const SalientResult averaged = run_salient(input, options_, criteria_, control, context.progress);
+    core::MethodResult result =
+        control.result({{"sigma", averaged.sigma},
                         {"support", options_.support},
                         {"weights", std::string(to_string(options_.weights))},
                         {"ball", std::string(to_string(options_.ball))}},
-                       {{"pairs_per_iteration", static_cast<std::int64_t>(result.pairs)}});
-    made.warnings = empty_ball_warnings(input.mesh(), options_.support * result.sigma);
-    return made;
+                       {{"pairs_per_iteration", static_cast<std::int64_t>(averaged.pairs)}});
+    result.sigma = averaged.sigma;
+    result.warnings = empty_ball_warnings(input.mesh(), options_.support * averaged.sigma);
+    return result;
   }
 
-  core::MethodTraits traits() const override { return {.iterates_are_results = true}; }
+  core::MethodTraits traits() const override { return {.iterates = true, .iterates_are_results = true}; }
 
  private:
   SalientOptions options_;

@@ -65,7 +65,7 @@ std::int64_t parse_at_least(std::int64_t min, const std::string& text, const std
 StopCriteria read_stop_criteria(core::ParameterReader& reader, int iterations) {
   StopCriteria criteria;
   criteria.iterations = static_cast<int>(
-      reader.count("iterations", iterations, 0, kMostIterations,
+      reader.count(core::kIterationsKey, iterations, 0, kMostIterations,
                    "how many iterations at most (1000 if another condition is given and this is not)"));
   criteria.until_count =
       optional_value(reader, "until-count", "stop as soon as at most so many critical points are left",
@@ -86,12 +86,12 @@ StopCriteria read_stop_criteria(core::ParameterReader& reader, int iterations) {
         return share;
       });
   const bool conditions = criteria.until_count || criteria.until_stable || criteria.until_change;
-  if (conditions && !reader.given("iterations")) criteria.iterations = kIterationsWithCondition;
+  if (conditions && !reader.given(core::kIterationsKey)) criteria.iterations = kIterationsWithCondition;
   return criteria;
 }
 
 core::Parameters to_parameters(const StopCriteria& criteria) {
-  core::Parameters parameters = {{"iterations", std::int64_t{criteria.iterations}}};
+  core::Parameters parameters = {{std::string(core::kIterationsKey), std::int64_t{criteria.iterations}}};
   if (criteria.until_count)
     parameters.emplace_back("until_count", static_cast<std::int64_t>(*criteria.until_count));
   if (criteria.until_stable) parameters.emplace_back("until_stable", std::int64_t{*criteria.until_stable});
@@ -170,7 +170,8 @@ core::MethodResult IterationControl::result(core::Parameters parameters, core::P
              std::make_move_iterator(parameters.end()));
   details.emplace_back("iterations_run", std::int64_t{iteration_});
   details.emplace_back("stopped_by", std::string(stopped_by_));
-  return {field_, std::move(all), std::move(details), records_};
+  return {field_, std::move(all), std::move(details), records_,
+          core::IterationEnd{iteration_, std::string(stopped_by_)}};
 }
 
 }  // namespace morsel::morse

@@ -66,7 +66,7 @@ class IterationControl {
   /// empty while more().
   std::string_view stopped_by() const { return stopped_by_; }
 
-  /// field() with the records of iterations; `details` gains iterations_run and stopped_by. The parameters
+  /// field() with the records and the end of the iterations, which `details` gains, too. The parameters
   /// are those of the criteria followed by `parameters`.
   core::MethodResult result(core::Parameters parameters, core::Parameters details = {}) const;
 

@@ -18,9 +18,8 @@ ListedSums::ListedSums(std::span<const Point> points, const BilateralFilter::Opt
       weights_(options.weights),
       radius_(options.radius),
       per_sigma_(1 / options.sigma),
-      connected_(options.connected_by ? std::make_unique<ConnectedBalls>(*options.connected_by) : nullptr),
-      search_(connected_ ? nullptr : std::make_unique<core::PointSearch>(points)),
-      grain_(connected_ ? connected_->grain() : std::clamp<std::size_t>(points.size() / 64, 64, 2048)),
+      balls_(*options.connected_by),
+      grain_(balls_.grain()),
       chunks_((points.size() + grain_ - 1) / grain_),
       memory_left_(options.memory) {}
 
@@ -70,16 +69,12 @@ void ListedSums::visit(std::size_t number, const Call& call) {
 }
 
 ListedSums::Lists ListedSums::find(std::size_t first, std::size_t last) const {
-  std::optional<ConnectedBalls::Walk> walk;
-  if (connected_) walk.emplace(*connected_);
+  ConnectedBalls::Walk walk(balls_);
   Lists lists;
   lists.ends.reserve(last - first);
   std::vector<Index> ball;
   for (std::size_t v = first; v < last; ++v) {
-    if (walk)
-      walk->within(static_cast<Index>(v), radius_, ball);
-    else
-      search_->within(points_[v], radius_, ball);
+    walk.within(static_cast<Index>(v), radius_, ball);
     lists.neighbors.insert(lists.neighbors.end(), ball.begin(), ball.end());
     lists.ends.push_back(lists.neighbors.size());
   }

@@ -3,21 +3,20 @@
 
 #include <atomic>
 #include <cstddef>
-#include <memory>
 #include <vector>
 
-#include "morsel/core/mesh/neighbors.h"
 #include "morsel/morse/operators/connected_ball.h"
 #include "morsel/morse/smoothing/bilateral_engine.h"
 
 namespace morsel::morse {
 
-/// S with weights and connected balls, in float64: each vertex has its list of neighbours, and each pair, in
-/// each direction, takes one exponential. The lists are kept as long as there is memory for them (4 bytes a
-/// pair) and found again where there is none. The same bits for any number of threads and any memory.
+/// S over connected balls, with weights if there are such, in float64: each vertex has its list of
+/// neighbours, and each pair, in each direction, takes one exponential. The lists are kept as long as there
+/// is memory for them (4 bytes a pair) and found again where there is none. The same bits for any number of
+/// threads and any memory.
 class ListedSums final : public BilateralEngine {
  public:
-  /// Refers to `progress`.
+  /// `options` with a surface that connects. Refers to `progress`.
   ListedSums(std::span<const core::Point> points, const BilateralFilter::Options& options,
              const core::Progress& progress);
 
@@ -54,8 +53,7 @@ class ListedSums final : public BilateralEngine {
   std::vector<double> weights_;
   double radius_;
   double per_sigma_;
-  std::unique_ptr<const ConnectedBalls> connected_;  // one of these two
-  std::unique_ptr<const core::PointSearch> search_;
+  ConnectedBalls balls_;
   std::size_t grain_;
   std::vector<Chunk> chunks_;
   std::atomic<std::size_t> memory_left_;

@@ -42,6 +42,11 @@ struct PairScratch {
   Real* sums;            ///< as many as the function's sums; only for Real = float
 };
 
+/// A kernel over pairs: see PairFunctions.
+template <class Real, class Mask>
+using PairFunction = void (*)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
+                              const PairScratch<Real>& scratch);
+
 /// Functions for one layout. `points` holds per block lanes x, lanes y, lanes z, in units of σ · √(2 ln 2),
 /// and lanes values: doubles, or for Real = float 32-bit integers in place of floats, whose differences must
 /// not overflow (a float would round a large value by more than a small difference may bear). `unit` times a
@@ -49,14 +54,18 @@ struct PairScratch {
 template <class Real, class Mask>
 struct PairFunctions {
   /// Adds w (f(x) − f(v)) to the first lanes of sums, w to the second.
-  void (*fixed)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
-                const PairScratch<Real>& scratch);
+  PairFunction<Real, Mask> fixed;
   /// `points` has each point's own unit besides, per block lanes more. Adds the same.
-  void (*local)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
-                const PairScratch<Real>& scratch);
+  PairFunction<Real, Mask> local;
   /// Raises sums (lanes a block) to the largest |f(x) − f(v)|.
-  void (*spread)(const TilePairs<Mask>& pairs, const Real* points, double* sums, Real unit,
-                 const PairScratch<Real>& scratch);
+  PairFunction<Real, Mask> spread;
+};
+
+/// The same where w is multiplied by a weight of x. `points` has the weights last, per block lanes more.
+template <class Real, class Mask>
+struct WeightedFunctions {
+  PairFunction<Real, Mask> fixed;
+  PairFunction<Real, Mask> local;
 };
 
 /// For each of `count` blocks, and each point of the tile: which of the block's points have a square of the
@@ -74,6 +83,7 @@ struct PairKernels {
   PairFunctions<double, std::uint8_t> double8;    ///< blocks of 8
   PairFunctions<double, std::uint16_t> double16;  ///< blocks of 16
   PairFunctions<float, std::uint16_t> float16;
+  WeightedFunctions<double, std::uint8_t> weighted8;
   CellKernels cells;
 };
 

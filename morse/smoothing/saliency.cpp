@@ -10,8 +10,8 @@
 #include "morsel/core/error.h"
 #include "morsel/core/field/link.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/morse/smoothing/ball_keys.h"
 #include "morsel/morse/smoothing/keep_order.h"
-#include "morsel/morse/smoothing/salient_method.h"
 
 namespace morsel::morse {
 namespace {
@@ -92,6 +92,7 @@ class Saliency final : public core::Method {
              {"ball", std::string(to_string(options_.ball))}},
             {{"factors", joined(result.factors)}}};
   }
+  core::MethodTraits traits() const override { return {.quantity = "saliency"}; }
 
  private:
   SaliencyOptions options_;

@@ -52,8 +52,8 @@ struct SalientOptions {
   ValueRange range = {};                           ///< σ_s
   double support = 2;                              ///< the neighbourhood's radius in σ, above 0
   bool return_saliency = false;                    ///< return the last S instead of f
-  /// Other values than these two need a simpler algorithm, pair by pair in double precision, at several times
-  /// the cost.
+  /// Other values than these two are computed pair by pair in double precision; connected balls at several
+  /// times the cost.
   NeighborWeights weights = NeighborWeights::none;
   Ball ball = Ball::euclidean;
   /// The share of the input's extent by which the result may be off, at most 1; 0 for an exact one. The

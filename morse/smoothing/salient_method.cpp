@@ -1,17 +1,19 @@
-#include "morsel/morse/smoothing/salient_method.h"
+// The method "salient": keys, iterations, what is reported.
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/mesh/neighbors.h"
-#include "morsel/core/parallel/parallel.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/morse/operators/low_pass.h"
+#include "morsel/morse/smoothing/ball_keys.h"
+#include "morsel/morse/smoothing/empty_balls.h"
+#include "morsel/morse/smoothing/iteration.h"
 #include "morsel/morse/smoothing/keep_order.h"
+#include "morsel/morse/smoothing/salient.h"
+#include "morsel/morse/smoothing/salient_iterations.h"
 
 namespace morsel::morse {
 namespace {
@@ -60,6 +62,7 @@ class Salient final : public core::Method {
     if (!salient.reason.empty()) details.emplace_back("exact_because", salient.reason);
     core::MethodResult result = control.result(std::move(parameters), std::move(details));
     result.field = std::move(salient.field);
+    result.sigma = salient.sigma;
     result.warnings = empty_ball_warnings(given.mesh(), options_.support * salient.sigma);
     return result;
   }
@@ -67,6 +70,7 @@ class Salient final : public core::Method {
   /// Not the increment; and whether the near-linear algorithm gives way depends on the iterations to come.
   core::MethodTraits traits() const override {
     return {.reevaluates_function = retakes(),
+            .iterates = true,
             .iterates_are_results = !options_.return_saliency && options_.accuracy == 0,
             .returns_other = options_.return_saliency};
   }
@@ -97,76 +101,6 @@ class Salient final : public core::Method {
 };
 
 }  // namespace
-
-void read_sigma(core::ParameterReader& reader, SalientOptions& options) {
-  options.sigma =
-      reader.length("sigma", options.sigma, core::kPositive, "standard deviation of the weight of distances");
-}
-
-void read_support(core::ParameterReader& reader, SalientOptions& options) {
-  options.support = reader.number("support", options.support, core::kPositive,
-                                  "radius of the neighbourhood, in multiples of sigma");
-}
-
-void read_neighbors(core::ParameterReader& reader, SalientOptions& options) {
-  if (reader.choice("weights", "none", {"none", "area"},
-                    "area: a neighbour counts with its vertex area, so that sampling matters less") == "area")
-    options.weights = NeighborWeights::area;
-  if (reader.choice("ball", "euclidean", {"euclidean", "connected"},
-                    "connected: only neighbours that edges within the neighbourhood connect") == "connected")
-    options.ball = Ball::connected;
-}
-
-std::vector<std::string> empty_ball_warnings(const core::TriangleMesh& mesh, double radius) {
-  const auto count_empty = [&](const auto& is_empty) {
-    return core::parallel_reduce(
-        0, mesh.vertex_count(), core::kGrain, std::size_t{0},
-        [&](std::size_t first, std::size_t last) {
-          std::size_t found = 0;
-          for (std::size_t v = first; v < last; ++v) found += is_empty(static_cast<core::Index>(v)) ? 1 : 0;
-          return found;
-        },
-        std::plus<>());
-  };
-  const auto is_most = [&](std::size_t empty) { return 2 * empty > mesh.vertex_count(); };
-  // Neighbours along edges are quick to see; only where they are out of reach others are searched.
-  const auto is_alone = [&](core::Index v) {
-    bool alone = true;
-    mesh.for_each_outgoing(v, [&](core::Index h) {
-      if ((mesh.position(mesh.target(h)) - mesh.position(v)).stableNorm() <= radius) alone = false;
-      if ((mesh.position(mesh.apex(h)) - mesh.position(v)).stableNorm() <= radius) alone = false;
-    });
-    return alone;
-  };
-  if (!is_most(count_empty(is_alone))) return {};
-  const core::PointSearch search(mesh.positions());
-  const std::size_t empty = count_empty([&](core::Index v) {
-    std::vector<core::Index> near;
-    if (!is_alone(v)) return false;
-    search.within(mesh.position(v), radius, near);
-    return near.size() <= 1;
-  });
-  if (!is_most(empty)) return {};
-  return {"of " + std::to_string(mesh.vertex_count()) + " vertices " + std::to_string(empty) +
-          " have no other within the radius of " + core::shortest(radius) +
-          ", and there smoothing does nothing; a sigma of 1edges or more reaches the neighbours"};
-}
-
-SalientResult run_salient(const core::ScalarField& input, SalientOptions options,
-                          const StopCriteria& criteria, IterationControl& control,
-                          const core::Progress& progress) {
-  options.iterations = control.more() ? criteria.iterations : 0;
-  options.on_iteration = [&](const SalientIteration& iteration) {
-    if (iteration.number <= control.iterations_run()) control.restart();
-    if (!control.needs_field()) {
-      control.skip();
-      return true;
-    }
-    control.record({iteration.values.begin(), iteration.values.end()});
-    return control.more();
-  };
-  return salient(input, options, progress);
-}
 
 std::unique_ptr<core::Method> make_salient(core::ParameterReader& reader) {
   const bool robust =

@@ -8,6 +8,7 @@
 
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/largest_square.h"
+#include "morsel/morse/smoothing/monomial_tables.h"
 
 namespace morsel::morse {
 namespace {
@@ -24,42 +25,6 @@ constexpr std::size_t kSamples = 512;
 constexpr double kSafety = 8;
 constexpr double kNeighborhood = 4;
 constexpr std::size_t kLanes = 16;
-
-MonomialTables make_tables() {
-  MonomialTables tables{};
-  constexpr int kOrder = MonomialTables::kOrder;
-  std::array<std::array<std::array<int, kOrder + 1>, kOrder + 1>, kOrder + 1> number{};
-  int count = 0;
-  for (int degree = 0; degree <= kOrder; ++degree)
-    for (int x = degree; x >= 0; --x)
-      for (int y = degree - x; y >= 0; --y) {
-        const std::array<int, 3> powers = {x, y, degree - x - y};
-        number[x][y][powers[2]] = count;
-        for (std::uint8_t axis = 0; axis < 3; ++axis) {
-          tables.powers[count][axis] = static_cast<std::uint8_t>(powers[axis]);
-          if (powers[axis] == 0) continue;
-          std::array<int, 3> less = powers;
-          --less[axis];
-          tables.axis[count] = axis;
-          tables.parent[count] = static_cast<std::uint8_t>(number[less[0]][less[1]][less[2]]);
-          tables.factor[count] = 1 / static_cast<float>(powers[axis]);
-        }
-        ++count;
-      }
-  for (int a = 0; a < count; ++a)
-    for (int b = 0; b < count; ++b) {
-      std::array<int, 3> sum{};
-      for (int axis = 0; axis < 3; ++axis) sum[axis] = tables.powers[a][axis] + tables.powers[b][axis];
-      if (sum[0] + sum[1] + sum[2] <= kOrder)
-        tables.sums[a][b] = static_cast<std::uint8_t>(number[sum[0]][sum[1]][sum[2]]);
-    }
-  return tables;
-}
-
-const MonomialTables& tables() {
-  static const MonomialTables kTables = make_tables();
-  return kTables;
-}
 
 std::size_t coefficients(int order) {
   return static_cast<std::size_t>((order + 1) * (order + 2) * (order + 3) / 6);
@@ -157,7 +122,8 @@ class SharedSums::Pass {
   std::size_t width() const { return width_; }
   std::size_t size_of(std::size_t layer) const { return coefficients(layers_[layer].order) * width_; }
   CellKernelOptions options(std::size_t layer) const {
-    return {&tables(), layers_[layer].order, grid_.panels, static_cast<float>(kStep * std::sqrt(kLog2E))};
+    return {&monomial_tables(), layers_[layer].order, grid_.panels,
+            static_cast<float>(kStep * std::sqrt(kLog2E))};
   }
   std::array<double, 3> center(std::size_t layer, std::size_t cell) const {
     return center_of(tree_.box(layers_[layer].firsts[cell], layers_[layer].firsts[cell + 1]));
@@ -189,13 +155,10 @@ class SharedSums::Pass {
   std::size_t width_;
 };
 
-void SharedSums::add(const Grid& grid, std::span<const double> values, double sigma_s,
-                     std::span<double> numerators, std::span<double> denominators) {
-  // A cell of the first layer contains whole cells of all others, which are treated together with it.
-  const Pass pass(*this, grid, values, sigma_s);
+SharedSums::Moments SharedSums::gather_moments(const Pass& pass) const {
   const std::span<const CellLayer> layers = pairs_.layers();
   const std::size_t count = layers.size();
-  std::vector<AlignedVector<float>> moments(count);
+  Moments moments(count);
   for (std::size_t l = 0; l < count; ++l) moments[l].resize(layers[l].size() * pass.size_of(l));
   core::parallel_for(0, layers[0].size(), 4, [&](std::size_t first, std::size_t last) {
     progress_.throw_if_cancelled();
@@ -220,6 +183,16 @@ void SharedSums::add(const Grid& grid, std::span<const double> values, double si
       }
     }
   });
+  return moments;
+}
+
+void SharedSums::add(const Grid& grid, std::span<const double> values, double sigma_s,
+                     std::span<double> numerators, std::span<double> denominators) {
+  // A cell of the first layer contains whole cells of all others, which are treated together with it.
+  const Pass pass(*this, grid, values, sigma_s);
+  const Moments moments = gather_moments(pass);
+  const std::span<const CellLayer> layers = pairs_.layers();
+  const std::size_t count = layers.size();
   const double factor = kStep * std::sqrt(2 / 3.14159265358979323846);
   core::parallel_for(0, layers[0].size(), 4, [&](std::size_t first, std::size_t last) {
     progress_.throw_if_cancelled();

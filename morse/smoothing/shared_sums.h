@@ -66,6 +66,8 @@ class SharedSums {
   struct Point;
   class Pass;
   std::optional<Grid> grid_for(std::span<const double> values, double sigma_s) const;
+  using Moments = std::vector<AlignedVector<float>>;  // per layer: those of its cells
+  Moments gather_moments(const Pass& pass) const;
   void add(const Grid& grid, std::span<const double> values, double sigma_s, std::span<double> numerators,
            std::span<double> denominators);
   void account(std::span<const double> values, double sigma_s, std::span<const double> numerators,

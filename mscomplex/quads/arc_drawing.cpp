@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
@@ -16,6 +17,15 @@ namespace {
 
 /// None: arcs follow angles better where the stretch is not reduced.
 constexpr int kStretchRounds = 0;
+
+/// How many triangles the first drawing may make of a surface: so many times its own, or this number.
+constexpr std::size_t kMostTimes = 16;
+constexpr std::size_t kMostTriangles = 1 << 22;
+/// How many triangles a relaxation may add if that is more than there are, and, to a star, more than twice
+/// those of its disc. Where k arcs meet, k² edges or more are left from drawing them, and the next arcs cross
+/// them all.
+constexpr std::size_t kMostAdded = 1 << 16;
+constexpr std::size_t kMostAddedToStar = 1 << 13;
 
 }  // namespace
 
@@ -42,6 +52,7 @@ std::string ArcDrawing::name(Index node) const {
 }
 
 void ArcDrawing::draw_first() {
+  most_triangles_ = std::max(kMostTimes * mesh_.triangle_count(), kMostTriangles);
   cut_along_descents();
   put_saddles_on_edges();
   node_at_.assign(mesh_.vertex_count(), kNone);
@@ -50,7 +61,7 @@ void ArcDrawing::draw_first() {
   std::vector<Index> extrema;
   for (Index i = 0; i < complex_.maximum_count(); ++i) extrema.push_back(complex_.maximum_node(i));
   for (Index k = 0; k < complex_.cap_count(); ++k) extrema.push_back(complex_.cap_node(k));
-  draw_stars(extrema, false);
+  draw_stars(extrema);
   for (Index h = 0; h < mesh_.halfedge_count(); ++h)
     if (const Index label = mesh_.label(h);
         label == LayoutMesh::kCut ||
@@ -59,7 +70,7 @@ void ArcDrawing::draw_first() {
   mark_rims();
   extrema.clear();
   for (Index i = 0; i < complex_.minimum_count(); ++i) extrema.push_back(i);
-  draw_stars(extrema, false);
+  draw_stars(extrema);
 }
 
 /// From here on the caps' fans are excluded: rays to their middles have crossed the rims, each once.
@@ -135,11 +146,30 @@ void ArcDrawing::embed(Star& star) const {
   embed_inside(mesh_, star.disc, kStretchRounds, star.place, "the " + name(star.node));
 }
 
-void ArcDrawing::draw(const Star& star, bool moves) {
+void ArcDrawing::draw(const Star& star) {
   const auto drawn =
-      drawer_.draw(star.disc, star.place, star.spokes, moves ? kNone : node_vertex_[star.node]);
+      drawer_.draw(star.disc, star.place, star.spokes, node_vertex_[star.node], most_triangles_);
+  if (drawn.hub == kNone)
+    throw core::BadInput("the " + std::to_string(star.spokes.size()) + " arcs that meet in the " +
+                         name(star.node) + " would cut the surface of " +
+                         std::to_string(complex_.mesh().triangle_count()) + " triangles into more than " +
+                         std::to_string(most_triangles_) +
+                         "; a field with fewer critical points there, smoothed or simplified by "
+                         "persistence, would help");
   missed_ += drawn.missed;
-  if (!moves) return;
+}
+
+/// Moves the star's node to the middle of its disc, unless its arcs would take too many triangles.
+void ArcDrawing::draw_again(const Star& star) {
+  const std::size_t most =
+      mesh_.triangle_count() + std::max(2 * star.disc.triangles.size(), kMostAddedToStar);
+  const auto drawn = drawer_.draw(star.disc, star.place, star.spokes, kNone, std::min(most, most_triangles_));
+  if (drawn.hub == kNone) {
+    for (const auto& [h, arc] : star.erased) mesh_.set_label(h, arc);
+    ++left_;
+    return;
+  }
+  missed_ += drawn.missed;
   node_at_[node_vertex_[star.node]] = kNone;
   node_vertex_[star.node] = drawn.hub;
   node_at_.resize(mesh_.vertex_count(), kNone);
@@ -147,15 +177,24 @@ void ArcDrawing::draw(const Star& star, bool moves) {
 }
 
 /// Discs of different extrema of a kind have no triangle in common, and drawing splits only edges inside.
-void ArcDrawing::draw_stars(const std::vector<Index>& extrema, bool moves) {
+void ArcDrawing::draw_stars(const std::vector<Index>& extrema) {
+  std::vector<Star> stars = find_stars(extrema);
+  embed_all(stars);
+  for (const Star& star : stars) draw(star);
+}
+
+std::vector<ArcDrawing::Star> ArcDrawing::find_stars(const std::vector<Index>& extrema) {
   std::vector<Star> stars;
   for (const Index node : extrema) {
     const Index border = finder_.find_border(mesh_.leaving(node_vertex_[node]) / 3);
     if (border == kNone) throw std::logic_error("quad layout: no saddle near the " + name(node));
     stars.push_back(find_star(node, border));
   }
+  return stars;
+}
+
+void ArcDrawing::embed_all(std::vector<Star>& stars) const {
   core::parallel_for(0, stars.size(), 1, [&](std::size_t i, std::size_t) { embed(stars[i]); });
-  for (const Star& star : stars) draw(star, moves);
 }
 
 Index ArcDrawing::start_of(Index arc) const {
@@ -177,21 +216,26 @@ void ArcDrawing::follow(Index arc, std::vector<Index>& vertices) const {
   for (; h != kNone; h = next_of_arc(h)) vertices.push_back(mesh_.target(h));
 }
 
-void ArcDrawing::erase(Index arc) {
+void ArcDrawing::erase(Index arc, std::vector<Erased>& erased) {
   for (Index h = start_of(arc); h != kNone;) {
     const Index next = next_of_arc(h);
     mesh_.set_label(h, LayoutMesh::kFree);
+    erased.push_back({h, arc});
     h = next;
   }
 }
 
 void ArcDrawing::redraw(Index extremum_begin, Index extremum_end) {
   std::vector<Index> extrema;
+  std::vector<std::vector<Erased>> erased(extremum_end - extremum_begin);
   for (Index node = extremum_begin; node < extremum_end; ++node) {
     extrema.push_back(node);
-    for (const Index arc : complex_.arcs_ending_at(node)) erase(arc);
+    for (const Index arc : complex_.arcs_ending_at(node)) erase(arc, erased[node - extremum_begin]);
   }
-  draw_stars(extrema, true);
+  std::vector<Star> stars = find_stars(extrema);
+  for (std::size_t i = 0; i < stars.size(); ++i) stars[i].erased = std::move(erased[i]);
+  embed_all(stars);
+  for (const Star& star : stars) draw_again(star);
 }
 
 /// The four quads around a saddle form a disc with eight corners, of which every other one, from that at the
@@ -209,17 +253,17 @@ void ArcDrawing::redraw_saddle(Index saddle) {
     border = LayoutMesh::next(border);
     while (mesh_.is_free(border)) border = LayoutMesh::next(mesh_.twin(border));
   } while (node_at(mesh_.origin(border)) == kNone);
+  Star star;
   std::array<Index, 4> end{};
   std::vector<Index> arc;
   for (Index k = 0; k < 4; ++k) {
     follow(first + k, arc);
     end[k] = arc.back();
-    erase(first + k);
+    erase(first + k, star.erased);
   }
   const auto is_corner = [&](Index v) {  // a node, or where an arc ended at a rim
     return node_at(v) != kNone || (is_on_rim(v) && (v == end[1] || v == end[3]));
   };
-  Star star;
   star.node = saddle;
   star.disc = finder_.find(border, name(saddle));
   Index corners = 0;
@@ -228,10 +272,11 @@ void ArcDrawing::redraw_saddle(Index saddle) {
   if (corners != 8)
     throw std::logic_error("quad layout: the patches around the " + name(saddle) + " are out of order");
   embed(star);
-  draw(star, true);
+  draw_again(star);
 }
 
 void ArcDrawing::relax(const core::Progress& progress) {
+  most_triangles_ = mesh_.triangle_count() + std::max<std::size_t>(mesh_.triangle_count(), kMostAdded);
   redraw(complex_.maximum_node(0), complex_.maximum_node(complex_.maximum_count()));
   progress.throw_if_cancelled();
   redraw(0, complex_.minimum_count());

@@ -24,8 +24,8 @@ QuadLayout embed_layout(const MorseSmaleComplex& complex, const LayoutOptions& o
     progress.update("quad layout", double(round) / steps);
     drawing.relax(progress);
   }
-  QuadLayout layout{complex.mesh(),  drawing.mesh().mesh(), drawing.node_vertex(), {}, {}, {},
-                    drawing.missed()};
+  QuadLayout layout{complex.mesh(),   drawing.mesh().mesh(), drawing.node_vertex(), {}, {}, {},
+                    drawing.missed(), drawing.left()};
   layout.arcs.resize(complex.arc_count());
   for (Index arc = 0; arc < complex.arc_count(); ++arc) drawing.follow(arc, layout.arcs[arc]);
   for (Index q = 0; q < complex.quad_count(); ++q) layout.patches.push_back(complex.quad(q));

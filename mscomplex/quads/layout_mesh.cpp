@@ -99,9 +99,47 @@ Index LayoutMesh::split_triangle(Index t, const std::array<double, 3>& weights) 
   return m;
 }
 
+/// Of a vertex and two triangles.
+void LayoutMesh::remove_last_split() {
+  position_.pop_back();
+  leaving_.pop_back();
+  for (std::vector<Index>* of_halfedges : {&origin_, &twin_, &label_})
+    of_halfedges->resize(of_halfedges->size() - 6);
+}
+
+void LayoutMesh::undo_split_edge(Index h) {
+  const Index g = twin_[h];
+  const Index n = next(h);
+  const Index q = previous(g);
+  const Index n1 = next(halfedge_count() - 6);
+  const Index q1 = previous(halfedge_count() - 3);
+  const Index b = origin_[n1];
+  pair(n, twin_[n1]);
+  pair(q, twin_[q1]);
+  label_[n] = label_[n1];
+  label_[q] = label_[q1];
+  origin_[n] = origin_[g] = b;
+  leaving_[b] = g;
+  remove_last_split();
+}
+
+void LayoutMesh::undo_split_triangle(Index t) {
+  const Index h = 3 * t;
+  const Index at_bc = halfedge_count() - 6;
+  const Index at_ca = halfedge_count() - 3;
+  pair(h + 1, twin_[at_bc]);
+  pair(h + 2, twin_[at_ca]);
+  label_[h + 1] = label_[at_bc];
+  label_[h + 2] = label_[at_ca];
+  origin_[h + 2] = origin_[at_ca];
+  leaving_[origin_[h + 1]] = h + 1;
+  leaving_[origin_[h + 2]] = h + 2;
+  remove_last_split();
+}
+
 core::TriangleMesh LayoutMesh::mesh() const {
   std::vector<core::Triangle> triangles(triangle_count());
-  for (Index t = 0; t < triangle_count(); ++t)
+  for (std::size_t t = 0; t < triangles.size(); ++t)
     triangles[t] = {origin_[3 * t], origin_[3 * t + 1], origin_[3 * t + 2]};
   return {position_, std::move(triangles)};
 }

@@ -59,6 +59,13 @@ class LayoutMesh {
   /// Inserts a vertex into triangle t and joins it to the corners; `weights` are its barycentric coordinates.
   core::Index split_triangle(core::Index t, const std::array<double, 3>& weights);
 
+  /// Takes back the last split of all, split_edge(h). Labels are as before but for that of h's own edge,
+  /// which stays as it is; leaving() of the ends may be another half-edge than before.
+  void undo_split_edge(core::Index h);
+  /// Takes back the last split of all, split_triangle(t); leaving() of the corners may be another than
+  /// before.
+  void undo_split_triangle(core::Index t);
+
   /// As an immutable mesh with the same triangles and half-edges.
   core::TriangleMesh mesh() const;
 
@@ -68,6 +75,7 @@ class LayoutMesh {
     twin_[h] = g;
   }
   core::Index add_triangle(core::Index a, core::Index b, core::Index c);
+  void remove_last_split();
 
   std::vector<core::Point> position_;
   std::vector<core::Index> leaving_;  // per vertex

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "morsel/core/parallel/stop.h"
+
 namespace morsel::mscomplex {
 
 using core::Index;
@@ -44,11 +46,12 @@ void SpokeDrawer::put_hub_into_the_middle(const Disc& disc, const std::vector<Ve
   for (double& w : weights) sum += w = std::max(w, kLeastWeight);
   for (double& w : weights) w /= sum;
 
-  const Vector2d a = place_[3 * best];
-  const Vector2d b = place_[3 * best + 1];
-  const Vector2d c = place_[3 * best + 2];
+  const Vector2d a = place_[3 * std::size_t{best}];
+  const Vector2d b = place_[3 * std::size_t{best} + 1];
+  const Vector2d c = place_[3 * std::size_t{best} + 2];
   const Index added = mesh_.halfedge_count();
   hub_ = mesh_.split_triangle(best, weights);
+  split_triangle_ = best;
   renumber(3 * best + 1, added);
   renumber(3 * best + 2, added + 3);
   hub_place_ = weights[0] * a + weights[1] * b + weights[2] * c;
@@ -158,6 +161,7 @@ void SpokeDrawer::split(Index h, double share) {
   const Vector2d m = place_[h] + share * (b - place_[h]);
   const Index added = mesh_.halfedge_count();
   mesh_.split_edge(h, share);
+  split_.push_back(h);
   renumber(LayoutMesh::next(h), added + 1);
   renumber(LayoutMesh::previous(g), added + 5);
   place_[LayoutMesh::next(h)] = place_[g] = m;
@@ -168,6 +172,7 @@ void SpokeDrawer::take(const Way& way, Index arc) {
   Index h = way.first;
   if (way.shares.empty()) {
     mesh_.set_label(h, arc);
+    labelled_.push_back(h);
     return;
   }
   for (std::size_t i = 0; i < way.shares.size(); ++i) {
@@ -181,13 +186,30 @@ void SpokeDrawer::take(const Way& way, Index arc) {
   }
 }
 
+/// Each edge that is crossed makes two triangles more.
+bool SpokeDrawer::fits(const Way& way, std::size_t most_triangles) const {
+  return mesh_.triangle_count() + 2 * way.shares.size() <= most_triangles;
+}
+
+/// Takes back all that this draw() did to the mesh, the last first.
+void SpokeDrawer::undo() {
+  for (const Index h : labelled_) mesh_.set_label(h, LayoutMesh::kFree);
+  for (; !split_.empty(); split_.pop_back()) mesh_.undo_split_edge(split_.back());
+  if (split_triangle_ != kNone) mesh_.undo_split_triangle(split_triangle_);
+  place_.resize(mesh_.halfedge_count());
+}
+
 SpokeDrawer::Drawn SpokeDrawer::draw(const Disc& disc, const std::vector<Vector2d>& place,
-                                     const std::vector<Spoke>& spokes, Index hub) {
+                                     const std::vector<Spoke>& spokes, Index hub,
+                                     std::size_t most_triangles) {
   place_.resize(mesh_.halfedge_count(), Vector2d::Zero());
   for (std::size_t k = 0; k < disc.triangles.size(); ++k)
     for (Index i = 0; i < 3; ++i) place_[3 * disc.triangles[k] + i] = place[disc.corner[3 * k + i]];
   spoke_at_.clear();
   start_.clear();
+  labelled_.clear();
+  split_.clear();
+  split_triangle_ = kNone;
   for (const Spoke& spoke : spokes) {
     spoke_at_.emplace(disc.border[spoke.at], start_.size());
     start_.push_back(disc.border[spoke.at]);
@@ -203,12 +225,17 @@ SpokeDrawer::Drawn SpokeDrawer::draw(const Disc& disc, const std::vector<Vector2
 
   Drawn drawn{hub_, 0};
   for (std::size_t k = 0; k < spokes.size(); ++k) {
+    core::throw_if_stopped();
     const Vector2d from = place_[start_[k]];
     Way way = straight_way(start_[k]);
     if (!way.found) {
       ++drawn.missed;
       way = shortest_way(start_[k]);
       if (!way.found) throw std::logic_error("quad layout: no way to the middle of a disc");
+    }
+    if (!fits(way, most_triangles)) {
+      undo();
+      return {};
     }
     take(way, spokes[k].arc);
     start_of_new_.resize(mesh_.vertex_count() - first_new_, from);

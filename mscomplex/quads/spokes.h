@@ -27,13 +27,14 @@ class SpokeDrawer {
   explicit SpokeDrawer(LayoutMesh& mesh) : mesh_(mesh) {}
 
   struct Drawn {
-    core::Index hub = core::kNone;  ///< vertex
+    core::Index hub = core::kNone;  ///< vertex; kNone if the spokes did not fit
     core::Index missed = 0;         ///< spokes whose straight line missed it
   };
   /// Draws all spokes of a disc (`place` is per disc vertex) to `hub`, a vertex inside; if that is kNone, to
-  /// a new one, as near to the middle of the unit circle as the triangle there allows.
+  /// a new one, as near to the middle of the unit circle as the triangle there allows. If the mesh had more
+  /// than `most_triangles` with them, they do not fit, and the mesh is left as it was. Throws Cancelled.
   Drawn draw(const Disc& disc, const std::vector<Eigen::Vector2d>& place, const std::vector<Spoke>& spokes,
-             core::Index hub);
+             core::Index hub, std::size_t most_triangles);
 
  private:
   struct Way {
@@ -47,6 +48,8 @@ class SpokeDrawer {
   Way shortest_way(core::Index start) const;
   void take(const Way& way, core::Index arc);
   void split(core::Index h, double share);
+  bool fits(const Way& way, std::size_t most_triangles) const;
+  void undo();
   void renumber(core::Index from, core::Index to);
   double offset(core::Index h, const Eigen::Vector2d& from) const;
   bool is_left(core::Index h, const Eigen::Vector2d& from) const;
@@ -56,6 +59,9 @@ class SpokeDrawer {
   std::vector<Eigen::Vector2d> place_;                     // per half-edge: of its origin
   std::unordered_map<core::Index, std::size_t> spoke_at_;  // by the border half-edge at its start
   std::vector<core::Index> start_;                         // per spoke: that half-edge
+  std::vector<core::Index> labelled_;         // edges to a hub that were there, labelled by this draw()
+  std::vector<core::Index> split_;            // half-edges split by this draw()
+  core::Index split_triangle_ = core::kNone;  // the one that got the new hub
   core::Index hub_ = core::kNone;
   Eigen::Vector2d hub_place_ = Eigen::Vector2d::Zero();
   core::Index first_new_ = 0;                  // vertices from here on are on spokes …

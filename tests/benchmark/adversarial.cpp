@@ -37,7 +37,8 @@ void run_family(const Family& family, const Plan& plan, int threads, const Repor
     if (size == family.smallest)
       first = row.cost.fastest;
     else
-      row.growth = std::log(row.cost.fastest / first) / std::log(static_cast<double>(size / family.smallest));
+      row.growth = std::log(row.cost.fastest / first) /
+                   std::log(static_cast<double>(size) / static_cast<double>(family.smallest));
     const bool is_last = row.cost.fastest > kLongest;
     report(std::move(row));
     if (is_last) break;

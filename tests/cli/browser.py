@@ -139,7 +139,7 @@ class Page:
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
 
     def said(self):
-        """What went to the console, or was thrown and not caught."""
+        """What went to the console, or was thrown and not caught, but for the driver's remarks on speed."""
         self.run("0")
         lines = []
         for event in self.browser.events:
@@ -151,7 +151,7 @@ class Page:
                 lines.append(details.get("exception", {}).get("description", details["text"]))
             elif event["method"] == "Log.entryAdded":
                 lines.append(parameters["entry"]["text"])
-        return lines
+        return [line for line in lines if "GL Driver Message (OpenGL, Performance" not in line]
 
     def requests(self):
         """The addresses that were asked for."""

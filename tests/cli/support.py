@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
 import time
@@ -48,7 +49,7 @@ DAMAGED = """OFF
 # names a file to write, with the ending of the file.
 ON_MESH = {
     "compare": (("compare", "{}", "--method", "conventional"), {"-o": ".json", "--html": ".html"}),
-    "field": (("field", "{}"), {"-o": ".txt"}),
+    "field": (("field", "{}", "--points", "2"), {"-o": ".ply", "--json": ".json"}),
     "points": (("points", "{}"), {"-o": ".csv"}),
     "hierarchy": (("hierarchy", "{}", "--levels", "0"), {"-o": ".json"}),
     "segment": (("segment", "{}"), {"-o": ".ply", "--json": ".json"}),
@@ -78,6 +79,44 @@ def interrupted(folder, arguments, how, code, ready):
         _, errors = process.communicate(timeout=60)
     assert process.returncode == code, (process.returncode, errors)
     return sum(path.read_bytes().count(b"\n") - 1 for path in folder.glob("*.journal"))
+
+
+def writes_into(process, folder):
+    """Whether the process, by its number, has a file in the folder open for writing, be it one without a
+    name yet; and is no zombie."""
+    files = pathlib.Path(f"/proc/{process}/fd")
+    try:
+        return any(os.readlink(file).startswith(f"{folder.resolve()}/")
+                   and file.lstat().st_mode & 0o200 for file in files.iterdir())
+    except OSError:  # of a process or a file that is not there any more
+        return False
+
+
+def stopped_while_writing(process, folder):
+    """Stops (SIGSTOP) a process that writes into the folder. False if it does not, any more."""
+    if not writes_into(process, folder):
+        return False
+    os.kill(process, signal.SIGSTOP)
+
+    def state():
+        return pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0]
+    until(lambda: state() in "TZ")
+    if writes_into(process, folder):
+        return True
+    os.kill(process, signal.SIGCONT)
+    return False
+
+
+def children_of(process):
+    """The numbers of its child processes."""
+    children = []
+    for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        try:
+            if int(path.read_text().rsplit(")", 1)[1].split()[1]) == process:
+                children.append(int(path.parent.name))
+        except OSError:  # it has ended
+            continue
+    return children
 
 
 def made_in(folder):

@@ -26,9 +26,9 @@ class Products(BatchTest):
         self.batch(*ALL, "--no-items", pictures=True)
         self.assertEqual(self.files("pages"), [f"{name}.html" for name in self.names])
         # With the arguments of batch, since files name the command that made them.
-        self.morsel("compare", "--field=mean-curvature", "--method=conventional",
-                    "--method=salient:iterations=2",
-                    "--no-items", "--view=best", "--up=y", "--size=200x150", "--figures", "figures",
+        self.morsel("compare", "--field", "mean-curvature", "--method", "conventional",
+                    "--method", "salient:iterations=2", "--no-items", "--view", "best", "--up", "y",
+                    "--size", "200x150", "--figures", "figures",
                     "--export", "exports",
                     "--", "meshes/sphere.off")
         for kind in ("figures", "exports"):

@@ -205,11 +205,94 @@ class Compare(ProgramTest):
         self.assertIn("time=0.123rootarea", fields[0])
         self.assertIn("time=0.246rootarea", fields[2])
 
+    def test_points_are_chosen_of_every_row(self):
+        lion = SAMPLES / "lion-head.off"
+        methods = ("conventional", "salient:iterations=2,sigma=4eps", "tps:count=90")
+        options = ("--points", 14, "--kind", "all", "--rank", "salience", "--spacing", "3%", "--percentiles")
+        words = [word for method in methods for word in ("--method", method)]
+        result = self.morsel("compare", lion, *words, *options, "-o", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        jsonschema.validate(report, json.loads(SCHEMA.read_text()))
+        self.assertEqual(report["request"]["points"],
+                         {"count": 14, "kind": "all", "rank": "salience", "spacing": "3%",
+                          "percentiles": True})
+        for method, row in zip(methods, report["methods"]):
+            self.morsel("points", lion, "--field", "mean-curvature", "--method", method, "--fill", "none",
+                        *options, "-o", "p.json")
+            alone = json.loads((self.folder / "p.json").read_text())
+            for key in ("spacing", "salience_scale", "candidates", "too_near", "count", "note",
+                        "mean_percentile", "points"):
+                self.assertEqual(row["chosen"][key], alone[key], (method, key))
+            matching = row["chosen"]["compared_to_first"]
+            self.assertEqual(matching["kept"] + matching["moved"] + matching["added"], 14)
+            items = {item["vertex"]: item["type"] for item in row["items"]}
+            for point in row["chosen"]["points"]:
+                self.assertEqual(items[point["vertex"]], point["type"])
+            self.assertIn(method, result.stdout)
+        self.assertEqual(report["methods"][0]["chosen"]["compared_to_first"]["kept"], 14)
+        for word in ("percentile", "chosen points of conventional", "points to added"):
+            self.assertIn(word, result.stdout)
+        self.assertNotIn("(mult.)", result.stdout)
+        self.morsel("check", "r.json")
+
+    def test_the_reason_for_fewer_points_is_below_the_table(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        result = self.morsel("compare", mesh, "--field", "height", "--method", "conventional", "--points", 9,
+                             "--no-items", "-o", "r.json")
+        note = "2 of 9 points: height has 2 extrema that stand out at all"
+        self.assertIn(f"conventional: {note}\n", result.stdout)
+        report = json.loads((self.folder / "r.json").read_text())
+        jsonschema.validate(report, json.loads(SCHEMA.read_text()))
+        chosen = report["methods"][0]["chosen"]
+        self.assertEqual((chosen["note"], chosen["count"], chosen["mean_percentile"]), (note, 2, None))
+        self.assertEqual(len(chosen["points"]), 2)  # few, and asked for
+        del report["methods"][0]["chosen"]
+        with self.assertRaises(jsonschema.ValidationError):
+            jsonschema.validate(report, json.loads(SCHEMA.read_text()))
+
+    def test_points_at_their_origins(self):
+        lion = SAMPLES / "lion-head.off"
+        plain, snapped = (self.report(lion, "--method", "salient", "--points", 12, *more, name=f"{i}.json")
+                          for i, more in enumerate(((), ("--snap",))))
+        items = {item["vertex"]: item for item in snapped["methods"][0]["items"]}
+        before, after = (report["methods"][0]["chosen"]["points"] for report in (plain, snapped))
+        self.assertEqual([p["vertex"] for p in before], [p["vertex"] for p in after])
+        self.assertEqual([p["position"] for p in after], [items[p["vertex"]]["position"] for p in after])
+        self.assertNotEqual([p["position"] for p in before], [p["position"] for p in after])
+
+    def test_options_of_points_that_are_refused(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        for words, naming in ((("--kind", "maxima"), "--points"), (("--rank", "salience"), "--points"),
+                              (("--spacing", "3%"), "--points"), (("--percentiles",), "--points"),
+                              (("--points", 0), "--points"),
+                              (("--points", 3, "--spacing", "wide"), "--spacing"),
+                              (("--points", 3, "--salience-scale", "8eps"), "rank=salience"),
+                              (("--points", 3, "--fill", "curvature"), "curvature")):
+            error = self.morsel("compare", mesh, *words, "-o", "r.json", code=2).stderr
+            self.assertIn(naming, error, words)
+        values = self.file("values.txt", "1\n2\n3\n4\n5\n6\n")
+        error = self.morsel("compare", mesh, "--points", 3, "--fill", f"vertex-scalar:file={values}", "-o",
+                            values, code=2).stderr
+        self.assertIn("values.txt", error)
+        self.assertFalse((self.folder / "r.json").exists())
+
+    def test_a_request_for_points_that_is_damaged(self):
+        mesh = self.file("octahedron.off", OCTAHEDRON)
+        report = self.report(mesh, "--field", "height", "--points", 2)
+        for key, value, naming in (("count", -1, "count"), ("kind", "tips", "kind"), ("rank", 3, "rank"),
+                                   ("spacing", "wide", "not a length"), ("percentiles", "yes", "percentiles"),
+                                   ("scale", "", "not a length"), ("spacing", "-1%", "spacing"),
+                                   ("count", 0, "at least 1"), ("fill", "tips", "tips")):
+            spoiled = json.loads(json.dumps(report))
+            spoiled["request"]["points"][key] = value
+            self.file("spoiled.json", json.dumps(spoiled))
+            self.assertIn(naming, self.morsel("check", "spoiled.json", code=3).stderr, (key, value))
+
     def test_warnings_are_printed_and_in_the_report(self):
         mesh = self.file("octahedron.off", OCTAHEDRON)
         values = self.file("values.txt", "1\n" * 6)
-        result = self.morsel("compare", mesh, "--field", f"vertex-scalar:file={values}", "--method", "salient",
-                             "-o", "r.json")
+        result = self.morsel("compare", mesh, "--field", f"vertex-scalar:file={values}",
+                             "--method", "salient", "-o", "r.json")
         self.assertIn("morsel: warning: vertex-scalar: the field is constant", result.stderr)
         self.assertIn("morsel: warning: salient: of 6 vertices 6 have no other", result.stderr)
         report = json.loads((self.folder / "r.json").read_text())

@@ -255,7 +255,7 @@ class Journals(Documents):
             with self.subTest(damage[:80]):
                 errors = self.run_any(*self.SWEEP, codes=(0,))[2]
                 self.assertIn("warning: rows.json.journal: 1 damaged entry counts as absent", errors)
-                self.assertIn("going on with 1 of 6", errors)
+                self.assertIn("resuming with 1 of 6", errors)
                 self.assertEqual(json.loads((self.folder / "rows.json").read_text())["rows"], expected)
                 self.assertFalse((self.folder / "rows.json.journal").exists())
 
@@ -317,6 +317,34 @@ class Names(Documents):
                                            newline="")))
         self.assertIn("./=cmd.off", [row[0] for row in rows])
         self.assertFalse([cell for row in rows for cell in row if cell[:1] in ("=", "@", "\t", "\r")])
+
+    def test_json_on_a_terminal_has_no_character_that_acts_on_it(self):
+        """C1 control characters and those that change the direction of writing were not escaped."""
+        acting = "\x7f\x80\x9b\u061c\u200e\u2028\u202e\u2066\ufffe"
+        name = f"a{acting}31m-\u00fc.off"
+        self.file(name, OCTAHEDRON)
+        quick = ("--field", "height")
+        for arguments in (("info", "--json", name), ("compare", name, *quick, "-o", "-"),
+                          ("sweep", name, *quick, "--vary", "iterations=1,2", "-o", "-"),
+                          ("hierarchy", name, *quick, "--levels", "0", "-o", "-")):
+            with self.subTest(arguments[0]):
+                text = self.run_any(*arguments, codes=(0,))[1]
+                self.assertNotRegex(text, f"[{acting}]")
+                self.assertIn("a\\u007f\\u0080\\u009b", text)
+                self.assertIn("\u00fc.off", text)
+                self.assertIn(name, json.dumps(json.loads(text), ensure_ascii=False))
+
+    def test_a_varied_path_in_a_table_is_the_same_path(self):
+        """It had an apostrophe before it."""
+        for name in ("=a.txt", "b.txt"):
+            self.file(name, "0\n1\n2\n3\n4\n5\n")
+        for key in ("file", "field.file"):
+            with self.subTest(key):
+                self.morsel("sweep", self.mesh, "--field", "vertex-scalar", "--vary", f"{key}==a.txt,b.txt",
+                            "-o", "r.csv")
+                with open(self.folder / "r.csv", newline="", encoding="utf-8") as table:
+                    rows = list(csv.DictReader(table))
+                self.assertEqual([row[key] for row in rows], ["./=a.txt", "b.txt"])
 
     def test_a_table_of_a_mesh_whose_name_is_a_formula(self):
         self.mesh.rename(self.folder / "=cmd.off")

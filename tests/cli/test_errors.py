@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -87,8 +88,15 @@ class Usage(ProgramTest):
         for command, said in (
                 (("nonsense",), "no command \"nonsense\""),
                 (("comapre", "m.off"), "did you mean compare?"),
+                (("compare.d",), 'there is no command "compare.d"; did you mean compare?'),
                 (("--threads", "3", "compare"), "--threads came before"),
                 (("help", "comapre"), "did you mean compare?"),
+                (("help", "compare", "field"), '"field" is one argument too many'),
+                (("help", "compare", "--x"), "help has no option --x"),
+                (("help", "--x"), "help has no option --x"),
+                (("--versoin",), "there is no option --versoin; did you mean --version?"),
+                (("--nonsense", "compare"), "there is no option --nonsense (morsel --help"),
+                (("compare", "m.off", "-z"), "there is no option -z (morsel compare --help"),
                 (("compare",), "compare needs MESH"),
                 (("cut", "m.off"), "cut needs -o OUT"),
                 (("compare", "m.off", "n.off"), "n.off"),
@@ -102,7 +110,22 @@ class Usage(ProgramTest):
                 (("compare", "m.off", "--field", "height", "--field", "height"), "--field was given 2 times"),
                 (("compare", "m.off", "--up", "w"), "--up must be x, y or z, not \"w\""),
                 (("molecule", "m.pdb", "-o", "m.off", "--kind", "guassian"), "did you mean gaussian?"),
+                (("segment", "m.off", "-o", "m.ply", "--by", "descendin"),
+                 '--by must be descending, ascending or morse-smale, not "descendin"; did you mean '
+                 'descending?'),
+                (("render", "m.off", "-o", "m.png", "--colormap", "viridi"), "did you mean viridis?"),
+                (("render", "m.off", "-o", "m.png", "--colormap", ""), "--colormap must be blue-orange, "),
+                (("render", "m.off", "-o", "m.png", "--view", "fron"),
+                 'there is no view "fron"; did you mean front? There are: best, front, '),
+                (("compare", "m.off", "--field", "mean-curvature:estimator=taubn"),
+                 "did you mean taubin?"),
+                (("reproduce", "new", "--view", "loin=front"), 'no model "loin"; did you mean lion?'),
+                (("reproduce", "new", "--up", "w"), 'the axis that points up must be x, y or z, not "w"'),
                 (("batch", "x", "--out", "y", "--size", "3x3"), "--size needs --figures"),
+                (("batch", "x", "--out", "y", "--inset", "3"), "--inset needs --figures"),
+                (("compare", "m.off", "--size", "3x3"), "--size needs --figures"),
+                (("compare", "m.off", "--inset", "3", "--html", "m.html"), "--inset needs --figures"),
+                (("compare", "m.off", "--html-place", "m.html"), "--html-place needs --html"),
                 (("batch", "x", "--out", "y", "--plan", "--summary-only"),
                  "--plan and --summary-only exclude"),
                 (("batch", "x", "--out", "y", "--time-limit", "0"), "a finite number above 0, not \"0\""),
@@ -137,12 +160,19 @@ class Usage(ProgramTest):
             self.assertEqual(again, report, words)
         self.assertIn("vertices", self.morsel("info", "--", mesh.name).stdout)
 
+    def test_a_missing_file_named_like_a_mesh_is_one_to_compare(self):
+        for name in ("missing.off", "missing.PLY", "missing.stl", "missing.obj"):
+            self.assertIn(name, self.morsel(name, code=3).stderr)
+        shutil.copy(self.mesh, self.folder / "mesh.txt")  # there is one, whatever its name
+        self.assertIn("meshes are read from", self.morsel("mesh.txt", code=3).stderr)
+
     def test_help(self):
         """Without a command, with an option and as a command; the same text for each command, which fits a
         terminal."""
         text = self.morsel().stdout
         self.assertEqual(self.morsel("--help").stdout, text)
-        self.assertEqual(self.morsel("help").stdout, text)
+        for words in (("help",), ("help", "help"), ("help", "--help"), ("help", "help", "--help")):
+            self.assertEqual(self.morsel(*words).stdout, text)
         self.assertIn("compare", self.commands())
         for command in self.commands():
             text = self.morsel(command, "--help").stdout
@@ -260,9 +290,77 @@ class Writing(ProgramTest):
         for folder in ("other", "more"):
             self.assertFalse((self.folder / folder).exists(), folder)
 
-    def test_a_picture_is_a_png(self):
-        self.assertIn(".png", self.morsel("render", self.mesh, "-o", "x.jpg", code=2).stderr)
-        self.assertFalse((self.folder / "x.jpg").exists())
+    def test_an_output_of_another_format_is_refused_in_one_wording(self):
+        """Before it is found to be the input, in every command."""
+        for words, said in (
+                (("field", "x.jpg", "-o", "x.jpg"), "a field is written to .txt, .ply or .vtp"),
+                (("segment", "x.jpg", "-o", "x.jpg"), "labels are written to .ply, .vtp or .txt"),
+                (("points", "x.jpg", "-o", "x.jpg"), "points are written to .csv, .json, .ply or .vtp"),
+                (("cut", "x.jpg", "-o", "x.jpg"), "a cut mesh is written to .off or .ply"),
+                (("cut", "x.jpg", "-o", "x.off", "--graph", "x.jpg"),
+                 "a cut is written for ParaView to .vtp"),
+                (("quads", "x.jpg", "-o", "x.jpg"), "quads are written to .obj"),
+                (("render", "x.jpg", "-o", "x.jpg"), "a picture is written to .png"),
+                (("molecule", "x.jpg", "-o", "x.jpg"), "a surface is written to .off or .ply"),
+                (("stability", "x.jpg", "-o", "x.jpg"), "a table is written to .json or .csv"),
+                (("sweep", "x.jpg", "--vary", "iterations=1..2", "-o", "x.jpg"),
+                 "a table is written to .json or .csv")):
+            with self.subTest(words):
+                self.assertIn(f'morsel: {said}, not to "x.jpg"\n', self.morsel(*words, code=2).stderr)
+        self.assertEqual(os.listdir(self.folder), [self.mesh.name])
+
+    def test_a_document_does_not_replace_a_mesh(self):
+        """`morsel compare a.off -o b.off` once replaced the second scan by a report."""
+        meshes = [self.file(f"scan{ending}", "the only copy") for ending in (".off", ".OBJ", ".ply", ".stl")]
+        for command, (words, options) in ON_MESH.items():
+            if command in ("field", "points", "render"):
+                continue  # of which a mesh is a format, or that name theirs
+            for option in options.keys() & {"-o", "--html", "--json"}:
+                if option == "-o" and command in ("segment", "cut", "quads"):
+                    continue
+                for mesh in meshes:
+                    required = () if option == "-o" else ("-o", f"free{options['-o']}")
+                    with self.subTest(command=command, option=option, mesh=mesh.name):
+                        result = self.morsel(*(word.format(self.mesh) for word in words), *required, option,
+                                             mesh.name, code=2)
+                        self.assertIn(mesh.name, result.stderr)
+                        self.assertEqual(mesh.read_text(), "the only copy")
+        self.assertEqual(sorted(os.listdir(self.folder)),
+                         sorted([self.mesh.name, *(mesh.name for mesh in meshes)]))
+
+    def test_outputs_are_tried_before_the_mesh_is_read(self):
+        self.file("taken", "")
+        for command, (words, options) in ON_MESH.items():
+            for option, ending in options.items():
+                required = () if option == "-o" else ("-o", f"free{options['-o']}")
+                with self.subTest(command=command, option=option):
+                    self.morsel(*(word.format("missing.off") for word in words), *required, option,
+                                f"taken/x{ending}", code=4)
+
+    def test_a_pipe_gets_the_whole_file(self):
+        for words, ending in ((("field",), ".txt"), (("points",), ".csv"), (("cut",), ".off"),
+                              (("segment",), ".ply"), (("render", "--size", "40x30"), ".png")):
+            command = (words[0], self.mesh, "--field", "height", *words[1:], "-o")
+            pipe = self.folder / f"pipe-{words[0]}{ending}"
+            os.mkfifo(pipe)
+            with self.subTest(words), subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE) as reader:
+                self.morsel(*command, pipe)
+                read, _ = reader.communicate(timeout=60)
+                self.morsel(*command, f"file{ending}")
+                self.assertEqual(read, (self.folder / f"file{ending}").read_bytes())
+
+    def test_an_ending_in_capital_letters_is_that_format(self):
+        plain = ("--field", "height", "--method", "conventional")
+        for words in (("field", self.mesh, *plain), ("segment", self.mesh, *plain),
+                      ("points", self.mesh, *plain), ("cut", self.mesh, *plain)):
+            for ending in (".ply", ".PLY"):
+                self.morsel(*words, "-o", f"{words[0]}{ending}")
+            small, capital = ((self.folder / f"{words[0]}{ending}").read_bytes()
+                              for ending in (".ply", ".PLY"))
+            self.assertEqual(capital, small, words)
+        self.morsel("cut", self.mesh, *plain, "-o", "c.OFF", "--graph", "c.VTP")
+        self.assertTrue((self.folder / "c.OFF").read_bytes().startswith(b"OFF"))
+        self.assertIn(b"VTKFile", (self.folder / "c.VTP").read_bytes())
 
     def test_a_full_device(self):
         if not pathlib.Path("/dev/full").exists():

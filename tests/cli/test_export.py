@@ -66,6 +66,31 @@ class Export(ProgramTest):
                                  (item["vertex"], item["type"], item["value"]))
                 self.assertEqual(row["persistence"] == "inf", item["persistence"] is None)
 
+    def test_chosen_points_take_the_place_of_critical_points(self):
+        lion = SAMPLES / "lion-head.off"
+        report = self.report(lion, "--method", "salient", "--points", 15, "--fill", "height",
+                             "--export", "out")
+        chosen = report["methods"][0]["chosen"]["points"]
+        surface = read(self.folder / "out" / "salient.surface.vtp")
+        points = arrays(surface.GetPointData())
+        vertices = range(surface.GetNumberOfPoints())
+        marked = {int(points["chosen"].GetValue(v)): v for v in vertices if points["chosen"].GetValue(v) > 0}
+        self.assertEqual([marked[i + 1] for i in range(15)], [point["vertex"] for point in chosen])
+        critical_types = points["critical_type"]
+        types = {v: critical_types.GetValue(v) for v in vertices if critical_types.GetValue(v)}
+        self.assertEqual(types, {point["vertex"]: {"minimum": 1, "saddle": 2, "maximum": 3}[point["type"]]
+                                 for point in chosen})
+        self.morsel("points", lion, "--field", "mean-curvature", "--method", "salient", "--points", 15,
+                    "--fill", "height", "-o", "p.csv")
+        with open(self.folder / "out" / "salient.points.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        with open(self.folder / "p.csv", newline="", encoding="utf-8") as file:
+            alone = list(csv.DictReader(file))
+        for row in rows + alone:
+            del row["provenance"]
+        self.assertEqual(rows, alone)
+        self.assertEqual({row["percentile"] for row in rows}, {""})
+
     def test_cells_are_the_meshs_faces_and_the_complexs_arcs(self):
         lion = SAMPLES / "lion-head.off"
         self.morsel("compare", lion, "--method", "conventional", "--export", "out")

@@ -1,9 +1,12 @@
 """morsel field: fields written and read back."""
 
+import json
 import math
 import unittest
 
-from support import DAMAGED, OCTAHEDRON, SAMPLES, ProgramTest, data_lines
+import jsonschema
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 
 class Field(ProgramTest):
@@ -39,6 +42,53 @@ class Field(ProgramTest):
         self.morsel("field", SAMPLES / "lion-head.off", "--method", "salient:iterations=1", "-o", "s.txt")
         self.morsel("field", SAMPLES / "lion-head.off", "-o", "h.txt")
         self.assertLess(max(self.values("s.txt")), max(self.values("h.txt")))
+
+    def test_chosen_points_are_marked_and_listed(self):
+        lion = SAMPLES / "lion-head.off"
+        words = ("--method", "salient", "--points", 12, "--spacing", "3%")
+        said = self.morsel("field", lion, *words, "-o", "s.vtp", "--json", "p.json").stderr
+        self.assertIn("points: 12, at least ", said)
+        self.assertIn("points: p.json\n", said)
+        document = json.loads((self.folder / "p.json").read_text())
+        jsonschema.validate(document, json.loads((SCHEMA.parent / "points.schema.json").read_text()))
+        self.morsel("points", lion, "--field", "mean-curvature", *words, "--fill", "none", "-o", "alone.json")
+        alone = json.loads((self.folder / "alone.json").read_text())
+        self.assertEqual(document["points"], alone["points"])
+        order = {point["vertex"]: i + 1 for i, point in enumerate(alone["points"])}
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(str(self.folder / "s.vtp"))
+        reader.Update()
+        chosen = reader.GetOutput().GetPointData().GetArray("chosen")
+        self.assertEqual({v: int(chosen.GetValue(v)) for v in range(chosen.GetNumberOfTuples())
+                          if chosen.GetValue(v) > 0}, order)
+        # a property that can be a field again
+        self.morsel("field", lion, *words, "-o", "s.ply")
+        self.morsel("field", "s.ply", "--field", "vertex-scalar:property=chosen", "-o", "chosen.txt")
+        self.assertEqual({v: int(x) for v, x in enumerate(self.values("chosen.txt")) if x > 0}, order)
+        # the field itself is the same
+        self.morsel("field", lion, *words, "-o", "with.txt", "--json", "-")
+        self.morsel("field", lion, "--method", "salient", "-o", "without.txt")
+        self.assertEqual(self.values("with.txt"), self.values("without.txt"))
+
+    def test_chosen_points_have_the_inputs_numbers(self):
+        mesh = self.file("d.off", DAMAGED)
+        self.morsel("field", mesh, "--repair", "--field", "height:axis=x", "--points", 5, "--kind", "all",
+                    "--spacing", 0, "-o", "x.vtp", "--json", "p.json")
+        points = json.loads((self.folder / "p.json").read_text())["points"]
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(str(self.folder / "x.vtp"))
+        reader.Update()
+        chosen = reader.GetOutput().GetPointData().GetArray("chosen")
+        marked = [int(chosen.GetValue(v)) for v in range(chosen.GetNumberOfTuples())]
+        self.assertEqual([marked.index(i + 1) for i in range(len(points))], [p["vertex"] for p in points])
+
+    def test_points_that_no_file_would_hold_are_refused(self):
+        mesh = self.file("o.off", OCTAHEDRON)
+        error = self.morsel("field", mesh, "--points", 3, "-o", "x.txt", code=2).stderr
+        self.assertIn("--json", error)
+        for more in (("-o", "x.txt", "--json", "p.json"), ("-o", "x.ply", "--kind", "all")):
+            self.assertIn("--points", self.morsel("field", mesh, *more, code=2).stderr)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["o.off"])
 
     def test_an_unknown_ending_is_refused(self):
         result = self.morsel("field", self.file("o.off", OCTAHEDRON), "-o", "x.csv", code=2)

@@ -317,10 +317,10 @@ class Refused(Hierarchy):
         self.refuse("--by", "height", naming=["height", "persistence"])
 
     def test_what_does_not_go_together(self):
-        self.refuse("--counts", "50", naming=["--by persistence"])
-        self.refuse("--target", "50", naming=["--target", "--by persistence"])
+        self.refuse("--counts", "50", naming=["counts", "by persistence"])
+        self.refuse("--target", "50", naming=["a target", "by persistence"])
         self.refuse("--by", "persistence", "--levels", "1%", "--counts", "50",
-                    naming=["--levels", "--counts"])
+                    naming=["levels", "counts"])
 
     def test_methods_without_enough_iterations(self):
         for method in ("tps", "spectral", "fair", "saliency", "conventional", "salient+tps"):

@@ -170,8 +170,9 @@ class Html(ProgramTest):
     def test_the_command_line_makes_the_page_again(self):
         mesh = self.file("it's $HOME.off", OCTAHEDRON)
         page = self.page(mesh, "--field", "height:axis=z", "--method", "conventional", "--method",
-                         "tps:count=2",
-                         "--target", "2", "--threads", "1", name="a b.html")
+                         "tps:count=2", "--target", "2", "--points", "2", "--kind", "all", "--spacing", "1%",
+                         "--fill", "height:axis=x", "--rank", "salience", "--salience-scale", "9%",
+                         "--percentiles", "--threads", "1", name="a b.html")
         program, *arguments = shlex.split(page.meta["command"])
         self.assertEqual(program, "morsel")
         (self.folder / "a b.html").unlink()

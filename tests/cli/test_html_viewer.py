@@ -107,6 +107,31 @@ class Viewer(ProgramTest):
                          r"^\d+\.\d ms, [\d,]+ triangles")
         self.assert_quiet(page)
 
+    def test_chosen_points_are_shown_alone(self):
+        page = self.page(SAMPLES / "lion-head.off", "--method", "conventional", "--method", "salient",
+                         "--points", 12)
+        report = page.run("morsel.page.report.methods.map(({chosen}) => chosen.points)")
+        captions = page.run("[...document.querySelectorAll('.caption small')].map((e) => e.textContent)")
+        for points, caption in zip(report, captions):
+            counts = [sum(p["type"] == kind for p in points) for kind in ("minimum", "saddle", "maximum")]
+            self.assertEqual(sum(counts), 12)
+            self.assertEqual(caption, "{} minima, {} saddles, {} maxima".format(*counts))
+        shown = page.run("""morsel.viewer.views.map((view) => view.method.points.ranking
+            .filter((i) => view.isShown(morsel.state, i)).map((i) => view.method.points.vertex[i]))""")
+        self.assertEqual([sorted(vertices) for vertices in shown],
+                         [sorted(p["vertex"] for p in points) for points in report])
+        self.assertIn("percentile", page.run("document.getElementById('summary').textContent"))
+        few = page.run(DRAWN)
+        self.choose(page, "only-chosen", False)
+        self.assertNotEqual(page.run(DRAWN)["hash"], few["hash"])
+        self.assertIn("462 minima, 934 saddles, 499 maxima",
+                      page.run("document.getElementById('views').textContent"))
+        self.choose(page, "only-chosen", True)
+        self.assertEqual(page.run(DRAWN)["hash"], few["hash"])
+        self.assert_quiet(page)
+        without = self.lion()
+        self.assertTrue(without.run("document.getElementById('only-chosen').closest('label').hidden"))
+
     def test_a_click_selects_and_a_drag_turns(self):
         page = self.lion()
         page.run("document.getElementById('views').scrollIntoView()")

@@ -27,11 +27,13 @@ class Info(ProgramTest):
         self.assertFalse(info["valid"])
         self.assertEqual([(d["kind"], d["count"], d["first"]) for d in info["defects"]],
                          [("degenerate_face", 1, [2]), ("unreferenced_vertex", 1, [1])])
-        self.assertIn("--repair mends this", self.morsel("info", mesh).stdout)
+        self.assertIn("--repair fixes this", self.morsel("info", mesh).stdout)
         self.assertTrue(json.loads(self.morsel("info", "--json", "--repair", mesh).stdout)["valid"])
 
     def test_a_missing_file_is_an_error(self):
         self.assertIn("absent.off", self.morsel("info", "absent.off", code=3).stderr)
+        self.assertIn('"notes.txt" is no mesh (.off, .obj, .ply or .stl) and has no provenance',
+                      self.morsel("info", self.file("notes.txt", "1\n").name, code=3).stderr)
 
 
 class Check(ProgramTest):

@@ -45,7 +45,7 @@ FIELDS = ("height", "mean-curvature", "gaussian-curvature", "principal-curvature
           "geodesic:source=max-z")
 
 
-def commands(mesh, small, report):
+def commands(mesh, small, report, marked):
     """Name → (arguments, what it writes)."""
     result = {
         "compare-all": ("compare", small, "-o", "r.json", "--export", "e", "--figures", "f", "--html",
@@ -70,6 +70,8 @@ def commands(mesh, small, report):
         "sweep": ("sweep", small, "--vary", "iterations=1..20", "-o", "s.json"),
         "stability": ("stability", small, "--noise", "0.1", "--trials", "5", "-o", "s.json"),
         "stability-decimate": ("stability", small, "--decimate", "0.5", "--trials", "3", "-o", "s.json"),
+        "landmarks": ("landmarks", marked, "--method", "conventional", "--method", "salient", "-o", "l.json"),
+        "landmarks-salience": ("landmarks", marked, "--rank", "salience", "--figures", "f", "-o", "l.csv"),
         "batch": ("batch", "collection", "--out", "out", "--figures", "--export", "--html"),
         "check": ("check", report),
         "info": ("info", mesh, "--json"),
@@ -142,12 +144,15 @@ class Setting:
         self.mesh = folder / "refined.off"
         refined(self.small, self.mesh)
         write_atoms(folder / "atoms.pdb")
+        self.marked = folder / "marked.txt"
+        self.marked.write_text(f"\"{self.small}\" \"{folder / 'marks.txt'}\"\n\"{self.mesh}\" marks.txt\n")
+        (folder / "marks.txt").write_text("0 1000 2000 3000 4000 5000")
         self.report = folder / "report.json"
         subprocess.run([PROGRAM, "compare", self.small, "--quiet", "-o", self.report], check=True,
                        stdout=subprocess.DEVNULL)
 
     def commands(self):
-        return commands(self.mesh, self.small, self.report)
+        return commands(self.mesh, self.small, self.report, self.marked)
 
     def moment(self, arguments, wait):
         """Runs the command in a folder of its own and interrupts it. Exit code, latency in seconds, of the
@@ -193,7 +198,7 @@ class Setting:
         if not errors.endswith("morsel: interrupted\n"):
             return f"said {errors!r}"
         several = {"--export", "--figures", "--thumbnails", "--html", "--json", "--graph"}
-        if arguments[0] in ("batch", "sweep", "stability") or several & set(arguments):
+        if arguments[0] in ("batch", "sweep", "stability", "landmarks") or several & set(arguments):
             left = {path for path in left if ".tmp" in path.name}  # what was finished before may stay
         return f"left {sorted(map(str, left))}" if left else ""
 

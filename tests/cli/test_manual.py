@@ -61,7 +61,8 @@ class ManualTest(ProgramTest):
         self.assertEqual(self.complete("morsel", "co"), {"compare"})
         self.assertIn("scan.off", self.complete("morsel", "sc"))
         self.assertEqual(self.complete("morsel", "help", "quad"), {"quads"})
-        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--fi"), {"--field", "--figures"})
+        self.assertEqual(self.complete("morsel", "compare", "scan.off", "--fi"),
+                         {"--field", "--figures", "--fill"})
         self.assertEqual(self.complete("morsel", "compare", "scan.off", "--method", "tp"), {"tps"})
         self.assertEqual(self.complete("morsel", "compare", "scan.off", "--up", ""), {"x", "y", "z"})
         self.assertEqual(self.complete("morsel", "field", "scan.off", "-o", "s"), {"scan.off"})
@@ -75,6 +76,23 @@ class ManualTest(ProgramTest):
             for name, options in self.options().items():
                 for option in options - {"-o", "-h"}:
                     self.assertIn(option if shell == "zsh" else f"-l {option[2:]}", text, (shell, name))
+
+    def test_every_description_is_a_whole_text(self):
+        """None is empty, cut within a parenthesis or begins with the extension of a file."""
+        found = []
+        for file, pattern in (("zsh/_morsel", r"'\*?--?[a-z][a-z-]*\[(.*?)(?<!\\)\]"),
+                              ("zsh/_morsel", r"^    '[a-z]+:(.*)'$"),
+                              ("fish/morsel.fish", r" -d '(.*)'$")):
+            texts = re.findall(pattern, (self.made / file).read_text(), re.MULTILINE)
+            self.assertGreater(len(texts), 10, pattern)
+            found += texts
+        for text in found:
+            self.assertRegex(text, r"^[A-Za-z]", text)
+            self.assertEqual(text, text.strip())
+            self.assertEqual(text.count("("), text.count(")"), text)
+        self.assertIn("Take a picture of a surface coloured by a field or its segments, with critical points "
+                      "and arcs", found)
+        self.assertIn("The file to write", found)
 
     def check_completion(self, shell, offered):
         """`offered` is what the shell offers for a line."""

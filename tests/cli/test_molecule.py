@@ -152,7 +152,10 @@ class Molecule(ProgramTest):
                         ("--kind", "cartoon"),
                         ("--blobbiness", "0"), ("--altloc", "AB"), ("--hetero", "some"), ("--model", "0"),
                         ("--cavities", "fill"), ("--repair",)):
-            self.morsel("molecule", file, "-o", "x.off", *options, code=2)
+            said = self.morsel("molecule", file, "-o", "x.off", *options, code=2).stderr
+            self.assertNotIn("molecule:", said)
+        self.assertIn('--hetero must be none, residues or all, not "residue"; did you mean residues?',
+                      self.morsel("molecule", file, "-o", "x.off", "--hetero", "residue", code=2).stderr)
         self.morsel("molecule", file, code=2)
         self.assertIn(".ply", self.morsel("molecule", file, "-o", "x.stl", code=2).stderr)
         self.assertFalse((self.folder / "x.off").exists())

@@ -35,6 +35,11 @@ def contents(folder):
     return found
 
 
+def name_in(line):
+    """The name in a line of a list."""
+    return line[1:].split(" ")[0]
+
+
 class OwnershipTest(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -248,7 +253,7 @@ class Batch(OwnershipTest):
     def test_a_plan_has_one_line_a_mesh(self):
         folder = self.meshes()
         names = ["a.off", "b.off", "line\nbreak\t\x7f.off", '"quoted".off', "back\\slash.off",
-                 "new\n\"line\\.off"]
+                 "new\n\"line\\.off", "\x9b31m\u202e.off", "umlaut-\u00fc.off"]
         for name in names:
             (folder / name).write_text(OCTAHEDRON)
         (folder / os.fsdecode(b"bytes\xff\n.off")).write_text(OCTAHEDRON)
@@ -256,6 +261,7 @@ class Batch(OwnershipTest):
                                 capture_output=True, check=True)
         rows = [line.split("\t") for line in os.fsdecode(result.stdout).splitlines()]
         self.assertEqual({len(row) for row in rows}, {2})
+        self.assertNotRegex(os.fsdecode(result.stdout), "[\x80-\x9f\u202a-\u202e]")
         self.assertEqual({json.loads(name) if name.startswith('"') else name for _, name in rows},
                          {*names, os.fsdecode(b"bytes\xff\n.off")})
         self.assertFalse((self.folder / "out").exists())
@@ -263,7 +269,7 @@ class Batch(OwnershipTest):
             self.batch("meshes", "out", "--only", name, "--no-summary")
         result = subprocess.run([PROGRAM, "batch", "meshes", "--out", "out", *QUICK], cwd=self.folder,
                                 capture_output=True, check=False)
-        self.assertIn(b"7 meshes: 7 done", result.stdout, result.stderr)
+        self.assertIn(b"9 meshes: 9 done", result.stdout, result.stderr)
 
     def test_what_a_killed_run_leaves_is_listed_and_goes_with_the_next(self):
         self.meshes()
@@ -292,9 +298,9 @@ class Batch(OwnershipTest):
                 self.assertEqual(process.returncode, 0, errors)
             listed = (self.folder / "out" / LIST).read_text().splitlines()
             self.assertEqual(json.loads(listed[0]), {"schema": "morsel.results/1"})
-            there = {f"+{path.relative_to(self.folder / 'out')}" for path in (self.folder / "out").rglob("*")
+            there = {str(path.relative_to(self.folder / "out")) for path in (self.folder / "out").rglob("*")
                      if path.is_file()}
-            self.assertLessEqual(there - {f"+{LIST}"}, set(listed))
+            self.assertLessEqual(there - {LIST}, {name_in(line) for line in listed[1:]})
             shutil.rmtree(self.folder / "out")
 
 
@@ -427,11 +433,13 @@ class Folders(OwnershipTest):
                 listed = (self.folder / "out" / LIST).read_bytes()
                 there = {str(path.relative_to(self.folder / "out"))
                          for path in (self.folder / "out").rglob("*") if path.is_file()}
-                self.assertEqual({line[1:] for line in listed.decode().splitlines()[1:]}, there - {LIST})
+                self.assertEqual({name_in(line) for line in listed.decode().splitlines()[1:]}, there - {LIST})
                 self.file("out/thesis.txt", "the only copy")
                 before = contents(self.folder)
                 self.morsel(*command)
-                self.assertEqual((self.folder / "out" / LIST).read_bytes(), listed)
+                again = (self.folder / "out" / LIST).read_bytes()
+                self.assertTrue(again.startswith(listed))
+                self.assertEqual({name_in(line) for line in again.decode().splitlines()[1:]}, there - {LIST})
                 self.assertEqual(set(contents(self.folder)), set(before))
                 self.assertEqual((self.folder / "out/thesis.txt").read_text(), "the only copy")
                 # a file of theirs in the place of one of these
@@ -441,6 +449,51 @@ class Folders(OwnershipTest):
                 self.assertIn("morsel did not make", self.morsel(*command, code=4).stderr)
                 self.assertEqual((self.folder / "out" / taken).read_text(), "the only copy")
                 shutil.rmtree(self.folder / "out")
+
+    def test_a_listed_name_does_not_give_away_a_file_of_the_user(self):
+        """A file was replaced if only its name was listed."""
+        command = ("compare", "m.off", *QUICK, "--figures", "d", *SMALL)
+        words = ("bash", "-c", 'ulimit -f 1; exec "$@"', "-", PROGRAM, *command[:-1], "600x400")
+        failed = subprocess.run(words, cwd=self.folder, check=False, capture_output=True)
+        self.assertEqual(failed.returncode, 4, failed.stderr)
+        own = self.folder / "d" / "conventional.diagram.svg"
+        own.parent.mkdir(exist_ok=True)
+        own.write_text("the only copy")
+        result = subprocess.run([PROGRAM, *command], cwd=self.folder, check=False, capture_output=True)
+        self.assertIn(result.returncode, (2, 4))
+        self.assertEqual(own.read_text(), "the only copy")
+        shutil.rmtree(own.parent)
+        self.morsel(*command)
+        for name in ("conventional.diagram.svg", "sheet.png"):
+            with self.subTest(name=name):
+                own = self.folder / "d" / name
+                own.unlink()
+                own.write_text("the only copy")
+                self.morsel(*command, code=4)
+                self.assertEqual(own.read_text(), "the only copy")
+                own.unlink()
+                self.morsel(*command)
+
+    def test_a_run_that_fails_leaves_no_journal_and_no_folder(self):
+        self.file("bad.off", "junk")
+        for output in ("a/../b/r.json", "c/./d/r.json"):
+            self.refused("compare", "bad.off", *QUICK, "-o", output, code=3)
+        words = ("bash", "-c", 'ulimit -f 0; exec "$@"', "-", PROGRAM, "sweep", "m.off", "--field", "height",
+                 "--vary", "iterations=1..3", "-o", "s.json")
+        failed = subprocess.run(words, cwd=self.folder, check=False, capture_output=True)
+        self.assertEqual(failed.returncode, 4, failed.stderr)
+        self.assertFalse((self.folder / "s.json.journal").exists())
+
+    def test_a_long_chain_has_figures_and_exports(self):
+        """The names of its files were too long, which was found after the work and told otherwise."""
+        self.morsel("compare", "m.off", "--method", "+".join(["conventional"] * 41), *SMALL, "--figures", "f",
+                    "--export", "e")
+
+    def test_a_copy_of_a_folder_is_filled_again(self):
+        command = ("compare", "m.off", *QUICK, *SMALL, "--figures")
+        self.morsel(*command, "d")
+        shutil.copytree(self.folder / "d", self.folder / "copy")  # with the times
+        self.morsel(*command, "copy")
 
     def test_a_link_in_a_folder_is_not_followed(self):
         for name, command in self.commands("out").items():
@@ -571,6 +624,15 @@ class Outputs(OwnershipTest):
             self.refused("sweep", f"{kind}.off", "--vary", "iterations=1", "-o", f"s.{kind}",
                          naming=["journal"])
             self.refused("stability", f"{kind}.off", "-o", f"s.{kind}", naming=["journal"])
+
+    def test_no_output_is_the_list_of_a_folder_through_a_link(self):
+        """`-o x.json` once replaced the list that x.json was a link to."""
+        self.morsel("compare", "m.off", *QUICK, "--export", "d")
+        for name, target in (("x.json", f"d/{LIST}"), ("far.json", "x.json"), ("new.json", f"new/{LIST}")):
+            (self.folder / name).symlink_to(target)
+            self.refused("compare", "m.off", *QUICK, "-o", name, naming=[f"-o {name}", "list of files"])
+        self.refused("compare", "m.off", *QUICK, "--html", f"d/{LIST}", naming=["--html"])
+        self.morsel("compare", "m.off", *QUICK, "--export", "d")
 
     def test_devices_and_pipes_may_be_named_twice(self):
         self.morsel("compare", "m.off", *QUICK, "-o", "/dev/null", "--html", "/dev/null")

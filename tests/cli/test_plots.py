@@ -64,7 +64,8 @@ class Plots(ProgramTest):
         pictures = {"sheet.png", *(f"{name}.png" for name in names)}
         self.assertEqual(set(files), set(f"{n}.{e}" for e in ("svg", "png") for n in (
             *(f"{m}.diagram" for m in names), "diagrams", "persistence", "iterations")) | pictures)
-        for method in report["methods"]:
+        titles = report["request"]["methods"]
+        for method, title in zip(report["methods"], titles):
             svg = xml.parse(files[f"{method['name']}.diagram.svg"]).getroot()
             listed = [item["kind"] for item in method["persistence"]["diagram"]]
             drawn = {name.split(" (")[0]: (name, len(marks(path))) for name, (path,) in groups(svg) if name}
@@ -73,10 +74,10 @@ class Plots(ProgramTest):
                 count = listed.count(kind)
                 self.assertEqual(drawn.pop(name), (f"{name} ({count})", count))
             self.assertEqual(drawn, {})
-            self.assertIn(method["name"], texts(svg))
+            self.assertIn(title, texts(svg))
         sheet = xml.parse(files["diagrams.svg"]).getroot()
-        for method in report["methods"]:
-            self.assertIn(method["name"], texts(sheet))
+        for method, title in zip(report["methods"], titles):
+            self.assertIn(title, texts(sheet))
             self.assertIn(f"{method['persistence']['pairs']:,} pairs, 1 essential", texts(sheet))
         self.assertIn("mean curvature at birth", texts(sheet))
 

@@ -73,7 +73,7 @@ class Points(ProgramTest):
                            ("bunny00.off", "persistence")):
             with self.subTest(mesh=mesh, rank=rank):
                 document = self.document(SAMPLES / mesh, "--field", "mean-curvature", "--points", 50,
-                                         "--rank", rank)
+                                         "--rank", rank, "--percentiles")
                 self.assertEqual((document["count"], document["note"]), (50, ""))
                 self.assertAlmostEqual(document["spacing"], 0.05 * document["mesh"]["bbox_diagonal"])
                 self.assertEqual(len({p["vertex"] for p in document["points"]}), 50)
@@ -105,7 +105,8 @@ class Points(ProgramTest):
         self.assertNotIn("fill", few)  # not needed
 
     def test_formats_agree(self):
-        arguments = (SAMPLES / "lion-head.off", "--field", "mean-curvature", "--points", 12, "--kind", "all")
+        arguments = (SAMPLES / "lion-head.off", "--field", "mean-curvature", "--points", 12, "--kind", "all",
+                     "--percentiles")
         expected = self.document(*arguments)["points"]
         for kind in ("csv", "json", "ply", "vtp"):
             said = self.morsel("points", *arguments, "-o", f"p.{kind}").stderr
@@ -139,6 +140,16 @@ class Points(ProgramTest):
             self.assertEqual(cloud[i]["type"], {"minimum": 1, "saddle": 2, "maximum": 3}[point["type"]])
             self.assertEqual((table[i]["field"], cloud[i]["field"]), (point["field"], 0))
 
+    def test_percentiles_that_were_not_asked_for(self):
+        arguments = self.values(1, 0, 0.5, 0.6, 0.5, 0.6)
+        document = self.document(*arguments)
+        self.assertEqual((document["mean_percentile"], document["points"][0]["percentile"]), (None, None))
+        for kind in ("csv", "ply"):
+            said = self.morsel("points", *arguments, "-o", f"p.{kind}").stderr
+            self.assertNotIn("percentile", said)
+        self.assertEqual([row["percentile"] for row in read_csv(self.folder / "p.csv")], ["", ""])
+        self.assertTrue(all(math.isnan(point["percentile"]) for point in read_ply(self.folder / "p.ply")))
+
     def test_vertices_have_the_numbers_of_the_file(self):
         mesh = self.file("damaged.off", DAMAGED)
         document = self.document(mesh, "--repair", "--field", "height:axis=x", "--spacing", 0, "--kind",
@@ -162,8 +173,9 @@ class Points(ProgramTest):
                 self.assertIn(naming, error)
         self.assertIn(".csv, .json, .ply or .vtp",
                       self.morsel("points", *mesh, "-o", "p.txt", code=2).stderr)
-        self.assertIn("values.txt", self.morsel("points", mesh[0], "--fill", "vertex-scalar:file=values.txt",
-                                                "-o", "values.txt", code=2).stderr)
+        self.assertIn("--fill vertex-scalar:file values.csv",
+                      self.morsel("points", mesh[0], "--fill", "vertex-scalar:file=values.csv",
+                                  "-o", "values.csv", code=2).stderr)
         self.morsel("points", *mesh, "-o", "octahedron.off/p.csv", code=4)
         self.assertFalse(list(self.folder.glob("p.*")))
 

@@ -272,6 +272,29 @@ class Provenance(ProgramTest):
                     json.loads(row["method_parameters"])
             shutil.rmtree(self.folder / "out1")
 
+    def test_landmarks(self):
+        (self.folder / "marks.txt").write_text("0 3 5\n")
+        (self.folder / "marked.csv").write_text(f"{self.mesh},marks.txt\n")
+        inputs = ["marked.csv", self.mesh, "marks.txt"]
+        files = self.written_twice("landmarks", "marked.csv", "--seed", "7", "-o", "{out}/l.json",
+                                   "--figures", "{out}",
+                                   expected={"l.json", *(f"{plot}.{kind}" for plot in ("errors", "scores")
+                                                         for kind in ("png", "svg"))})
+        document = json.loads(files.pop("l.json").read_text())
+        mesh, = document["meshes"]
+        self.assertEqual(
+            [document["list"], {key: mesh["mesh"][key] for key in ("path", "sha256")}, mesh["marks"]],
+            [{"path": name, "sha256": self.sha256(name)} for name in inputs])
+        self.assertEqual((document["tool"]["version"], document["request"]["seed"]), (self.version, 7))
+        self.assertIn("spread", mesh["fields"][0]["parameters"])
+        self.check(files, "landmarks", inputs, [])
+        self.assertEqual(of_svg(files["errors.svg"])["request"], document["request"])
+        shutil.rmtree(self.folder / "out1")
+        files = self.written_twice("landmarks", "marked.csv", "-o", "{out}/l.csv", expected={"l.csv"})
+        for row in without_timings(files["l.csv"]):
+            self.assertEqual((row["version"], row["mesh"], row["sha256"], row["marks_sha256"]),
+                             (self.version, self.mesh, self.sha256(self.mesh), self.sha256("marks.txt")))
+
     def test_sweep(self):
         files = self.written_twice("sweep", self.mesh, "--vary", "iterations=1..3", "--vary",
                                    "range=1std,local", "-o",
@@ -298,9 +321,12 @@ class Provenance(ProgramTest):
         panels = {1: "abcd", 2: "ab", 3: "abcde", 4: "abc"}
         files = self.written_twice(
             "reproduce", "{out}", "--data", "data", "--size", "40x34", "--samples", "1",
-            expected={"table1.csv", "reproduction.json", "index.html", *(f"figure{n}.png" for n in panels),
+            expected={"table1.csv", "controls.csv", "torus.off", "reproduction.json", "index.html",
+                      "section3.1.png", *(f"section3.1{letter}.png" for letter in "abcd"),
+                      *(f"figure{n}.png" for n in panels),
                       *(f"figure{n}{letter}.png" for n, letters in panels.items() for letter in letters)})
         meshes = [{"path": f"data/{name}.off", "sha256": self.sha256(self.mesh)} for name in names]
+        meshes.append({"path": "torus.off", "sha256": self.sha256(files["torus.off"])})
         for name, path in files.items():
             with self.subTest(file=name):
                 if name == "reproduction.json":
@@ -308,7 +334,7 @@ class Provenance(ProgramTest):
                     self.assertEqual(document["tool"]["version"], self.version)
                     self.assertEqual([{k: model["mesh"][k] for k in meshes[0]}
                                       for model in document["models"]], meshes)
-                elif name == "table1.csv":
+                elif name in ("table1.csv", "controls.csv"):
                     for row in without_timings(path):
                         self.assertEqual((row["version"], row["sha256"]), (self.version, meshes[0]["sha256"]))
                         self.assertIn("estimator", json.loads(row["field_parameters"]))
@@ -318,8 +344,11 @@ class Provenance(ProgramTest):
                     document = READERS[path.suffix](path)
                     self.check_document(document, path)
                     self.assertTrue(all(file in meshes for file in document["inputs"]))
+                    if name == "torus.off":
+                        self.assertEqual(document["inputs"], [])
+                        continue
                     self.assertTrue(document["runs"] if name == "index.html" else document["methods"])
-                    panel = re.fullmatch(r"figure\d[a-e]\.png", name)
+                    panel = re.fullmatch(r"(figure\d|section3\.1)[a-e]\.png", name)
                     self.assertTrue(document["command"].startswith("morsel render "
                                                                    if panel else "morsel reproduce "))
 

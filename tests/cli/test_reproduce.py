@@ -28,8 +28,8 @@ PICTURES = pathlib.Path(__file__).parent / "pictures"
 KEPT = ("figure1b.png", "figure2b.png", "figure3d.png", "figure4c.png")
 SMALL = ("--size", "160x120", "--samples", "9")
 PANELS = ["figure1a", "figure1b", "figure1c", "figure1d", "figure2a", "figure2b", "figure3a", "figure3b",
-          "figure3c",
-          "figure3d", "figure3e", "figure4a", "figure4b", "figure4c"]
+          "figure3c", "figure3d", "figure3e", "figure4a", "figure4b", "figure4c", "section3.1a",
+          "section3.1b", "section3.1c", "section3.1d"]
 
 
 def difference(a, b):
@@ -110,7 +110,8 @@ class Reproduction(ProgramTest):
     def test_everything_is_there(self):
         names = {f"{panel}.png" for panel in PANELS} | {f"figure{n}.png" for n in (1, 2, 3, 4)}
         self.assertEqual({path.name for path in made_in(self.out)},
-                         names | {"table1.csv", "reproduction.json", "index.html"})
+                         names | {"section3.1.png", "torus.off", "table1.csv", "controls.csv",
+                                  "reproduction.json", "index.html"})
         for panel in PANELS:
             picture = self.picture(panel + ".png")
             self.assertEqual((picture.width, picture.height), (160, 120))
@@ -125,6 +126,8 @@ class Reproduction(ProgramTest):
         self.assertEqual([models[m]["sample"] for m in ("lion", "squirrel", "protein")], [False, False, True])
         self.assertTrue(models["lion"]["mesh"]["path"].endswith("My_LION.off"))
         self.assertTrue(models["protein"]["mesh"]["path"].endswith("retinal.off"))
+        self.assertEqual([model["made"] for model in models.values()], [False, False, False, True])
+        self.assertEqual(models["torus"]["mesh"]["path"], "torus.off")
 
     def test_counts_are_those_of_compare(self):
         rows = {(row["model"], row["iterations"]): row for row in self.document["table"]}
@@ -157,7 +160,51 @@ class Reproduction(ProgramTest):
             self.assertIn(f"<td>{total:,}<small>", page)
             self.assertIn(f"{total:,}", self.printed)
 
-    def test_tps_is_held_to_the_number_of_ours_where_they_differ_most(self):
+    def test_percentiles_are_those_of_the_extrema(self):
+        """As morsel points has them, which takes all extrema here."""
+        lion = self.data / "My_LION.off"
+        rows = {(row["model"], row["iterations"]): row["runs"][0] for row in self.document["table"]}
+        for iterations, method in ((0, "conventional"), (10, "salient:iterations=10,range=local,support=1")):
+            run = rows["lion", iterations]
+            self.assertEqual(run["specification"], method)
+            counts = run["critical_points"]
+            self.morsel("points", lion, "--field", "mean-curvature", "--method", method, "--points",
+                        counts["minima"] + counts["maxima"], "--spacing", 0, "--fill", "none",
+                        "--percentiles", "-o", "p.json")
+            points = json.loads((self.folder / "p.json").read_text())
+            self.assertEqual(points["count"], counts["minima"] + counts["maxima"])
+            self.assertAlmostEqual(run["percentile"], points["mean_percentile"], places=9)
+
+    def test_controls_are_held_to_the_count_of_the_papers_method(self):
+        with (self.out / "controls.csv").open(newline="") as file:
+            table = list(csv.DictReader(file))
+        controls = self.document["controls"]
+        self.assertEqual(len(controls), 4 * 5)
+        page = Page((self.out / "index.html").read_text()).text
+        for i, (control, line) in enumerate(zip(controls, table)):
+            first = controls[i - i % 5]
+            counts = control["critical_points"]
+            self.assertEqual(control["iterations"], first["iterations"])
+            if i % 5 == 0:
+                self.assertIn("range=local", control["specification"])
+            elif i % 5 == 1:
+                self.assertEqual(control["specification"], first["specification"].replace("local", "none"))
+            elif i % 5 == 2:
+                total = first["critical_points"]["total"]
+                self.assertEqual(control["specification"], f"tps:count={total}")
+                self.assertIn(total - counts["total"], (0, 1))
+            elif i % 5 == 3:
+                self.assertEqual((control["rank"], control["extrema"]), ("salience", first["extrema"]))
+                self.assertGreater(control["percentile"], controls[i + 1]["percentile"])
+            if control["rank"] is None:
+                self.assertEqual(control["extrema"], counts["minima"] + counts["maxima"])
+            of_table = (line["control"], line["method"], int(line["points"]), float(line["percentile"]))
+            self.assertEqual(of_table, (control["control"], control["specification"], counts["total"],
+                                        control["percentile"]))
+            self.assertIn(control["control"], self.printed)
+            self.assertIn(control["control"], page)
+
+    def test_tps_and_ours_are_compared_where_the_field_has_most_points(self):
         figure = self.document["figures"][2]
         totals = [panel["critical_points"]["total"] for panel in figure["panels"]]
         self.assertLess(totals[2], totals[0])
@@ -166,11 +213,22 @@ class Reproduction(ProgramTest):
         self.assertEqual(totals[1], totals[3])
         self.assertEqual(totals[2], totals[4])
         region = figure["region"]
-        self.assertGreater(region["first"], region["second"])
+        self.assertGreaterEqual(region["all"], region["first"])
+        self.assertGreaterEqual(region["places"], region["more_of_first"] + region["more_of_second"])
         for letter, panel in zip("bcde", figure["panels"][1:]):
             option = "--frame" if letter in "bc" else "--close-up"
             self.assertIn(f"{option} {region['vertex']}:{region['radius']} ", panel["command"])
         self.assertIn(f"around vertex {region['vertex']:,},", figure["here"])
+
+    def test_the_absolute_difference_swaps_types_on_the_torus(self):
+        figure = self.document["figures"][4]
+        self.assertEqual((figure["figure"], figure["section"]), (None, "3.1"))
+        totals = [panel["critical_points"]["total"] for panel in figure["panels"]]
+        self.assertEqual((totals[0], totals[3]), (4, 4))
+        self.assertGreater(totals[1], 4)
+        for panel, lowest in (("(a)", "minimum"), ("(b)", "maximum"), ("(d)", "minimum")):
+            self.assertIn(f"In {panel} the highest vertex of the torus is a maximum and the lowest a "
+                          f"{lowest}, of", figure["here"])
 
     def test_levels_add_up(self):
         figure = self.document["figures"][3]
@@ -184,8 +242,9 @@ class Reproduction(ProgramTest):
                   for panel in figure["panels"]}
         self.assertEqual(sorted(panels), sorted(f"{panel}.png" for panel in PANELS))
         shutil.copytree(self.data, self.folder / "data")
+        shutil.copy(self.out / "torus.off", self.folder)
         for file in ("figure1b.png", "figure1c.png", "figure2a.png", "figure3b.png", "figure3d.png",
-                     "figure4a.png"):
+                     "figure4a.png", "section3.1b.png"):
             words = shlex.split(panels[file])
             self.assertEqual(words[0], "morsel")
             self.morsel(*words[1:])
@@ -269,7 +328,7 @@ class Requests(ProgramTest):
             seen.append(([(path.name, path.read_bytes()) for path in sorted(out.glob("*.png"))], document))
         self.assertEqual(seen[0], seen[1])
         views = [model["view"] for model in seen[0][1]["models"]]
-        self.assertEqual(views, ["-30/5", "20/10", "20/10"])
+        self.assertEqual(views, ["-30/5", "20/10", "20/10", "20/10"])
         self.assertIn("--view=-30/5 --up z", seen[0][1]["figures"][0]["panels"][0]["command"])
 
     def test_wrong_requests_are_refused_before_any_work(self):

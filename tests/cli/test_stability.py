@@ -212,7 +212,7 @@ class Interruption(Stability):
                         lambda: journal.exists() and journal.read_bytes().count(b"\n") >= 5)
             self.assertFalse((self.folder / "s.json").exists())
             result = self.morsel("stability", *self.ARGUMENTS, "-o", "s.json")
-            self.assertRegex(result.stderr, r"going on with [0-9]+ perturbed surfaces done: s.json.journal")
+            self.assertRegex(result.stderr, r"resuming with [0-9]+ perturbed surfaces done: s.json.journal")
             document = json.loads((self.folder / "s.json").read_text())
             del document["timings"]
             self.assertEqual(document, whole)
@@ -235,7 +235,7 @@ class Refused(Stability):
         self.refuse("--subdivide", "1.5", naming=["1.5", "whole"])
         self.refuse("--trials", "0", naming=["trials"])
         self.refuse("--target", "0", naming=["target"])
-        self.refuse("--radius", "far", naming=["--radius", "far"])
+        self.refuse("--radius", "far", naming=["radius", "far"])
         self.refuse("--radius=-2%", naming=["-2%"])
         self.refuse("--kind", "odd", naming=["odd", "isotropic"])
         self.refuse("--points", "odd", naming=["odd", "extrema"])
@@ -246,7 +246,7 @@ class Refused(Stability):
         self.refuse("--preset", "noise", "--field", "height", naming=["--preset", "--field"])
         self.refuse("--preset", "noise", "--method", "tps", naming=["--preset", "--method"])
         self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2",
-                    naming=["vertex-scalar", "--subdivide"])
+                    naming=["vertex-scalar", "subdivision"])
 
     def test_files(self):
         self.refuse("-o", "s.txt", naming=["s.txt", ".json", ".csv"])

@@ -114,7 +114,8 @@ class Files(Sweep):
             self.morsel("sweep", SMALL, *GRID, "--threads", threads, "-o", "s.csv")
             tables.append([{key: value for key, value in row.items() if key != "seconds"}
                            for row in self.table("s.csv")])
-            plots.append({path.name: path.read_bytes() for path in (self.folder / "plots").iterdir()})
+            plots.append({path.name: path.read_bytes() for path in (self.folder / "plots").glob("[!.]*")})
+            self.assertTrue(plots[-1])
         for each in (documents, tables, plots):
             self.assertEqual(each[0], each[1])
             self.assertEqual(each[0], each[2])
@@ -151,7 +152,7 @@ class Interruption(Sweep):
             self.assertGreaterEqual(done, 3)
             self.assertFalse((self.folder / "s.json").exists())
             result = self.morsel("sweep", *self.ARGUMENTS, "-o", "s.json")
-            self.assertRegex(result.stderr, r"going on with [3-7] of 8 combinations done: s.json.journal")
+            self.assertRegex(result.stderr, r"resuming with [3-7] of 8 combinations done: s.json.journal")
             document = json.loads((self.folder / "s.json").read_text())
             del document["timings"]
             self.assertEqual(document, whole)
@@ -169,7 +170,7 @@ class Interruption(Sweep):
         result = self.morsel("sweep", LION, "--method", "salient:iterations=100", "--vary", "sigma=8eps,9eps",
                              "-o",
                              "s.json")
-        self.assertIn("going on with 2 of 2", result.stderr)
+        self.assertIn("resuming with 2 of 2", result.stderr)
 
 
 class Refused(Sweep):

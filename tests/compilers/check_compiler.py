@@ -62,7 +62,7 @@ def checks(commands, root, folders):
     """Yields (source, directory, options) for each source of the build in one of the folders of `root`."""
     for entry in commands:
         for source in sources_of(pathlib.Path(entry["directory"], entry["file"]).resolve()):
-            if source.is_relative_to(root) and source.relative_to(root).parts[0] in folders:
+            if any(source.is_relative_to(root / folder) for folder in folders):
                 words = entry.get("arguments") or shlex.split(entry["command"])
                 yield source, entry["directory"], tuple(o for o in options_of(words) if o != entry["file"])
 
@@ -94,7 +94,7 @@ def ninja_file(compiler, checks, work, root):
             lines += [f"build {escaped(shared)}: share {escaped(header)}", *settings,
                       f"  options = {used}".replace("$", "$$"), f"  source = {shlex.quote(str(header))}"]
         for source in sources:
-            name = source.relative_to(root)
+            name = source.relative_to(root if source.is_relative_to(root) else source.anchor)
             stamp = work / name.with_suffix(".checked")
             after = f" | {escaped(shared)}" if shared else ""
             own = f"{used} -include-pch {shlex.quote(shared)}" if shared else used

@@ -1,5 +1,5 @@
-# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -P run.cmake: installs
-# BUILD and uses what was installed.
+# cmake -DSETTINGS=… -DGENERATOR=… -DSOURCE=… -DBUILD=… -DWORK=… -DMESH=lion-head.off -DPYTHON=… -P run.cmake:
+# installs BUILD and uses what was installed.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -29,6 +29,9 @@ foreach(file IN LISTS package_files)
   endforeach()
 endforeach()
 
+# Pages, pictures and schemas are read where they were installed.
+run(${PYTHON} -B ${SOURCE}/tests/consumer/check_links.py ${WORK}/moved/share/doc/morsel)
+
 configure_project(package)
 
 run(${CMAKE_COMMAND} --build ${WORK}/package)
@@ -43,10 +46,22 @@ endif()
 
 configure_project(study)
 run(${CMAKE_COMMAND} --build ${WORK}/study)
-run(${WORK}/study/study ${MESH})
+file(WRITE ${WORK}/factor.txt "2\n")
+run(${WORK}/study/study ${MESH} ${WORK}/factor.txt ${WORK}/report.json)
 if(NOT output STREQUAL "bend\nconventional: 1895\nsalient: 97\nten-times: 97\n")
   message(FATAL_ERROR "the study is to print 1895, 97 and 97 critical points:\n${output}")
 endif()
+file(READ ${WORK}/report.json report)
+file(SHA256 ${WORK}/factor.txt factor_hash)
+foreach(expected IN ITEMS "field name bend" "field parameters factor_sha256 ${factor_hash}"
+                          "methods 2 name ten-times" "methods 2 critical_points total 97")
+  string(REPLACE " " ";" path "${expected}")
+  list(POP_BACK path value)
+  string(JSON found GET "${report}" ${path})
+  if(NOT found STREQUAL value)
+    message(FATAL_ERROR "the report is to have ${value}, not ${found}, at ${path}")
+  endif()
+endforeach()
 
 # The installed program works, too.
 if(EXISTS ${WORK}/moved/bin/morsel)

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -159,6 +160,11 @@ TEST_CASE("paths at which no file can be written are refused with a reason") {
   CHECK_THROWS_WITH(FileWriter(scratch.path()), Catch::Contains("Is a directory"));
   CHECK_THROWS_AS(FileWriter(""), WriteFailed);
   CHECK_THROWS_AS(FileWriter(scratch.path() / ""), WriteFailed);
+  for (const char* name : {"x/../b/a.txt", "x/./d/a.txt", "x/y/../../x/z/a.txt"}) {  // bug: x stayed
+    { FileWriter writer(scratch / name); }
+    CHECK_FALSE(fs::exists(scratch / "x"));
+    CHECK_FALSE(fs::exists(scratch / "b"));
+  }
   core::write_file(scratch / "file", "");
   CHECK_THROWS_WITH(FileWriter(scratch / "file" / "a.txt"), Catch::Contains("Not a directory"));
   if (::geteuid() != 0) {
@@ -188,12 +194,25 @@ TEST_CASE("folders of the target are made, and removed again unless something is
   CHECK_THROWS_WITH(FileWriter(scratch / "file" / "deep" / "a.txt"), Catch::Contains("Not a directory"));
 }
 
-TEST_CASE("a target folder that disappears makes the commit fail") {
+TEST_CASE("bug: a run that was stopped removed the folder under another, whose result was lost") {
+  const Scratch scratch;
+  {
+    std::optional<FileWriter> stopped(std::in_place, scratch / "new" / "deep" / "b.txt");
+    FileWriter writer(scratch / "new" / "deep" / "a.txt");
+    writer.write("a");
+    stopped.reset();
+    writer.commit();
+  }
+  CHECK(contents(scratch / "new" / "deep" / "a.txt") == "a");
+}
+
+TEST_CASE("a target folder that cannot be made again makes the commit fail") {
   const Scratch scratch;
   fs::create_directory(scratch / "folder");
   FileWriter writer(scratch / "folder" / "a.txt");
   writer.write("a");
   fs::remove_all(scratch / "folder");
+  core::write_file(scratch / "folder", "a file");
   CHECK_THROWS_AS(writer.commit(), WriteFailed);
 }
 

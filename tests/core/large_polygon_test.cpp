@@ -34,11 +34,13 @@ std::vector<Triangle> cut_slowly(const Polygon& p) {
   std::size_t start = 0;
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
+    const auto before = [&](std::size_t i) { return ring[i == 0 ? n - 1 : i - 1]; };
+    const auto after = [&](std::size_t i) { return ring[i == n - 1 ? 0 : i + 1]; };
     std::vector<Index> reflex;
     for (std::size_t i = 0; i < n; ++i)
-      if (!(turn(p[ring[(i + n - 1) % n]], p[ring[i]], p[ring[(i + 1) % n]]) > 0)) reflex.push_back(ring[i]);
+      if (!(turn(p[before(i)], p[ring[i]], p[after(i)]) > 0)) reflex.push_back(ring[i]);
     const auto is_ear = [&](std::size_t b) {
-      const Point &A = p[ring[(b + n - 1) % n]], &B = p[ring[b]], &C = p[ring[(b + 1) % n]];
+      const Point &A = p[before(b)], &B = p[ring[b]], &C = p[after(b)];
       return turn(A, B, C) > 0 && std::none_of(reflex.begin(), reflex.end(), [&](Index i) {
                const Point& q = p[i];
                return q != A && q != B && q != C && turn(A, B, q) > 0 && turn(B, C, q) > 0 &&
@@ -47,13 +49,12 @@ std::vector<Triangle> cut_slowly(const Polygon& p) {
     };
     std::size_t b = start;
     while (!is_ear(b)) {
-      b = (b + 1) % n;
+      b = b == n - 1 ? 0 : b + 1;
       if (b == start) return {};
     }
-    triangles.push_back({ring[(b + n - 1) % n], ring[b], ring[(b + 1) % n]});
+    triangles.push_back({before(b), ring[b], after(b)});
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(b));
-    start = (b + 1) % (n - 1);  // the corner after the next one
-    if (b == n - 1) start = 1;
+    start = b + 1 < n - 1 ? b + 1 : b + 2 - n;  // the corner after the next one
   }
   triangles.push_back({ring[start], ring[(start + 1) % 3], ring[(start + 2) % 3]});
   return triangles;
@@ -153,7 +154,7 @@ TEST_CASE("a polygon of 30,000 corners that has no area, touches or crosses itse
   for (Index i = 0; i < n / 3; ++i) {
     flower.emplace_back(0, 0, 0);
     for (const double a : {0.0, 0.5}) {
-      const double angle = 2 * std::numbers::pi * (i + a) / (n / 3);
+      const double angle = 2 * std::numbers::pi * (i + a) / (n / 3.);
       flower.emplace_back(std::cos(angle), std::sin(angle), 0);
     }
   }

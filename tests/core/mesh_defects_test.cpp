@@ -131,7 +131,7 @@ TEST_CASE("vertices where fans meet are found") {
   check_only(two, DefectKind::non_manifold_vertex, 1, {3});
   Soup disc = grid(5, 5);
   std::erase_if(disc.triangles, [](const core::Triangle& t) {
-    const double x = t[0] % 5, y = t[0] / 5;  // the lower left corner of the cell
+    const Index x = t[0] % 5, y = t[0] / 5;  // the lower left corner of the cell
     return (x == 1 && y == 1) || (x == 2 && y == 2);
   });
   check_only(disc, DefectKind::non_manifold_vertex, 1, {12});
@@ -145,7 +145,7 @@ TEST_CASE("a mesh with several defects has them all named in one sentence") {
   CHECK_THROWS_WITH(thrown(),
                     Catch::StartsWith("the mesh cannot be used: it has 1 degenerate face (14), 1 vertex "
                                       "that no face uses (14), "));
-  CHECK_THROWS_WITH(thrown(), Catch::EndsWith("repair cannot mend components that cannot be oriented"));
+  CHECK_THROWS_WITH(thrown(), Catch::EndsWith("repair cannot fix components that cannot be oriented"));
 }
 
 TEST_CASE("the sentence of a refused mesh can have another subject and depends on repair") {
@@ -154,7 +154,7 @@ TEST_CASE("the sentence of a refused mesh can have another subject and depends o
   CHECK(std::string(core::MeshError(defects).about("a.off").what()) ==
         "a.off cannot be used: it has 1 degenerate face (4) and 2 non-manifold edges (1-2, 1-3); repair "
         "(--repair) "
-        "would mend this by removing degenerate faces and repeated corners and splitting non-manifold edges");
+        "would fix this by removing degenerate faces and repeated corners and splitting non-manifold edges");
   CHECK(std::string(core::MeshError(defects, true).what()) ==
         "the mesh cannot be used: after repair it still has 1 degenerate face (4) and 2 non-manifold edges "
         "(1-2, "

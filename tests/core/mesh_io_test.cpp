@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/core/text/parameters.h"
 #include "support/corpus.h"
@@ -331,4 +332,13 @@ TEST_CASE("comments are at a file's head and readers skip them") {
                     core::InvalidArgument);
   }
   for (const char* name : {"b.off", "b.ply", "b.obj"}) CHECK_FALSE(std::filesystem::exists(scratch / name));
+}
+
+TEST_CASE("the extension of an output is one of those that are allowed, in small or capital letters") {
+  CHECK(core::checked_extension("a/b.Ply", "a field is written", {".txt", ".ply"}) == ".ply");
+  CHECK(core::checked_extension("b.TXT", "a field is written", {".txt", ".ply"}) == ".txt");
+  CHECK_THROWS_WITH(core::checked_extension("b.pln", "a field is written", {".txt", ".ply", ".vtp"}),
+                    "a field is written to .txt, .ply or .vtp, not to \"b.pln\"");
+  CHECK_THROWS_AS(core::checked_extension("ply", "a mesh is written", {".ply"}), core::InvalidArgument);
+  CHECK_THROWS_AS(core::checked_extension("", "a mesh is written", {".ply"}), core::InvalidArgument);
 }

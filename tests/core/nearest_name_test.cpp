@@ -26,6 +26,8 @@ TEST_CASE("the nearest name is the one with the fewest letters changed, if it is
   const std::vector<std::string> two = {"axis", "direction"};
   CHECK(nearest_of("axs", two, "it takes") == "; did you mean axis? It takes: axis, direction");
   CHECK(nearest_of("q", two, "it takes") == "; it takes: axis, direction");
+  CHECK(must_be_one_of(two, "axs") == "must be axis or direction, not \"axs\"; did you mean axis?");
+  CHECK(must_be_one_of(two, "") == "must be axis or direction, not \"\"");
 }
 
 TEST_CASE("one letter changed in a long name is always corrected") {

@@ -82,7 +82,19 @@ TEST_CASE("bad values are refused with owner and key and what is allowed") {
 
   CHECK_THROWS_AS(reader({{"k", "true"}}).flag("k", true, ""), InvalidArgument);
   CHECK_THROWS_WITH(reader({{"k", "other"}}).choice("k", "a", {"a", "b"}, ""),
-                    "salient:k must be one of a, b, not \"other\"");
+                    "salient:k must be a or b, not \"other\"");
+  CHECK_THROWS_WITH(reader({{"k", "taubn"}}).choice("k", "quadric", {"cotangent", "quadric", "taubin"}, ""),
+                    "salient:k must be cotangent, quadric or taubin, not \"taubn\"; did you mean taubin?");
+  CHECK_THROWS_WITH(reader({{"k", "yess"}}).flag("k", true, ""),
+                    "salient:k must be yes or no, not \"yess\"; did you mean yes?");
+}
+
+TEST_CASE("keys that are options of a command are named as such") {
+  ParameterReader options =
+      ParameterReader::of_options({"molecule", {{"hetero", "residue"}, {"model", "0"}}});
+  CHECK_THROWS_WITH(options.choice("hetero", "none", {"none", "residues", "all"}, ""),
+                    "--hetero must be none, residues or all, not \"residue\"; did you mean residues?");
+  CHECK_THROWS_WITH(options.count("model", 1, 1, 9, ""), "--model must be between 1 and 9, not 0");
 }
 
 TEST_CASE("a key that must be given is missed by name") {
@@ -90,6 +102,20 @@ TEST_CASE("a key that must be given is missed by name") {
   ParameterReader help = ParameterReader::for_help("salient");
   CHECK(help.text("file", nullptr, "the values").empty());
   CHECK(help.declared().front().default_value.empty());
+}
+
+TEST_CASE("files that keys name are listed") {
+  ParameterReader given = reader({{"file", "a\\,b.txt"}, {"word", "c.txt"}});
+  CHECK(given.file("file", nullptr, "the values") == "a,b.txt");
+  CHECK(given.file("other", "", "none by default").empty());
+  CHECK(given.text("word", "", "no file") == "c.txt");
+  REQUIRE(given.files().size() == 1);
+  CHECK(given.files().front().key == "file");
+  CHECK(given.files().front().path == "a,b.txt");
+  ParameterReader help = ParameterReader::for_help("salient");
+  help.file("file", nullptr, "the values");
+  CHECK(help.files().empty());
+  CHECK(help.declared().front().key == "file");
 }
 
 TEST_CASE("unknown and doubled keys are refused with the known ones listed") {

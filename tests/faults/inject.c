@@ -1,8 +1,9 @@
 // Makes the system fail: to be preloaded (LD_PRELOAD) into a program under test. The environment selects what
 // fails:
 //
-//   MORSEL_FAULT_KIND    memory, map, open, read, write, sync, name, remove, folder, status, thread, process; or signal,
-//                        which delivers MORSEL_FAULT_CODE at the n-th call of all kinds but memory and map
+//   MORSEL_FAULT_KIND    memory, map, open, read, write, sync, name, remove, folder, status, thread,
+//                        process; or signal, which delivers MORSEL_FAULT_CODE at the n-th call of all kinds
+//                        but memory and map
 //   MORSEL_FAULT_AT      n: the first call of that kind to fail, counted from 1; 0: none
 //   MORSEL_FAULT_ALL     1: all calls from there on fail, not that one alone
 //   MORSEL_FAULT_CODE    the error number that the call fails with, or the signal

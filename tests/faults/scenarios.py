@@ -90,7 +90,7 @@ def listed(data):
     """What a folder's list says was made in it."""
     entries = set()
     for line in filter(None, data.decode().split("\n")[1:-1]):  # a truncated last line is ignored
-        (entries.add if line[0] == "+" else entries.discard)(line[1:])
+        (entries.add if line[0] == "+" else entries.discard)(line[1:].split(" ")[0])
     return entries
 
 

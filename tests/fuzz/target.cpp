@@ -17,7 +17,9 @@ std::span<const Target> targets() {
                                                {"report", "report", "", report},
                                                {"state", "state", "", state},
                                                {"journal", "journal", "", journal},
-                                               {"provenance", "provenance", "", provenance}};
+                                               {"provenance", "provenance", "", provenance},
+                                               {"marks", "marks", "", marks},
+                                               {"landmarks", "landmarks", "", landmarks}};
   return kTargets;
 }
 

@@ -34,6 +34,8 @@ void report(std::string_view bytes);
 void state(std::string_view bytes);
 void journal(std::string_view bytes);
 void provenance(std::string_view bytes);
+void marks(std::string_view bytes);
+void landmarks(std::string_view bytes);
 
 struct Target {
   std::string_view name;

@@ -38,6 +38,7 @@ MAY_PRINT = ("commands", "manual", "main.cpp", "batch")  # batch: its children b
 # What a study does without, so that Python and a browser can be built on it.
 NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build", "embree3/",
                 "openvdb/", "CLI/")
+NAMES_OPTION = re.compile(r'(?<![\w-])--[a-z]')  # of the command line, in a text
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
 NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
                   "ft2build")  # included by sources only: users of the installed library do not need these
@@ -111,6 +112,10 @@ def check_source(module, text, is_header, own_header=None, room=None):
         first = INCLUDE.search(code)
         if first is None or first.group(2) != own_header:
             yield line_of(code, first.start()) if first else 1, f'the first include is to be "{own_header}"'
+    if room == "study":
+        for match in TOKEN.finditer(code):
+            if match.group().startswith('"') and NAMES_OPTION.search(match.group()):
+                yield line_of(code, match.start()), "study knows no options of the command line"
     if module in LIBRARY or (room is not None and room not in MAY_PRINT):
         for match in PRINTS_OR_EXITS.finditer(without(text, ("//", "/*", "R", '"', "'"))):
             said = match.group().strip("( ")

@@ -95,6 +95,8 @@ class CheckLayers(unittest.TestCase):
                 ("tools/formats/a.cpp", '#include "morsel/tools/study/b.h"', "formats may not include"),
                 ("tools/batch/a.h", '#include "morsel/tools/commands/b.h"', "batch may not include"),
                 ("tools/study/a.cpp", "#include <nlohmann/json.hpp>", "study may not include"),
+                ("tools/study/a.cpp", '#include "morsel/tools/study/a.h"\n'
+                                      'auto t = "give it by --by";', "no options"),
                 ("tools/study/a.cpp", '#include "morsel/tools/attic/b.h"', "the room attic"),
                 ("tools/attic/a.cpp", '#include "morsel/core/a.h"', "the room attic"),
                 ("tools/plot/a.cpp", "#include <cstdio>\nvoid f() { puts(\"x\"); }", "plot may not print"),

@@ -224,6 +224,9 @@ TEST_CASE("mesh salience is 1 on average, without a unit, and 1 where nothing st
     CHECK(salience[v] >= 0);
   }
   CHECK(sum / total == Approx(1));
+  const morse::MeshSalience at_any_scale(mesh);
+  CHECK(at_any_scale.at(core::Length::epsilons(8)) == salience);
+  CHECK(at_any_scale.at(core::Length::epsilons(4)) == morse::mesh_salience(mesh, core::Length::epsilons(4)));
   const std::vector<double> large = morse::mesh_salience(scaled(mesh, 4));
   for (std::size_t v = 0; v < areas.size(); ++v) CHECK(large[v] == Approx(salience[v]).epsilon(1e-6));
   for (const double one : morse::mesh_salience(grid(12, 9).mesh())) CHECK(one == 1);

@@ -133,7 +133,8 @@ TEST_CASE("curvature functions refuse what they do not know") {
     CHECK_THROWS_AS(make(reader)->evaluate(mesh, {nullptr, core::Progress({}, stop.get_token())}),
                     core::Cancelled);
   }
-  CHECK_THROWS_WITH(evaluate(mesh, "principal-curvature", {{"which", "mean"}}), Catch::Contains("max, min"));
+  CHECK_THROWS_WITH(evaluate(mesh, "principal-curvature", {{"which", "mean"}}),
+                    Catch::Contains("must be max or min"));
 }
 
 TEST_CASE("curvature functions fulfil the Euler identity") {

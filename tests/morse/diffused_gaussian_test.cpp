@@ -58,17 +58,6 @@ double integral(const ScalarField& field) {
   return sum;
 }
 
-/// A sphere with a tip at each of the places.
-TriangleMesh with_tips(const std::vector<Point>& tips) {
-  std::vector<Point> positions;
-  for (const Point& p : sphere(4).positions) {
-    double height = 0;
-    for (const Point& tip : tips) height += 0.5 * std::exp(-(p - tip).squaredNorm() / 0.08);
-    positions.push_back(p * (1 + height));
-  }
-  return sphere(4).mesh().with_positions(std::move(positions));
-}
-
 }  // namespace
 
 TEST_CASE("diffused Gaussian curvature agrees with a direct solve") {

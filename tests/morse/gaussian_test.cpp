@@ -8,6 +8,7 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/functions/curvature.h"
+#include "morsel/morse/operators/laplacian.h"
 #include "support/fields.h"
 #include "support/made.h"
 #include "support/shapes.h"
@@ -21,8 +22,9 @@ core::MethodResult apply(const ScalarField& field, Given given) {
   return made(morse::make_gaussian, "gaussian", std::move(given))->apply(field, {});
 }
 
-/// Equation (1), over all pairs.
-std::vector<double> slow_average(const ScalarField& field, double sigma, double support) {
+/// Equation (1), over all pairs; with `counts` points count so often.
+std::vector<double> slow_average(const ScalarField& field, double sigma, double support,
+                                 const std::vector<double>& counts = {}) {
   std::vector<double> result;
   for (const Point& p : field.mesh().positions()) {
     double numerator = 0;
@@ -30,7 +32,8 @@ std::vector<double> slow_average(const ScalarField& field, double sigma, double 
     for (Index x = 0; x < field.mesh().vertex_count(); ++x) {
       const double distance = (field.mesh().position(x) - p).norm();
       if (distance > support * sigma) continue;
-      const double weight = std::exp(-distance * distance / (2 * sigma * sigma));
+      const double weight =
+          std::exp(-distance * distance / (2 * sigma * sigma)) * (counts.empty() ? 1 : counts[x]);
       numerator += weight * field.value(x);
       denominator += weight;
     }
@@ -69,6 +72,12 @@ TEST_CASE("the Gaussian average agrees with the sum over all pairs") {
       const ScalarField result = morse::gaussian(field, options);
       for (Index v = 0; v < mesh.vertex_count(); ++v)
         CHECK(result.value(v) / unit == Approx(expected[v] / unit).margin(1e-13));
+      options.weights = morse::NeighborWeights::area;
+      const std::vector<double> by_area =
+          slow_average(field, sigma, 1.5, vertex_areas(mesh, morse::VertexArea::mixed));
+      const ScalarField weighted = morse::gaussian(field, options);
+      for (Index v = 0; v < mesh.vertex_count(); ++v)
+        CHECK(weighted.value(v) / unit == Approx(by_area[v] / unit).margin(1e-13));
     }
   }
 }

@@ -69,7 +69,7 @@ TEST_CASE("height refuses zero and non-finite directions") {
 
 TEST_CASE("height keys are checked") {
   const TriangleMesh mesh = octahedron().mesh();
-  CHECK_THROWS_WITH(evaluate(mesh, {{"axis", "w"}}), Catch::Contains("x, y, z"));
+  CHECK_THROWS_WITH(evaluate(mesh, {{"axis", "w"}}), Catch::Contains("must be x, y or z"));
   CHECK_THROWS_WITH(evaluate(mesh, {{"axis", "z"}, {"direction", "1/0/0"}}), Catch::Contains("not both"));
   CHECK_THROWS_WITH(evaluate(mesh, {{"direction", "1/2"}}), Catch::Contains("three numbers"));
   CHECK_THROWS_WITH(evaluate(mesh, {{"direction", "1/2/3/4"}}), Catch::Contains("three numbers"));

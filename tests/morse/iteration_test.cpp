@@ -66,6 +66,14 @@ TEST_CASE("iterations end at their number and count nothing unasked") {
   const core::MethodResult result = control.result({{"more", true}});
   CHECK(result.iterations.empty());
   CHECK(result.parameters == core::Parameters{{"iterations", std::int64_t{3}}, {"more", true}});
+  REQUIRE(result.end);
+  CHECK(result.end->iterations_run == 3);
+  CHECK(result.end->stopped_by == "iterations");
+  CHECK(iterations_run(result) == 3);
+  CHECK(stopped_by(result) == "iterations");
+  CHECK_FALSE(result.sigma);
+  CHECK(run(morse::make_gaussian, input, {{"sigma", "0.25"}}).sigma == 0.25);
+  CHECK(run(morse::make_salient, input, {{"sigma", "0.25"}, {"classify", "saliency"}}).sigma == 0.25);
   IterationControl none(input, {.iterations = 0}, context);
   CHECK_FALSE(none.more());
 }

@@ -16,7 +16,6 @@
 #include "morsel/morse/functions/curvature_functions.h"
 #include "morsel/morse/functions/height.h"
 #include "morsel/morse/smoothing/salient.h"
-#include "morsel/morse/smoothing/salient_method.h"
 #include "support/fields.h"
 #include "support/made.h"
 #include "support/shapes.h"

@@ -160,7 +160,7 @@ TEST_CASE("every instruction set keeps the promise and fused ones give the same 
 TEST_CASE("the exact algorithm runs where the accuracy cannot be kept, and the reason is reported") {
   const TriangleMesh mesh = noisy(sphere(4), 0.001, 9).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 10));
-  const auto why = [&](SalientOptions chosen) {
+  const auto why = [&](const SalientOptions& chosen) {
     const auto found = morse::salient(field, chosen);
     CHECK(found.algorithm == SalientAlgorithm::exact);
     CHECK(found.promised_error == (chosen.accuracy < 1e-5 ? 0 : chosen.accuracy));

@@ -99,9 +99,13 @@ TEST_CASE("salient smoothing with areas and connected balls agrees with its list
           if (weights == NeighborWeights::area) slow.weights = vertex_areas(mesh, morse::VertexArea::mixed);
           if (ball == Ball::connected) slow.connected_by = &mesh;
           const std::vector<double> expected = salient_reference(mesh.positions(), values, slow);
-          const auto result = morse::salient({mesh, values}, options(3, sigma, range, weights, ball));
-          for (Index v = 0; v < mesh.vertex_count(); ++v)
-            CHECK(result.field.value(v) == Approx(expected[v]).margin(1e-12));
+          SalientOptions fast = options(3, sigma, range, weights, ball);
+          for (const morse::InstructionSet set : morse::instruction_sets()) {
+            fast.instructions = set;
+            const auto result = morse::salient({mesh, values}, fast);
+            for (Index v = 0; v < mesh.vertex_count(); ++v)
+              CHECK(result.field.value(v) == Approx(expected[v]).margin(1e-12));
+          }
         }
   }
 }
@@ -195,17 +199,39 @@ TEST_CASE("connected balls and areas give the same bits at any number of threads
 TEST_CASE("areas and connected balls scale with the mesh and survive vertices without area") {
   const TriangleMesh mesh = jittered(sphere(3).mesh(), 0.05, 3);
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 9));
-  const auto run = [&](const TriangleMesh& surface, double unit) {
-    return values_of(morse::salient({surface, values_of(field)},
-                                    options(3, 0.2 * unit, "1std", NeighborWeights::area, Ball::connected))
-                         .field);
-  };
-  const std::vector<double> expected = run(mesh, 1);
-  CHECK(run(scaled(mesh, 0x1p-700), 0x1p-700) == expected);
-  CHECK(run(scaled(mesh, 0x1p400), 0x1p400) == expected);
   std::vector<Point> line(mesh.positions().begin(), mesh.positions().end());
   for (Point& p : line) p = {p.x(), 0, 0};
-  CHECK(run(mesh.with_positions(line), 1) == values_of(field));
+  for (const Ball ball : {Ball::euclidean, Ball::connected})
+    for (const char* range : {"1std", "local", "none"}) {
+      INFO(to_string(ball) << ", " << range);
+      const auto run = [&](const TriangleMesh& surface, double unit) {
+        return values_of(morse::salient({surface, values_of(field)},
+                                        options(3, 0.2 * unit, range, NeighborWeights::area, ball))
+                             .field);
+      };
+      const std::vector<double> expected = run(mesh, 1);
+      CHECK(run(scaled(mesh, 0x1p-700), 0x1p-700) == expected);
+      CHECK(run(scaled(mesh, 0x1p400), 0x1p400) == expected);
+      CHECK(run(mesh.with_positions(line), 1) == values_of(field));
+    }
+}
+
+TEST_CASE("a vertex without area counts for nothing and takes the mean of the others") {
+  // The middle of the line is in no triangle with an area.
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0.5, 0}}, {{0, 1, 2}, {2, 1, 3}});
+  const std::vector<double> area = vertex_areas(mesh, morse::VertexArea::mixed);
+  REQUIRE(area[3] == 0);
+  const ScalarField field(mesh, {1, 2, 5, 100});
+  const auto result = morse::salient(field, options(1, 10, "none", NeighborWeights::area, Ball::euclidean));
+  double sum = 0;
+  double total = 0;
+  for (Index v = 0; v < 3; ++v) {
+    const double w = std::exp(-(mesh.position(v) - mesh.position(3)).squaredNorm() / 200) * area[v];
+    sum += w * field.value(v);
+    total += w;
+  }
+  CHECK(result.field.value(3) == Approx(sum / total).epsilon(1e-13));
+  CHECK(result.field.value(0) < 5);
 }
 
 TEST_CASE("options that do not go with areas and connected balls") {

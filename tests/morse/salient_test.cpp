@@ -148,6 +148,18 @@ TEST_CASE("instruction sets with fused multiply-adds give the same bits") {
         CHECK(values == expected);
       }
     }
+  for (const char* text : {"1std", "local", "none"}) {
+    std::vector<double> expected;
+    for (const morse::InstructionSet set : morse::instruction_sets()) {
+      if (set == morse::InstructionSet::baseline) continue;
+      SalientOptions chosen = options(4, 0.1, text);
+      chosen.instructions = set;
+      chosen.weights = morse::NeighborWeights::area;
+      const std::vector<double> values = values_of(morse::salient(field, chosen).field);
+      if (expected.empty()) expected = values;
+      CHECK(values == expected);
+    }
+  }
 }
 
 TEST_CASE("ten iterations on real meshes keep to the listing in both precisions") {

@@ -110,3 +110,49 @@ TEST_CASE("surface distances scale exactly and end at components") {
     CHECK(std::isfinite(all[v]) == (mesh.component_of_vertex(v) == mesh.component_of_vertex(3)));
   CHECK(distances_from(mesh, 3, 0)[3] == HUGE_VAL);  // nearer than nothing is nothing
 }
+
+TEST_CASE("farthest points agree with brute force") {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    INFO("seed " << seed);
+    const TriangleMesh mesh = random_surface(seed);
+    const auto distance = all_distances(mesh);
+    const Index start = seed % mesh.vertex_count();
+    // Distances are sums in another order than Dijkstra's: the last digits do not decide.
+    const auto is_farther = [](double a, double b) { return a > b * (1 + 1e-9); };
+    const std::vector<Index> chosen = SurfaceDistances(mesh).farthest_points(start, 8);
+    REQUIRE(chosen.size() == std::min<std::size_t>(8, mesh.vertex_count()));
+    std::vector<double> nearest(mesh.vertex_count(), HUGE_VAL);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        if (i > 0) CHECK_FALSE(is_farther(nearest[v], nearest[chosen[i]]));
+        if (i == 0 && std::isfinite(distance[start][v]))
+          CHECK_FALSE(is_farther(distance[start][v], distance[start][chosen[0]]));
+      }
+      CHECK(nearest[chosen[i]] > 0);
+      for (Index v = 0; v < mesh.vertex_count(); ++v)
+        nearest[v] = std::min(nearest[v], distance[chosen[i]][v]);
+    }
+  }
+}
+
+TEST_CASE("farthest points of a strip are its ends, then the middles") {
+  const SurfaceDistances strip(grid(9, 2).mesh());
+  CHECK(strip.farthest_points(3, 2) == std::vector<Index>{17, 0});
+  CHECK(strip.farthest_points(3, 0).empty());
+  CHECK(strip.farthest_points(0, 100).size() == 18);
+  const SurfaceDistances two(together(octahedron(), octahedron()).mesh());
+  const std::vector<Index> chosen = two.farthest_points(0, 2);
+  CHECK(chosen == std::vector<Index>{1, 6});  // each component has one before any has two
+}
+
+TEST_CASE("vertices that are taken lie apart") {
+  const SurfaceDistances strip(grid(9, 2).mesh());
+  morse::SpacedVertices apart(strip, 2);
+  CHECK(apart.take(4));
+  CHECK_FALSE(apart.take(4));
+  CHECK_FALSE(apart.take(5));
+  CHECK(apart.take(6));  // at the distance itself
+  morse::SpacedVertices any(strip, 0);
+  for (Index v = 0; v < 18; ++v) CHECK(any.take(v));
+  for (Index v = 0; v < 18; ++v) CHECK_FALSE(any.take(v));
+}

@@ -11,7 +11,6 @@
 using namespace morsel;
 using namespace morsel::test;
 using core::ScalarField;
-using morse::CriticalType;
 
 TEST_CASE("a monkey saddle is unfolded into two saddles") {
   const TriangleMesh mesh = wheel(6).mesh();

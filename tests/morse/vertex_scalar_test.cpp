@@ -92,7 +92,8 @@ TEST_CASE("value files that cannot be read are refused") {
   CHECK_THROWS_AS(morse::vertex_scalar(mesh, nullptr, {scratch / "none.txt", ""}), BadInput);
   CHECK_THROWS_WITH(morse::vertex_scalar(mesh, nullptr, {scratch / "none.txt", ""}),
                     Catch::Contains("none.txt") && Catch::Contains("No such file"));
-  CHECK_THROWS_WITH(morse::vertex_scalar(mesh, nullptr, {scratch.path(), ""}), Catch::Contains("folder"));
+  CHECK_THROWS_WITH(morse::vertex_scalar(mesh, nullptr, {scratch.path(), ""}),
+                    Catch::Contains("it is a directory"));
 }
 
 TEST_CASE("a property of the mesh file becomes a field") {

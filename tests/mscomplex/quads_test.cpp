@@ -243,6 +243,31 @@ TEST_CASE("quads at vertices of a degree of five thousand take seconds, not minu
   CHECK(check_layout({mesh, values}, 2, 4));
 }
 
+TEST_CASE("relaxations where many arcs meet add a bounded number of triangles") {
+  Index left = 0;
+  for (const int sides : {40, 80, 120}) {
+    INFO(sides);
+    std::vector<Point> positions;
+    const TriangleMesh flat = bipyramid(sides).mesh();
+    for (Index v = 0; v < flat.vertex_count(); ++v)  // its rim goes up and down
+      positions.push_back(flat.position(v) + Point(0, 0, v < 2 ? 0 : v % 2 == 0 ? -0.2 : 0.2));
+    const TriangleMesh mesh(positions, {flat.triangles().begin(), flat.triangles().end()});
+    const ScalarField field = eigenfunction(mesh, 40);
+    const auto repaired = mscomplex::repair_dangling(field, MorseSmaleComplex(field));
+    std::size_t before = 0;
+    for (const int relaxation : {0, 1, 2}) {
+      const QuadLayout layout = mscomplex::embed_layout(repaired.complex, {relaxation});
+      layout.validate(repaired.complex);
+      const std::size_t now = layout.surface.triangle_count();
+      if (relaxation == 0) CHECK(layout.left == 0);
+      if (relaxation > 0) CHECK(now <= before + std::max<std::size_t>(before, 65'536));
+      before = now;
+      left += layout.left;
+    }
+  }
+  CHECK(left > 0);
+}
+
 TEST_CASE("quads of the bunny, the elephant and the lion") {
   const std::vector<std::pair<std::string, std::vector<int>>> runs = {
       {"bunny00.off", {1}}, {"refined_elephant.off", {0}}, {"lion-head.off", {0, 1}}};

@@ -34,14 +34,6 @@ using mscomplex::Segments;
 
 namespace {
 
-constexpr std::array kKinds = {SegmentKind::descending, SegmentKind::ascending, SegmentKind::morse_smale};
-
-const char* name_of(SegmentKind kind) {
-  return kind == SegmentKind::descending  ? "descending"
-         : kind == SegmentKind::ascending ? "ascending"
-                                          : "morse-smale";
-}
-
 /// For each triangle, the smallest that can be reached from it through triangles of its label.
 std::vector<Index> pieces(const TriangleMesh& mesh, const std::vector<Index>& label, bool across_edges) {
   core::UnionFind sets(mesh.triangle_count());
@@ -271,8 +263,8 @@ void check_segments(const ScalarField& field, unsigned seed) {
   const Index last = hierarchy.levels();
   std::mt19937 random(seed);
   std::vector<Index> levels = {0, static_cast<Index>(random() % (last + 1)), last};
-  for (const SegmentKind kind : kKinds) {
-    INFO(name_of(kind));
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) {
+    INFO(to_string(kind));
     const Segmenter segmenter(field, hierarchy, kind);
     for (const Index level : levels) check_level(field, segmenter, level);
     // Merging only makes segments coarser.
@@ -303,6 +295,12 @@ void check_segments(const ScalarField& field, unsigned seed) {
 //   5---6---7---8---9
 //   | / | / | / | / |
 //   0---1---2---3---4
+TEST_CASE("kinds of segments have names") {
+  std::vector<std::string> names;
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) names.push_back(to_string(kind));
+  CHECK(names == std::vector<std::string>{"descending", "ascending", "morse-smale"});
+}
+
 TEST_CASE("segments of a drawn strip have the expected sizes and borders") {
   const TriangleMesh mesh = grid(5, 2).mesh();
   const ScalarField field(mesh, {5, 1, 3, 0, 4, 8, 6, 9, 2, 7});
@@ -379,8 +377,8 @@ TEST_CASE("segments of real surfaces, merged and not") {
     const TriangleMesh mesh = read_plain_off(sample(file));
     const ScalarField field(mesh, plain_mean_curvature(mesh));
     const PersistenceHierarchy hierarchy(field);
-    for (const SegmentKind kind : kKinds) {
-      INFO(name_of(kind));
+    for (const SegmentKind kind : mscomplex::kSegmentKinds) {
+      INFO(to_string(kind));
       const Segmenter segmenter(field, hierarchy, kind);
       const Index level = segmenter.level_with(30);
       CHECK(segmenter.count(level) <= 30);
@@ -396,7 +394,7 @@ TEST_CASE("merged segments at vertices of degree ten thousand") {
     for (const NamedField& f : field_zoo(mesh, 83)) {
       INFO(mesh.vertex_count() << " vertices | " << f.name);
       const PersistenceHierarchy hierarchy(f.field);
-      for (const SegmentKind kind : kKinds) {
+      for (const SegmentKind kind : mscomplex::kSegmentKinds) {
         const Segmenter segmenter(f.field, hierarchy, kind);
         const Segments s = segmenter.segments(hierarchy.levels() / 2);
         check_measures(mesh, s);
@@ -408,7 +406,7 @@ TEST_CASE("merged segments at vertices of degree ten thousand") {
 TEST_CASE("merged segments are the same for every number of threads") {
   const TriangleMesh mesh = punctured_sphere(5, 5).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 84));
-  for (const SegmentKind kind : kKinds) {
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) {
     const auto with = [&](int threads) {
       core::ThreadLimit limit(threads);
       const PersistenceHierarchy hierarchy(field);

@@ -215,9 +215,10 @@ std::vector<PolygonFamily> simple_polygons() {
              const auto add = [&](double x, double y) {
                polygon.emplace_back(0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, 0);
              };
-             const auto n = static_cast<double>(corners / 2);
-             for (double i = 0; i < n; ++i) add(i / n, 4e-3 * (i / n) * (1 - i / n));
-             for (double i = n; i > 0; --i) add(i / n, 1.1e-3 + 1e-6 * (random() % 1000));
+             const std::size_t n = corners / 2;
+             const auto at = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(n); };
+             for (std::size_t i = 0; i < n; ++i) add(at(i), 4e-3 * at(i) * (1 - at(i)));
+             for (std::size_t i = n; i > 0; --i) add(at(i), 1.1e-3 + 1e-6 * (random() % 1000));
              return polygon;
            }},
           {"maze", [](std::size_t corners) { return maze(corners, 1); }}};

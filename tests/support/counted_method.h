@@ -40,7 +40,7 @@ class CountedMethod : public core::Method {
     return control.result({});
   }
 
-  core::MethodTraits traits() const override { return {.iterates_are_results = true}; }
+  core::MethodTraits traits() const override { return {.iterates = true, .iterates_are_results = true}; }
 
  private:
   morse::StopCriteria criteria_;

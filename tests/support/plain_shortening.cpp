@@ -1,4 +1,5 @@
-// The slow reference of shortening: the whole cut is decomposed again after each change.
+// The slow reference of shortening: the whole cut is decomposed again after each change, and rims are found
+// by searches among triangles.
 
 #include "support/plain_shortening.h"
 
@@ -26,28 +27,71 @@ using core::TriangleMesh;
 /// Replaced lengths must be shorter by more than what rounding makes of sums.
 constexpr double kShorter = 1 - 1e-12;
 
-/// One step along the rim of a surface with walls: all corners that it has at one vertex.
-class RimWalk {
+/// The rims of a surface with walls, by searches among the triangles around each vertex: no half-edge is
+/// followed to its twin or successor.
+class Rims {
  public:
-  /// From the rim's corner that half-edge `inside`, no wall, leaves; there must be walls at its origin.
-  RimWalk(const TriangleMesh& mesh, const Walls& walls, Index inside) : mesh_(mesh), walls_(walls) {
-    while (!walls.is_wall(TriangleMesh::previous(inside))) inside = mesh.twin(TriangleMesh::previous(inside));
-    start_ = here_ = TriangleMesh::previous(inside);
+  explicit Rims(const TriangleMesh& mesh) : mesh_(mesh), around_(mesh.vertex_count()) {
+    for (Index t = 0; t < mesh.triangle_count(); ++t)
+      for (const Index v : mesh.triangles()[t]) around_[v].push_back(t);
   }
-  /// Calls visit(h) for each half-edge that leaves the corner here inwards and goes on along the rim.
-  template <class Visit>
-  void step(const Visit& visit) {
-    Index h = TriangleMesh::next(here_);
-    for (; !walls_.is_wall(h); h = TriangleMesh::next(mesh_.twin(h))) visit(h);
-    here_ = h;
+
+  struct Rim {
+    std::size_t corners = 0;
+    std::vector<Index> inwards;  // the half-edges that leave the corners, but for walls
+  };
+  /// The rim from the corner of `triangle` at v on, at which there must be walls.
+  Rim rim(const Walls& walls, Index v, Index triangle) const {
+    Rim result;
+    const std::vector<Index> start = corner(walls, v, triangle);
+    std::vector<Index> here = start;
+    Index vertex = v;
+    do {
+      for (std::size_t i = 0; i + 1 < here.size(); ++i) result.inwards.push_back(leaving(here[i], vertex));
+      ++result.corners;
+      const Index last = here.back();
+      vertex = after(last, vertex);
+      here = corner(walls, vertex, last);
+    } while (vertex != v || here != start);
+    return result;
   }
-  bool is_round() const { return here_ == start_; }
 
  private:
-  const TriangleMesh& mesh_;
-  const Walls& walls_;
-  Index start_;
-  Index here_;  // a half-edge along the rim, into the corner
+  std::size_t place(Index t, Index v) const {
+    std::size_t i = 0;
+    while (mesh_.triangles()[t][i] != v) ++i;
+    return i;
+  }
+  Index after(Index t, Index v) const { return mesh_.triangles()[t][(place(t, v) + 1) % 3]; }
+  Index before(Index t, Index v) const { return mesh_.triangles()[t][(place(t, v) + 2) % 3]; }
+  Index leaving(Index t, Index v) const { return static_cast<Index>(3 * t + place(t, v)); }
+  Index entering(Index t, Index v) const { return static_cast<Index>(3 * t + (place(t, v) + 2) % 3); }
+
+  /// The triangles around v that are connected to one of them by shared edges that are no walls, in the order
+  /// in which the vertex after v in one is the vertex before v in the next.
+  std::vector<Index> corner(const Walls& walls, Index v, Index triangle) const {
+    std::vector<Index> connected = {triangle};
+    for (std::size_t k = 0; k < connected.size(); ++k)
+      for (const Index t : around_[v])
+        if (std::find(connected.begin(), connected.end(), t) == connected.end() &&
+            share(walls, v, connected[k], t))
+          connected.push_back(t);
+    const auto first = std::find_if(connected.begin(), connected.end(),
+                                    [&](Index t) { return walls.is_wall(entering(t, v)); });
+    std::vector<Index> ordered = {*first};
+    while (ordered.size() < connected.size())
+      ordered.push_back(*std::find_if(connected.begin(), connected.end(),
+                                      [&](Index t) { return before(t, v) == after(ordered.back(), v); }));
+    return ordered;
+  }
+  /// Whether triangles a and b around v share an edge at v that is no wall.
+  bool share(const Walls& walls, Index v, Index a, Index b) const {
+    return (after(a, v) == before(b, v) && !walls.is_wall(leaving(a, v))) ||
+           (before(a, v) == after(b, v) && !walls.is_wall(entering(a, v)));
+  }
+
+  TriangleMesh mesh_;
+  std::vector<std::vector<Index>> around_;  // per vertex: its triangles
 };
 
 /// A path and when it was last tried.
@@ -61,6 +105,7 @@ class Shortener {
   Shortener(const TriangleMesh& mesh, const CutGraph& cut)
       : mesh_(mesh),
         walls_(mesh, cut.edges),
+        rims_(mesh),
         search_(mesh),
         is_near_(mesh.halfedge_count(), 0),
         time_of_edge_(mesh.edge_count(), 0) {
@@ -140,28 +185,24 @@ class Shortener {
     const std::array ends = {path.front(), mesh_.twin(path.back())};
     for (const Index h : ends)
       if (walls_.degree(mesh_.origin(h)) == 0) return {};  // opens a sphere
-    // Both rims alternately: the one with fewer corners suffices, and a hole in a large surface has few.
-    std::array walks = {RimWalk(mesh_, walls_, ends[0]), RimWalk(mesh_, walls_, ends[1])};
-    std::array<std::vector<Index>, 2> inwards;
-    std::size_t near = 0;
-    for (;; near = 1 - near) {
-      walks[near].step([&](Index h) { inwards[near].push_back(h); });
-      if (walks[near].is_round()) break;
-    }
-    for (const Index h : inwards[near]) is_near_[h] = 1;
+    const std::array rims = {rims_.rim(walls_, mesh_.origin(ends[0]), TriangleMesh::triangle_of(ends[0])),
+                             rims_.rim(walls_, mesh_.origin(ends[1]), TriangleMesh::triangle_of(ends[1]))};
+    const std::vector<Index>& inwards = rims[rims[0].corners <= rims[1].corners ? 0 : 1].inwards;
+    for (const Index h : inwards) is_near_[h] = 1;
     std::vector<Index> found = search_.find(
-        inwards[near], length * kShorter,
+        inwards, length * kShorter,
         [&](Index h) {
           if (walls_.degree(mesh_.target(h)) == 0) return Step::pass;
           return is_near_[mesh_.twin(h)] != 0 ? Step::blocked : Step::goal;
         },
         progress);
-    for (const Index h : inwards[near]) is_near_[h] = 0;
+    for (const Index h : inwards) is_near_[h] = 0;
     return found;
   }
 
   TriangleMesh mesh_;
   Walls walls_;
+  Rims rims_;
   CutGraph graph_;
   std::vector<Trial> trials_;  // per path
   EdgePathSearch search_;

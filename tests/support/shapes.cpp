@@ -54,4 +54,26 @@ TriangleMesh moved(const TriangleMesh& mesh, const Eigen::Matrix3d& linear, cons
   return mesh.with_positions(std::move(positions));
 }
 
+TriangleMesh with_tips(const std::vector<Point>& tips, int subdivisions) {
+  const Soup ball = sphere(subdivisions);
+  std::vector<Point> positions;
+  for (const Point& p : ball.positions) {
+    double height = 0;
+    for (const Point& tip : tips) height += 0.5 * std::exp(-(p - tip).squaredNorm() / 0.08);
+    positions.push_back(p * (1 + height));
+  }
+  return ball.mesh().with_positions(std::move(positions));
+}
+
+std::vector<Index> nearest_vertices(const TriangleMesh& mesh, const std::vector<Point>& places) {
+  std::vector<Index> vertices;
+  for (const Point& place : places) {
+    Index nearest = 0;
+    for (Index v = 1; v < mesh.vertex_count(); ++v)
+      if ((mesh.position(v) - place).norm() < (mesh.position(nearest) - place).norm()) nearest = v;
+    vertices.push_back(nearest);
+  }
+  return vertices;
+}
+
 }  // namespace morsel::test

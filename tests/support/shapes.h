@@ -16,4 +16,10 @@ Soup inside_out(Soup soup);
 /// apart, so that Taubin's sums over directions are exact.
 Soup cylinder(double radius, int around, int rows);
 
+/// A sphere of radius 1 with a bump of height 0.5 in the direction of each of the tips, which are unit
+/// vectors.
+TriangleMesh with_tips(const std::vector<Point>& tips, int subdivisions = 4);
+/// The vertex nearest to each of some places.
+std::vector<Index> nearest_vertices(const TriangleMesh& mesh, const std::vector<Point>& places);
+
 }  // namespace morsel::test

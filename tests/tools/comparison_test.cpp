@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,11 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/mscomplex/segments.h"
+#include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/study/level_builder.h"
+#include "morsel/tools/study/made_field.h"
 #include "morsel/tools/study/persistence_levels.h"
+#include "morsel/tools/study/summary.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -319,4 +323,91 @@ TEST_CASE("every method gives the same bits at any number of threads") {
     CHECK(run(2) == one);
     CHECK(run(7) == one);
   }
+}
+
+TEST_CASE("points are chosen of every row as of its field alone, and compared among themselves") {
+  const core::LoadedMesh loaded{jittered(sphere(4).mesh(), 0.02, 4), {}};
+  struct Sink : tools::ComparisonSink {
+    std::vector<tools::MethodOutcome> rows;
+    void field(const tools::FieldOutcome&) override {}
+    void method(const tools::MethodOutcome& outcome) override { rows.push_back(outcome); }
+  };
+  tools::ComparisonRequest request;
+  request.methods = {"conventional", "gaussian:sigma=0.2", "tps:count=12"};
+  const auto run = [&] {
+    Sink sink;
+    run_comparison(loaded, prepare(request), {&sink});
+    return std::move(sink.rows);
+  };
+  const std::vector<tools::MethodOutcome> without = run();
+  request.points.emplace();
+  request.points->count = 15;
+  request.points->rank = morse::PointRank::salience;
+  const std::vector<tools::MethodOutcome> with = run();
+  request.snap = true;
+  const std::vector<tools::MethodOutcome> snapped = run();
+  const tools::PointsPlan plan = prepare(*request.points);
+  for (std::size_t row = 0; row < with.size(); ++row) {
+    INFO(with[row].specification);
+    CHECK_FALSE(without[row].chosen);
+    CHECK(&without[row].shown_points() == &without[row].measurement.critical_points);
+    // Choosing changes nothing else.
+    CHECK(with[row].measurement.critical_points.points == without[row].measurement.critical_points.points);
+    CHECK(with[row].compared_to_first.kept.size() == without[row].compared_to_first.kept.size());
+
+    REQUIRE(with[row].chosen);
+    const tools::ChosenOutcome& chosen = *with[row].chosen;
+    const tools::MadeField made =
+        make_field(tools::prepare(tools::FieldRequest{"mean-curvature", request.methods[row], {}}), loaded);
+    const tools::MadePoints alone = tools::PointMaker(plan, loaded).make(made.for_points());
+    CHECK(chosen.made.places == alone.places);
+    CHECK(chosen.made.note == alone.note);
+    CHECK(chosen.points.total() == chosen.made.chosen.points.size());
+    CHECK(std::ranges::is_sorted(chosen.points.points, {}, &morse::CriticalPoint::vertex));
+    CHECK(&with[row].shown_points() == &chosen.points);
+    const tools::Matching& matching = chosen.compared_to_first;
+    CHECK(matching.kept.size() + matching.moved.size() + matching.added == chosen.points.total());
+    if (row == 0) CHECK(matching.kept.size() == chosen.points.total());
+
+    // At their origins, in the same order.
+    const tools::MethodOutcome& moved = snapped[row];
+    REQUIRE(moved.chosen->made.places.size() == chosen.made.places.size());
+    const auto& all = moved.measurement.critical_points.points;
+    for (std::size_t i = 0; i < chosen.made.places.size(); ++i) {
+      const auto at = std::ranges::lower_bound(all, chosen.made.places[i], {}, &morse::CriticalPoint::vertex);
+      const Index origin = moved.origins[static_cast<std::size_t>(at - all.begin())];
+      CHECK(moved.chosen->made.places[i] == (origin == core::kNone ? chosen.made.places[i] : origin));
+    }
+  }
+  request.points->count = 0;
+  CHECK_THROWS_AS(prepare(request), core::InvalidArgument);
+}
+
+TEST_CASE("pairs above 1 % of the range are those of the summary, infinite ones included") {
+  struct Last : tools::ComparisonSink {
+    void field(const tools::FieldOutcome&) override {}
+    void method(const tools::MethodOutcome& outcome) override {
+      const double least = 0.01 * outcome.field.extent();
+      for (const auto& pair : outcome.measurement.diagram.pairs) large += pair.persistence() > least ? 1 : 0;
+      summary = tools::summary_of(outcome.measurement.diagram, outcome.field.extent());
+    }
+    std::size_t large = 0;
+    tools::PersistenceSummary summary;
+  };
+  const TriangleMesh mesh = grid(12, 12).mesh();
+  Last last;
+  tools::ComparisonTable table;
+  tools::ComparisonRequest request;
+  request.methods = {"tps:count=9"};
+  tools::run_comparison({jittered(mesh, 0.2, 5), {}}, tools::prepare(request), {&last, &table});
+  CHECK(last.large > 0);
+  CHECK(last.summary.above_one_percent() == last.large);
+  std::istringstream lines(table.text());
+  std::string line;
+  while (!line.starts_with("tps:count=9") && std::getline(lines, line)) {
+  }
+  std::istringstream row(line);
+  std::vector<std::string> cells(8);
+  for (std::string& cell : cells) row >> cell;
+  CHECK(cells[7] == std::to_string(last.large));
 }

@@ -28,7 +28,7 @@ using namespace morsel::test;
 using core::kNone;
 using core::ScalarField;
 using morse::CriticalType;
-using tools::CellKind;
+using mscomplex::SegmentKind;
 using tools::Level;
 using tools::PointStatus;
 
@@ -61,7 +61,9 @@ class Scripted final : public core::Method {
     iteration = 0;
     for (const ScalarField& field : fields_)
       if (!context.on_iteration(++iteration, field)) break;
-    return {fields_[static_cast<std::size_t>(iteration) - 1], {}, {{"stopped_by", std::string("script")}}};
+    core::MethodResult result{fields_[static_cast<std::size_t>(iteration) - 1], {}, {}};
+    result.end = {iteration, "script"};
+    return result;
   }
 
  private:
@@ -109,7 +111,7 @@ std::vector<std::tuple<Index, CriticalType, Index>> nodes(const mscomplex::Morse
 }
 
 /// What holds for the links of one kind of cells between two levels, from a plain map of areas.
-void check_cells(const Level& finer, const Level& coarser, CellKind kind) {
+void check_cells(const Level& finer, const Level& coarser, SegmentKind kind) {
   const std::vector<double> areas = mscomplex::triangle_areas(finer.field->mesh());
   std::map<std::pair<Index, Index>, double> shared;  // (finer, coarser)
   for (std::size_t t = 0; t < areas.size(); ++t)
@@ -161,7 +163,7 @@ void check_levels(const std::vector<Level>& levels) {
     const std::vector<double> areas = mscomplex::triangle_areas(mesh);
     double whole = 0;
     for (const double area : areas) whole += area;
-    for (const CellKind kind : tools::kCellKinds) {
+    for (const SegmentKind kind : mscomplex::kSegmentKinds) {
       const std::set<Index> carried(level.cells(kind).triangle.begin(), level.cells(kind).triangle.end());
       CHECK(level.labels(kind) == std::vector<Index>(carried.begin(), carried.end()));
       CHECK(level.labels(kind).size() == level.cells(kind).count);
@@ -205,6 +207,12 @@ ScalarField two_bumps() {
 
 }  // namespace
 
+TEST_CASE("keys of documents for kinds of segments have no dashes") {
+  CHECK(tools::key_of(SegmentKind::descending) == "descending");
+  CHECK(tools::key_of(SegmentKind::ascending) == "ascending");
+  CHECK(tools::key_of(SegmentKind::morse_smale) == "morse_smale");
+}
+
 TEST_CASE("two bumps that merge, by persistence") {
   const ScalarField field = two_bumps();
   const mscomplex::MorseSmaleComplex complex(field);
@@ -224,10 +232,10 @@ TEST_CASE("two bumps that merge, by persistence") {
   CHECK(coarse.name.cancelled->largest == 2);
   CHECK(*coarse.name.cancelled->threshold == 2);
   // Which cells merge: those of the maxima at 11 and 15 into that of 15.
-  const auto& links = fine.cell_links(CellKind::descending);
+  const auto& links = fine.cell_links(SegmentKind::descending);
   CHECK(links.merges_into[0] == mscomplex::Overlap{0, links.areas[0]});
   CHECK(links.merges_into[1] == mscomplex::Overlap{0, links.areas[1]});
-  CHECK(coarse.cell_links(CellKind::descending).parents[0].segment ==
+  CHECK(coarse.cell_links(SegmentKind::descending).parents[0].segment ==
         (links.areas[0] >= links.areas[1] ? 0 : 1));
   CHECK(coarse.count(PointStatus::kept) == coarse.points.total());
 }
@@ -265,9 +273,9 @@ TEST_CASE("a hill that moves, one that appears and one that disappears, by itera
                                                {190, kNone, PointStatus::fresh}});
   CHECK(maxima(levels[2]) == std::vector<Link>{{160, 160, PointStatus::kept}, {190, 190, PointStatus::kept}});
   // The cell of the hill that disappears merges into the one beside it.
-  CHECK(levels[1].cell_links(CellKind::descending).merges_into[0].segment == 0);
-  CHECK(levels[1].cell_links(CellKind::descending).merges_into[1].segment == 0);
-  CHECK(levels[1].cell_links(CellKind::descending).merges_into[2].segment == 1);
+  CHECK(levels[1].cell_links(SegmentKind::descending).merges_into[0].segment == 0);
+  CHECK(levels[1].cell_links(SegmentKind::descending).merges_into[1].segment == 0);
+  CHECK(levels[1].cell_links(SegmentKind::descending).merges_into[2].segment == 1);
 }
 
 TEST_CASE("parents are followed through all iterations between two levels") {
@@ -327,7 +335,7 @@ TEST_CASE("levels by persistence are nested") {
         CHECK(cells_left(level) == all - 2 * level.name.cancelled->cancellations);
         CHECK(level.count(PointStatus::kept) == level.points.total());
         // A cell lies in one coarser cell as a whole.
-        for (const CellKind kind : tools::kCellKinds) {
+        for (const SegmentKind kind : mscomplex::kSegmentKinds) {
           const tools::CellLinks& links = levels[k - 1].cell_links(kind);
           for (const Index label : levels[k - 1].labels(kind))
             REQUIRE(links.merges_into[label].area == links.areas[label]);
@@ -380,7 +388,8 @@ TEST_CASE("a method that restarts leaves no levels of its first attempt") {
       if (i > 0) CHECK(levels[i].count(PointStatus::kept) == levels[i].points.total());
     }
   }
-  CHECK_THROWS_AS(by_script(field, method, {2, 5}), core::InvalidArgument);
+  CHECK_THROWS_WITH(by_script(field, method, {2, 5}),
+                    Catch::Contains("iterations (script), so that level 5"));
 }
 
 TEST_CASE("a method's text with the iterations that levels need") {

@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/curvature.h"
+#include "morsel/tools/study/made_field.h"
 #include "support/shapes.h"
 
 using namespace morsel;
@@ -22,6 +24,12 @@ MadePoints run(const core::LoadedMesh& loaded, const tools::FieldRequest& field,
   return make_points(prepare(request), loaded, make_field(tools::prepare(field), loaded));
 }
 
+std::vector<Index> vertices_of(const MadePoints& made) {
+  std::vector<Index> vertices;
+  for (const morse::ChosenPoint& point : made.chosen.points) vertices.push_back(point.candidate.point.vertex);
+  return vertices;
+}
+
 core::LoadedMesh noisy_sphere() { return {jittered(sphere(3).mesh(), 0.03, 4), {}}; }
 
 }  // namespace
@@ -33,7 +41,9 @@ TEST_CASE("points of a field are as many as asked for, or the reason why fewer i
   const MadePoints ten = run(loaded, {}, request);
   CHECK(ten.chosen.points.size() == 10);
   CHECK(ten.note.empty());
-  CHECK(ten.percentiles.size() == 10);
+  CHECK(ten.places == vertices_of(ten));
+  CHECK_FALSE(ten.mean_percentile());
+  CHECK_FALSE(ten.percentile(3));
   CHECK(ten.chosen.spacing == 0.05 * loaded.mesh.bounding_box().diagonal());
   request.count = 10000;
   const MadePoints all = run(loaded, {}, request);
@@ -82,6 +92,55 @@ TEST_CASE("salience has the method's scale unless it is given") {
         0.04 * loaded.mesh.bounding_box().diagonal());
 }
 
+TEST_CASE("a maker chooses of several fields what it would of each alone") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  PointsRequest request;
+  request.count = 30;
+  request.rank = morse::PointRank::salience;
+  request.fill = "height";
+  request.percentiles = true;
+  const tools::PointsPlan plan = prepare(request);
+  tools::PointMaker maker(plan, loaded);
+  std::set<double> scales;
+  for (const char* method : {"conventional", "gaussian:sigma=0.25", "salient:sigma=0.4", "tps:count=6"}) {
+    INFO(method);
+    const tools::FieldRequest field{"mean-curvature", method, {}};
+    const tools::MadeField made = make_field(tools::prepare(field), loaded);
+    const MadePoints one = maker.make(made.for_points());
+    const MadePoints alone = run(loaded, field, request);
+    CHECK(vertices_of(one) == vertices_of(alone));
+    CHECK(one.scale == alone.scale);
+    CHECK(one.percentiles == alone.percentiles);
+    CHECK(one.fill.has_value() == alone.fill.has_value());
+    scales.insert(*one.scale);
+    // Another number: the first of them.
+    std::vector<Index> few = vertices_of(maker.make(made.for_points(), 5));
+    std::vector<Index> first = vertices_of(one);
+    first.resize(5);
+    CHECK(few == first);
+  }
+  CHECK(scales.size() == 3);  // 8eps twice
+}
+
+TEST_CASE("percentiles are taken where they are asked for") {
+  const core::LoadedMesh loaded = noisy_sphere();
+  PointsRequest request;
+  request.count = 10;
+  request.percentiles = true;
+  const MadePoints ten = run(loaded, {}, request);
+  const std::vector<double> all = tools::saliency_percentiles(loaded.mesh);
+  double sum = 0;
+  for (std::size_t i = 0; i < 10; ++i) {
+    CHECK(ten.percentile(i) == all[ten.places[i]]);
+    sum += all[ten.places[i]];
+  }
+  CHECK(*ten.mean_percentile() == Approx(sum / 10));
+  request.kind = morse::PointKind::saddles;
+  const MadePoints none = run(loaded, {"height", "tps:threshold=90%", {}}, request);
+  CHECK(none.has_percentiles);
+  CHECK_FALSE(none.mean_percentile());
+}
+
 TEST_CASE("saliency percentiles are half on average") {
   const core::LoadedMesh loaded = noisy_sphere();
   const std::vector<double> percentiles = tools::saliency_percentiles(loaded.mesh);
@@ -100,10 +159,7 @@ TEST_CASE("points of a request are the same for every number of threads") {
   request.rank = morse::PointRank::salience;
   const auto vertices = [&](int threads) {
     const core::ThreadLimit limit(threads);
-    std::vector<Index> result;
-    for (const auto& point : run(loaded, {}, request).chosen.points)
-      result.push_back(point.candidate.point.vertex);
-    return result;
+    return vertices_of(run(loaded, {}, request));
   };
   CHECK(vertices(1) == vertices(4));
 }

@@ -174,6 +174,31 @@ TEST_CASE("decimation leaves a manifold of the same topology with vertices of th
                     Catch::Contains("decimated to 2 vertices") && Catch::Contains("4 of its 4"));
 }
 
+TEST_CASE("decimation around a vertex of very large degree keeps the surface") {
+  // A cone of rings: its tip keeps hundreds of neighbours while the rings are thinned out.
+  constexpr Index kAround = 20'000, kRings = 3;
+  std::vector<Point> places = {Point(0, 0, 0)};
+  std::vector<core::Triangle> triangles;
+  const auto at = [&](Index ring, Index a) { return 1 + ring * kAround + a % kAround; };
+  for (Index ring = 0; ring < kRings; ++ring)
+    for (Index a = 0; a < kAround; ++a) {
+      const double angle = 2 * 3.14159265358979 * a / kAround;
+      places.push_back((1 + 1e-3 * ring) * Point(std::cos(angle), std::sin(angle), 0));
+      if (ring == 0) {
+        triangles.push_back({0, at(0, a), at(0, a + 1)});
+      } else {
+        triangles.push_back({at(ring - 1, a), at(ring, a), at(ring, a + 1)});
+        triangles.push_back({at(ring - 1, a), at(ring, a + 1), at(ring - 1, a + 1)});
+      }
+    }
+  const TriangleMesh mesh(places, triangles);
+  const TriangleMesh fewer = perturb(loaded(mesh), decimation(0.2), 1, 0).loaded.mesh;
+  fewer.validate();
+  CHECK(fewer.vertex_count() == std::llround(0.2 * mesh.vertex_count()));
+  CHECK(fewer.euler_characteristic() == 1);
+  CHECK(fewer.boundary_loop_count() == 1);
+}
+
 TEST_CASE("decimation keeps the shape and spreads vertices evenly, differently in each trial") {
   const TriangleMesh mesh = sphere(4).mesh();
   const auto at = [&](std::uint64_t trial) {

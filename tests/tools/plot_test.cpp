@@ -388,7 +388,7 @@ TEST_CASE("long names and titles are cut so that nothing leaves the plot") {
 
 TEST_CASE("what cannot be drawn is refused and leaves no file") {
   const test::Scratch folder;
-  const auto refused = [&](Plot plot, const char* why) {
+  const auto refused = [&](const Plot& plot, const char* why) {
     CHECK_THROWS_AS(write_svg(folder / "p.svg", plot), core::InvalidArgument);
     CHECK_THROWS_WITH(write_png(folder / "p.png", plot, 500), Contains(why));
     CHECK(std::filesystem::is_empty(folder.path()));

@@ -151,7 +151,7 @@ TEST_CASE("on any interval ticks ascend, lie within it and are neither too many 
     const int count = 2 + static_cast<int>(random() % 9);
     const Ticks ticks = make_ticks(shown, axis, count);
     INFO(shown.lower << " to " << shown.upper << ", scale " << static_cast<int>(scale) << ", " << count);
-    CHECK(ticks.major.size() >= 1);
+    CHECK_FALSE(ticks.major.empty());
     if (scale == Scale::linear) CHECK(ticks.major.size() >= static_cast<std::size_t>(count) / 3);
     CHECK(ticks.major.size() <= static_cast<std::size_t>(std::max(count + 1, 5)));
     for (std::size_t i = 0; i < ticks.major.size(); ++i) {

@@ -55,7 +55,10 @@ TEST_CASE("the published colour maps have their ends") {
   CHECK(hex_of(Colormap("cividis")(0)) == 0x00224e);
   CHECK(hex_of(Colormap("cividis")(1)) == 0xfee838);
   CHECK(hex_of(Colormap("cividis")(7)) == 0xfee838);  // beyond the end
-  CHECK_THROWS_WITH(Colormap("jet"), Catch::Contains("jet") && Catch::Contains("viridis"));
+  CHECK_THROWS_WITH(Colormap("jet"),
+                    "there is no colour map \"jet\"; there are: blue-orange, purple-green, "
+                    "viridis, cividis, sand");
+  CHECK_THROWS_WITH(Colormap("viridi"), Catch::Contains("\"viridi\"; did you mean viridis? There are: "));
 }
 
 TEST_CASE("lightness of colour maps runs one way, or both ways from the middle, in even steps") {
@@ -169,13 +172,14 @@ TEST_CASE("segments have one colour each and their neighbours others") {
     for (const auto& [kind, field] : field_zoo(mesh, 3)) {
       const mscomplex::DiscreteGradient gradient(field);
       const mscomplex::Segmentation segments = mscomplex::segment(field, gradient);
-      for (const Segments which : {Segments::descending, Segments::ascending, Segments::morse_smale}) {
+      for (const mscomplex::SegmentKind which : mscomplex::kSegmentKinds) {
         CAPTURE(name, kind, static_cast<int>(which));
         const RegionColors colors = color_segments(mesh, segments, which);
         REQUIRE(colors.corner.size() == mesh.halfedge_count());
         const auto label = [&, &mesh = mesh](Index h) {
-          return std::pair(which == Segments::descending ? 0 : segments.ascending.vertex[mesh.origin(h)],
-                           which == Segments::ascending ? 0 : segments.descending.triangle[h / 3]);
+          return std::pair(
+              which == mscomplex::SegmentKind::descending ? 0 : segments.ascending.vertex[mesh.origin(h)],
+              which == mscomplex::SegmentKind::ascending ? 0 : segments.descending.triangle[h / 3]);
         };
         std::map<std::pair<Index, Index>, std::uint32_t> of_label;
         bool one_each = true, others = true;

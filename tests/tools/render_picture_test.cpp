@@ -315,8 +315,27 @@ TEST_CASE("ticks are round and few") {
   }
   CHECK(tick_text(-20, 20) == "\u221220");
   CHECK(tick_text(0.5, 0.25) == "0.5");
-  CHECK(quantity_of("mean-curvature").unit == "1/length");
-  CHECK(quantity_of("mean-curvature", "saliency").unit.empty());
+  const auto quantity = [](const char* field, const char* method) {
+    const tools::NamedFunction function = tools::Registry::standard().make_function(field);
+    return quantity_of(function.name, function.unit,
+                       tools::Registry::standard().make_method(method).quantity());
+  };
+  CHECK(quantity("mean-curvature", "conventional").words == "mean curvature");
+  CHECK(quantity("mean-curvature", "conventional").unit == "1/length");
+  CHECK(quantity("gaussian-curvature", "salient+tps").unit == "1/length²");
+  CHECK(quantity("shape-index", "salient").unit.empty());
+  CHECK(quantity("mean-curvature", "saliency").words == "saliency of mean curvature");
+  CHECK(quantity("mean-curvature", "saliency").unit.empty());
+}
+
+TEST_CASE("what a picture shows is named as the segments are") {
+  CHECK(to_string(Show::field) == "field");
+  CHECK(to_string(Show::plain) == "plain");
+  CHECK(to_string(Show::morse_smale) == "morse-smale");
+  CHECK_FALSE(segments_of(Show::field));
+  CHECK_FALSE(segments_of(Show::plain));
+  CHECK(segments_of(Show::descending) == mscomplex::SegmentKind::descending);
+  CHECK(segments_of(Show::ascending) == mscomplex::SegmentKind::ascending);
 }
 
 TEST_CASE("requests are read from text") {

@@ -122,6 +122,25 @@ TEST_CASE("a row is the text of the object it stands for") {
   }
 }
 
+TEST_CASE("documents have no characters that act on a terminal") {
+  const std::string name =
+      "a\xc2\x9b"
+      "31m\xe2\x80\xae\x7f.off";
+  const std::string expected = R"("a\u009b31m\u202e\u007f.off")";
+  CHECK(tools::json_text(Json(name)) == expected);
+  CHECK(Json::parse(expected) == name);
+  std::ostringstream out;
+  tools::JsonStream stream(out);
+  stream.begin_object();
+  stream.member(name, {{name, name}});
+  stream.begin_array(name);
+  stream.row({{name, std::string_view(name)}});
+  stream.end_array();
+  stream.end_object();
+  CHECK(out.str() == "{\n  " + expected + ": {\n    " + expected + ": " + expected + "\n  },\n  " + expected +
+                         ": [\n    {" + expected + ":" + expected + "}\n  ]\n}\n");
+}
+
 TEST_CASE("rows within a row are an array of objects in it") {
   const tools::MakeRow inner = [](std::size_t i, const tools::TakeRow& take) {
     take({{"j", i}, {"x", 0.5}});

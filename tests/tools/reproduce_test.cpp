@@ -9,11 +9,13 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
+#include "morsel/morse/functions/curvature.h"
 #include "morsel/tools/formats/base64.h"
 #include "morsel/tools/render/inset.h"
 #include "morsel/tools/reproduce/region.h"
 #include "morsel/tools/reproduce/reproduction.h"
 #include "morsel/tools/reproduce/table.h"
+#include "morsel/tools/reproduce/torus.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -38,6 +40,11 @@ struct Folder {
   Folder& operator=(const Folder&) = delete;
   void add(const std::string& name) const { core::write_file(path / name, ""); }
 };
+
+void add_samples(const Folder& folder) {
+  for (const ModelRecipe& model : models())
+    if (model.make == nullptr) folder.add(std::string(model.sample));
+}
 
 CriticalPoints points_at(const std::vector<Index>& vertices) {
   CriticalPoints points;
@@ -68,8 +75,8 @@ TEST_CASE("base64 of RFC 4648's examples") {
 
 TEST_CASE("meshes are found by name, and by a word in it") {
   const Folder data, samples;
-  for (const ModelRecipe& model : models()) samples.add(std::string(model.sample));
-  for (const MeshFile& file : find_meshes({}, samples.path)) CHECK(file.is_sample);
+  add_samples(samples);
+  for (const MeshFile& file : find_meshes({}, samples.path)) CHECK(file.is_sample != file.is_made);
 
   data.add("Old LION head.PLY");
   data.add("lion.txt");
@@ -105,12 +112,14 @@ TEST_CASE("all missing meshes are reported") {
 }
 
 TEST_CASE("every recipe can be read") {
-  std::set<int> numbers;
+  std::set<std::string> files;
   for (const FigureRecipe& figure : figures()) {
-    CHECK(numbers.insert(figure.number).second);
+    CHECK(files.insert(figure.file_stem()).second);
+    CHECK((figure.number > 0) == figure.section.empty());
+    CHECK_NOTHROW(Registry::standard().make_function(figure.field));
     REQUIRE(figure.model < models().size());
     REQUIRE(figure.finding != nullptr);
-    CHECK((figure.panels.size() >= 1 && figure.panels.size() <= 26));
+    CHECK((!figure.panels.empty() && figure.panels.size() <= 26));
     if (figure.compared)
       for (const std::size_t panel : *figure.compared) CHECK(panel < figure.panels.size());
     for (const PanelRecipe& panel : figure.panels) {
@@ -134,7 +143,7 @@ TEST_CASE("every recipe can be read") {
 
 TEST_CASE("views and axes are for all models or for one") {
   const Folder samples;
-  for (const ModelRecipe& model : models()) samples.add(std::string(model.sample));
+  add_samples(samples);
   Request request;
   request.samples = samples.path;
   request.views = {"front", "squirrel=10/20"};
@@ -153,33 +162,76 @@ TEST_CASE("views and axes are for all models or for one") {
   CHECK_THROWS_AS(prepare(request), core::InvalidArgument);
 }
 
-TEST_CASE("the most different region is the best of all places") {
+TEST_CASE("the region of a comparison is the fullest one, whichever method keeps more there") {
   const TriangleMesh mesh = sphere(3).mesh();
   const std::size_t n = mesh.vertex_count();
+  const core::Length radius = core::Length::absolute(0.4);
   std::mt19937 random(5);
   for (int round = 0; round < 30; ++round) {
     std::vector<Index> vertices(n);
     for (Index v = 0; v < n; ++v) vertices[v] = v;
     std::ranges::shuffle(vertices, random);
+    const CriticalPoints all = points_at({vertices.begin(), vertices.begin() + 70});
     const CriticalPoints first = points_at({vertices.begin(), vertices.begin() + 40});
     const CriticalPoints second = points_at({vertices.begin() + 30, vertices.begin() + 60});
     std::vector<bool> places(n);
     for (std::size_t v = 0; v < n; ++v) places[v] = random() % 3 == 0;
-    const core::Length radius = core::Length::absolute(0.4);
-    const ComparedRegion best = most_different_region(mesh, first, second, places, radius);
+    const ComparedRegion best = fullest_region(mesh, all, first, second, places, radius);
     REQUIRE(best.vertex != core::kNone);
     CHECK(places[best.vertex]);
+    CHECK(best.all == within(mesh, all, best.vertex, 0.4));
     CHECK(best.first == within(mesh, first, best.vertex, 0.4));
     CHECK(best.second == within(mesh, second, best.vertex, 0.4));
+    std::size_t count = 0;
+    std::size_t more_of_first = 0;
+    std::size_t more_of_second = 0;
     for (Index v = 0; v < n; ++v) {
       if (!places[v]) continue;
-      const auto a = static_cast<int>(within(mesh, first, v, 0.4));
-      const auto b = static_cast<int>(within(mesh, second, v, 0.4));
-      CHECK(a - b <= static_cast<int>(best.first) - static_cast<int>(best.second));
+      CHECK(within(mesh, all, v, 0.4) <= best.all);
+      const std::size_t a = within(mesh, first, v, 0.4);
+      const std::size_t b = within(mesh, second, v, 0.4);
+      ++count;
+      more_of_first += a > b ? 1 : 0;
+      more_of_second += b > a ? 1 : 0;
     }
+    CHECK(best.places == count);
+    CHECK(best.more_of_first == more_of_first);
+    CHECK(best.more_of_second == more_of_second);
+    // Neither is favoured: with the two exchanged it is the same place.
+    const ComparedRegion turned = fullest_region(mesh, all, second, first, places, radius);
+    CHECK(turned.vertex == best.vertex);
+    CHECK(turned.first == best.second);
+    CHECK(turned.more_of_first == best.more_of_second);
   }
   const std::vector<bool> none(n);
-  CHECK(most_different_region(mesh, {}, {}, none, core::Length::absolute(1)).vertex == core::kNone);
+  CHECK(fullest_region(mesh, {}, {}, {}, none, radius).vertex == core::kNone);
+}
+
+TEST_CASE("the torus of section 3.1 stands, and its height has four critical points") {
+  const TriangleMesh mesh = standing_torus();
+  CHECK(mesh.genus() == 1);
+  CHECK(mesh.is_closed());
+  std::vector<double> height;
+  for (const Point& p : mesh.positions()) height.push_back(p.z());
+  const core::ScalarField field(mesh, height);
+  const CriticalPoints points = morse::classify(field);
+  CHECK((points.minima == 1 && points.saddles == 2 && points.maxima == 1));
+  CHECK(mesh.position(field.order().back()).z() == Approx(1.4));
+  CHECK(mesh.position(field.order().front()).z() == Approx(-1.4));
+  const core::ScalarField curvature = morse::mean_curvature(mesh);
+  CHECK(curvature.value(field.order().back()) == Approx(0.5 * (1 / 0.4 + 1 / 1.4)).epsilon(0.02));
+}
+
+TEST_CASE("controls begin with the paper's method and hold the others to its count") {
+  REQUIRE(!controls().empty());
+  CHECK(controls().front().method.find("{k}") == std::string_view::npos);
+  CHECK_FALSE(controls().front().rank);
+  for (const ControlRecipe& control : controls()) {
+    std::string method(control.method);
+    for (const char* word : {"{n}", "{k}"})
+      if (const std::size_t at = method.find(word); at != std::string::npos) method.replace(at, 3, "10");
+    CHECK_NOTHROW(Registry::standard().make_method(method));
+  }
 }
 
 TEST_CASE("a view shows what faces it and what nothing hides") {

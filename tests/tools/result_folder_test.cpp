@@ -16,6 +16,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/tools/results/file_names.h"
 #include "morsel/tools/results/result_folder.h"
 #include "support/scratch.h"
 
@@ -27,7 +28,16 @@ namespace {
 
 constexpr const char* kFirst = "{\"schema\":\"morsel.results/1\"}\n";
 
-std::string list_of(const fs::path& folder) { return test::contents(folder / FileList::kName); }
+/// Without the identities of the files.
+std::string list_of(const fs::path& folder) {
+  std::string list;
+  bool is_identity = false;
+  for (const char c : test::contents(folder / FileList::kName)) {
+    is_identity = c == ' ' || (is_identity && c != '\n');
+    if (!is_identity) list += c;
+  }
+  return list;
+}
 
 void put(ResultFolder& folder, const char* file, const std::string& text) {
   core::write_file(folder.claim(file), text);
@@ -115,7 +125,7 @@ TEST_CASE("a folder of a batch of version 0.1 is recognised", "[results]") {
   CHECK_FALSE(has(said<core::InvalidArgument>([&] { const ResultFolder folder(scratch / "other"); }), "0.1"));
 }
 
-TEST_CASE("results are listed once and may be replaced", "[results]") {
+TEST_CASE("results are listed and may be replaced", "[results]") {
   const test::Scratch scratch;
   const std::string odd = "odd\n%\xff \"name";
   {
@@ -131,8 +141,66 @@ TEST_CASE("results are listed once and may be replaced", "[results]") {
   }
   CHECK(test::contents(scratch / "out/a.txt") == "2");
   CHECK(test::contents(scratch / "out" / odd) == "2");
-  CHECK(list_of(scratch / "out") ==
-        std::string(kFirst) + "+a.txt\n+sub/deeper/b.txt\n+odd%0A%25%FF%20%22name\n");
+  CHECK(list_of(scratch / "out") == std::string(kFirst) +
+                                        "+a.txt\n+sub/deeper/b.txt\n+odd%0A%25%FF%20%22name\n" +
+                                        "+a.txt\n+odd%0A%25%FF%20%22name\n");
+}
+
+TEST_CASE("another file of a listed name is neither replaced nor removed", "[results]") {
+  const test::Scratch scratch;
+  ResultFolder folder(scratch / "out");
+  for (const char* name : {"deleted", "removed", "edited"}) put(folder, name, "mine");
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // more than the grain of file times
+  for (const char* name : {"deleted", "removed"}) {
+    fs::remove(scratch / "out" / name);
+    scratch.file(std::string("out/") + name, "theirs");  // perhaps with the inode of the other
+  }
+  scratch.file("out/edited", "theirs");
+  CHECK_THROWS_AS(folder.claim("deleted"), core::WriteFailed);
+  CHECK_THROWS_AS(folder.check_free("deleted"), core::WriteFailed);
+  folder.remove("removed");
+  CHECK(test::contents(scratch / "out/deleted") == "theirs");
+  CHECK(test::contents(scratch / "out/removed") == "theirs");
+  put(folder, "edited", "mine");
+}
+
+TEST_CASE("what was listed and not made gives no right to a name", "[results]") {
+  const test::Scratch scratch;
+  ResultFolder folder(scratch / "out");
+  {
+    core::FileTarget target = folder.claim("a.txt");
+    target.before_appearing = [list = target.before_appearing](int file) {
+      list(file);
+      throw core::WriteFailed("killed here");
+    };
+    CHECK_THROWS_AS(core::write_file(target, "mine"), core::WriteFailed);
+  }
+  CHECK_FALSE(fs::exists(scratch / "out/a.txt"));
+  CHECK(has(list_of(scratch / "out"), "+a.txt\n"));
+  scratch.file("out/a.txt", "theirs");
+  CHECK_THROWS_AS(ResultFolder(scratch / "out").claim("a.txt"), core::WriteFailed);
+
+  core::FileTarget late = folder.claim("late");
+  scratch.file("out/late", "theirs");
+  CHECK_THROWS_AS(core::write_file(late, "mine"), core::WriteFailed);
+  CHECK(test::contents(scratch / "out/late") == "theirs");
+}
+
+TEST_CASE("a file that was replaced by none of those listed later is still the program's", "[results]") {
+  const test::Scratch scratch;
+  scratch.file("out/a.txt", "1");
+  scratch.file("out/.morsel-results", std::string(kFirst) + "+a.txt\n");  // without an identity
+  ResultFolder folder(scratch / "out");
+  for (int i = 0; i < 2; ++i) {
+    core::FileTarget target = folder.claim("a.txt");
+    target.before_appearing = [list = target.before_appearing](int file) {
+      list(file);
+      throw core::WriteFailed("killed here");
+    };
+    CHECK_THROWS_AS(core::write_file(target, "2"), core::WriteFailed);
+  }
+  put(folder, "a.txt", "3");
+  CHECK(test::contents(scratch / "out/a.txt") == "3");
 }
 
 TEST_CASE("unlisted files are neither replaced nor removed", "[results]") {
@@ -167,6 +235,16 @@ TEST_CASE("unlisted files are neither replaced nor removed", "[results]") {
   // A removed file is no longer listed.
   scratch.file("out/mine/a.txt", "theirs");
   CHECK_THROWS_AS(folder.claim("mine/a.txt"), core::WriteFailed);
+}
+
+TEST_CASE("bug: a name that is too long was said to be that of something else", "[results]") {
+  const test::Scratch scratch;
+  ResultFolder folder(scratch / "out");
+  CHECK(has(said<core::WriteFailed>([&] { folder.claim(std::string(256, 'a')); }), "File name too long"));
+  FileNames names;
+  CHECK(names.next(std::string(200, 'a')) == std::string(200, 'a'));
+  CHECK(names.next(std::string(300, 'a')) == std::string(200, 'a') + "-2");
+  CHECK(names.next(std::string(199, 'b') + "\u00e9") == std::string(199, 'b'));
 }
 
 TEST_CASE("a listed file that has become a link is not followed", "[results]") {
@@ -222,14 +300,15 @@ TEST_CASE("a truncated last line is ignored; any other damage is refused", "[res
   {
     ResultFolder folder(scratch / "out");
     CHECK_THROWS_AS(folder.claim("cut"), core::WriteFailed);
-    folder.claim("a.txt");
-    folder.claim("b.txt");
+    put(folder, "a.txt", "2");
+    put(folder, "b.txt", "2");
   }
-  CHECK(list_of(scratch / "out") == std::string(kFirst) + "+a.txt\n+b.txt\n");
+  CHECK(list_of(scratch / "out") ==
+        std::string(kFirst) + "+a.txt\n+a.txt\n+b.txt\n");  // one that is replaced
 
-  for (const char* bad :
-       {"+/etc/passwd\n", "+../x\n", "+a/../b\n", "+\n", "\n", "a.txt\n", "*a.txt\n", "+a%0\n", "+a%zz\n",
-        "+a%00b\n", "+a//b\n", "+./a\n", "+.morsel-results\n", "+/\n", "+work//\n"}) {
+  for (const char* bad : {"+/etc/passwd\n", "+../x\n", "+a/../b\n", "+\n", "\n", "a.txt\n", "*a.txt\n",
+                          "+a%0\n", "+a%zz\n", "+a%00b\n", "+a//b\n", "+./a\n", "+.morsel-results\n", "+/\n",
+                          "+work//\n", "+a \n", "+a 1,2,3\n", "+a 1,2,3,4,\n", "-a 1,2,3,4\n"}) {
     CAPTURE(bad);
     list(std::string(kFirst) + bad);
     CHECK(has(said<core::BadInput>([&] { const ResultFolder folder(scratch / "out"); }), "line 2"));
@@ -276,11 +355,11 @@ TEST_CASE("many threads and processes may list their files at the same time", "[
   ResultFolder other(scratch / "out");
   core::parallel_for(0, 400, 1, [&](std::size_t i, std::size_t) {
     ResultFolder& folder = i % 2 == 0 ? one : other;
-    folder.claim("both" + std::to_string(i / 2));
-    folder.claim("each" + std::to_string(i));
+    put(folder, ("both" + std::to_string(i / 2)).c_str(), "");
+    put(folder, ("each" + std::to_string(i)).c_str(), "");
   });
   const std::string list = list_of(scratch / "out");
-  CHECK(std::count(list.begin(), list.end(), '\n') == 1 + 200 + 400);
+  CHECK(std::count(list.begin(), list.end(), '\n') == 1 + 400 + 400);
   ResultFolder again(scratch / "out");
   again.claim("both7");
   CHECK(list_of(scratch / "out") == list);
@@ -291,7 +370,8 @@ TEST_CASE("10,000 meshes are listed at an equal cost each", "[results]") {
   ResultFolder folder(scratch / "out");
   const auto seconds = [&](int begin, int end) {
     const auto start = std::chrono::steady_clock::now();
-    for (int i = begin; i < end; ++i) folder.claim("reports/mesh-" + std::to_string(i) + ".off.json");
+    for (int i = begin; i < end; ++i)
+      put(folder, ("reports/mesh-" + std::to_string(i) + ".off.json").c_str(), "");
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   const double first = seconds(0, 2000);
@@ -347,6 +427,21 @@ TEST_CASE("work folders belong to their process and are removed with it", "[resu
   }
   CHECK_FALSE(fs::exists(scratch / "out/work"));
   CHECK(test::contents(scratch / "kept/a.txt") == "theirs");
+}
+
+TEST_CASE("bug: a folder of results that was removed was made again without its list", "[results]") {
+  const test::Scratch scratch;
+  for (const bool has_other : {false, true}) {
+    ResultFolder folder(scratch / "out");
+    {
+      const ResultFolder::Work work(folder, "work");
+      fs::remove_all(scratch / "out");
+      core::write_file(work.path() / "0/report.json", "late");
+      if (has_other) scratch.file("out/thesis.txt", "theirs");
+    }
+    CHECK_FALSE(fs::exists(scratch / "out/work"));
+    CHECK(fs::exists(scratch / "out") == has_other);
+  }
 }
 
 TEST_CASE("work folders of a killed run are removed, and nothing else", "[results]") {

@@ -6,13 +6,13 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/plot/stability_plots.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
 using namespace morsel;
 using namespace morsel::test;
-using tools::PerturbationKind;
 using tools::run_stability;
 using tools::StabilityRequest;
 using tools::StabilityResult;
@@ -47,7 +47,7 @@ auto figures(const tools::PerturbationOutcome& outcome) {
 }  // namespace
 
 TEST_CASE("a surface that is not changed repeats exactly, whatever the radius") {
-  for (const std::string radius : {"0", "2%", "4eps"}) {
+  for (const std::string radius : {"0", "2%", "4eps", "1.5edges"}) {
     StabilityRequest asked = request({"conventional", "gaussian:iterations=2", "tps:count=30"});
     asked.noise = {0};
     asked.decimate = {1};
@@ -55,6 +55,7 @@ TEST_CASE("a surface that is not changed repeats exactly, whatever the radius") 
     asked.radius = radius;
     asked.target = 40;
     const StabilityResult result = run(bumpy(), asked);
+    CHECK(result.radius == core::parse_length(radius, "radius").on(bumpy().mesh));
     REQUIRE(result.outcomes.size() == 6);
     for (const tools::StabilityOutcome& outcome : result.outcomes) {
       REQUIRE(outcome.perturbations.size() == 3);

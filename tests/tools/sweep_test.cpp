@@ -97,7 +97,7 @@ TEST_CASE("an invalid variation is refused with its text") {
        {"sigma", "=1", "k=", "k=1,,2", "k=1,1", "k=1..3,2", "k=1..", "k=1..x", "k=1..2..0", "k=1..2..3..4",
         "k=1eps..2edges", "k=-1..1..x2", "k=1..8..x1", "k=1..8..x2eps", "k=0..1..1e-9", "k=1..1e300"})
     CHECK_THROWS_WITH(parse_variation(text),
-                      Contains("--vary \"" + text.substr(0, 12)) && Contains("it is written"));
+                      Contains("the variation \"" + text.substr(0, 12)) && Contains("it is written"));
 }
 
 TEST_CASE("numbers have one unit") {
@@ -137,7 +137,12 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
   };
   refused({"height", "salient", {}}, "nothing varies");
   refused({"height", "salient", {"sgima=1,2"}},
-          "there are height: axis, direction; salient: preset, iterations");
+          "has it; did you mean sigma? There are height: axis, direction; salient: preset, iterations");
+  refused({"height", "salient", {"q=1,2"}}, "has it; there are height: axis, direction; salient: preset");
+  refused({"height", "salient", {"salient.iteratons=1,2"}},
+          "no key \"iteratons\"; did you mean iterations? It has: preset, iterations");
+  refused({"height", "conventional", {"conventional.q=1,2"}}, "no key \"q\"; it has none");
+  refused({"height", "salient", {"saliet.sigma=1,2"}}, "is called saliet; did you mean salient?");
   refused({"mean-curvature", "salient", {"scale=1,2"}}, "any of field.scale, salient.scale; write one");
   refused({"height", "gaussian+gaussian", {"sigma=1,2"}}, "any of 1.sigma, 2.sigma");
   refused({"height", "gaussian+gaussian", {"gaussian.sigma=1,2"}}, "any of 1.sigma, 2.sigma");
@@ -146,7 +151,7 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
   refused({"height", "gaussian", {"gaussian.count=1,2"}},
           "gaussian has no key \"count\"; it has: iterations");
   refused({"height", "gaussian:sigma=3", {"sigma=1,2"}}, "given as 3 in \"gaussian:sigma=3\": leave it out");
-  refused({"height", "gaussian", {"sigma=1,2", "1.sigma=3"}}, "varies \"1.sigma\" twice");
+  refused({"height", "gaussian", {"sigma=1,2", "1.sigma=3"}}, "\"1.sigma\" is varied twice");
   refused({"height", "gaussian", {"sigma=1,-2"}}, "gaussian:sigma");
   refused({"hieght", "gaussian", {"sigma=1"}}, "there is no Morse function \"hieght\"");
   refused({"height", "gausian", {"sigma=1"}}, "there is no method \"gausian\"");
@@ -189,7 +194,9 @@ TEST_CASE("the iterates of a method are the results of fewer iterations, bit by 
   // A new method that iterates belongs into the list above.
   for (const tools::MethodEntry& entry : tools::Registry::standard().methods()) {
     const Texts keys = tools::Registry::standard().keys_of_method(std::string(entry.name));
-    CHECK(std::ranges::count(keys, "iterations") == (seen.contains(std::string(entry.name)) ? 1 : 0));
+    const bool iterates = tools::Registry::standard().traits_of_method(entry.name).iterates;
+    CHECK(iterates == seen.contains(entry.name));
+    CHECK(std::ranges::count(keys, core::kIterationsKey) == (iterates ? 1 : 0));
   }
   CHECK_FALSE(tools::Registry::standard()
                   .make_method("salient:classify=saliency")

@@ -9,6 +9,7 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/batch/out_folder.h"
 #include "morsel/tools/batch/scheduler.h"
+#include "morsel/tools/formats/command_line.h"
 
 namespace morsel::tools::batch {
 namespace {
@@ -84,8 +85,7 @@ class Run {
     if (!fs::create_directory(folder, error) && error)
       throw core::WriteFailed("cannot make the folder " + folder.string() + ": " + error.message());
     std::vector<std::string> words = {"/proc/self/exe"};
-    for (std::string& word : compare_words(request_, outcome.mesh, folder, out_, options_.threads))
-      words.push_back(std::move(word));
+    add_words(words, compare_words(request_, outcome.mesh, folder, out_, options_.threads));
     return words;
   }
 

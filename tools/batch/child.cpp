@@ -1,6 +1,7 @@
 #include "morsel/tools/batch/child.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -21,6 +22,13 @@ namespace {
 constexpr std::size_t kKeptText = 2000;  // bytes of standard error: its end, where the reason is
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+
+/// For standard input and output: /dev/null or, in a system without it, an empty file in memory, at the end
+/// of which the child reads and writes.
+int open_null() {
+  const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  return null >= 0 || errno != ENOENT ? null : ::memfd_create("null", MFD_CLOEXEC);
+}
 
 /// All that happens between fork() and exec: calls that are allowed there, in a program with threads.
 [[noreturn]] void become(char* const* words, const ChildLimits& limits, pid_t parent, int null, int output,
@@ -81,7 +89,7 @@ Child::Child(const std::vector<std::string>& words, const ChildLimits& limits) :
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) fail("cannot start a process");
   output_ = pipe[0];
-  const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  const int null = open_null();
   const pid_t parent = ::getpid();
   int error = errno;
   if (null >= 0) {

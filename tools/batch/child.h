@@ -29,7 +29,7 @@ struct ChildEnd {
 
 /// A running process in a group of its own, which is killed with the group when the object is destroyed, and
 /// by the system when the thread that started it ends in whatever way (Linux). Its standard input and output
-/// are /dev/null. Moved, not copied.
+/// are /dev/null, or a file in memory where that is missing. Moved, not copied.
 class Child {
  public:
   /// `words`: the program's file (not looked for in PATH), its argv[0], its arguments. Throws

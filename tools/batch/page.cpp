@@ -153,11 +153,7 @@ std::string table_head(const BatchRequest& request) {
 /// The request as words of the command line, without the output folder, so that pages do not depend on it.
 std::string request_line(const BatchRequest& request, const SummaryOptions& options) {
   std::vector<std::string> words = {"morsel", "batch", options.collection};
-  for (std::string& word : request_words(request)) words.push_back(std::move(word));
-  if (!request.thumbnails) words.emplace_back("--no-thumbnails");
-  if (request.pages) words.emplace_back("--html");
-  if (request.figures) words.emplace_back("--figures");
-  if (request.exports) words.emplace_back("--export");
+  add_words(words, batch_words(request));
   return command_line(words);
 }
 
@@ -197,7 +193,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n<title>" +
       title + "</title>\n<style>\n");
-  file.write(kPageStyle);
+  file.write(joined(kPageStyle));
   file.write("</style>\n</head>\n<body>\n<header><h1>" + title + "</h1>\n<p>" + counts_line(sums) +
              ". The numbers are in <a href=\"summary.csv\">summary.csv</a> and "
              "<a href=\"summary.json\">summary.json</a>.</p></header>\n<main>\n");
@@ -214,7 +210,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
   file.write("</tbody>\n</table></div>\n</main>\n<footer><p>morsel " + markup_text(kVersion) +
              "; what was asked for:</p><pre>" + markup_text(valid_text(request_line(request, options))) +
              "</pre></footer>\n<script>\n");
-  file.write(kPageScript);
+  file.write(joined(kPageScript));
   file.write("</script>\n</body>\n</html>\n");
   file.write(provenance.html_comment());
   file.commit();

@@ -2,11 +2,11 @@
 /// The page that shows a collection.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "morsel/tools/batch/batch.h"
 #include "morsel/tools/batch/summary.h"
+#include "morsel/tools/formats/embedded_text.h"
 
 namespace morsel::tools::batch {
 
@@ -17,7 +17,7 @@ void write_page(const std::vector<MeshOutcome>& outcomes, const BatchRequest& re
                 const SummaryOptions& options, ResultFolder& out);
 
 /// The page's style sheet and script, as the build embeds them (html/embed.cmake).
-extern const std::string_view kPageStyle;
-extern const std::string_view kPageScript;
+extern const EmbeddedText kPageStyle;
+extern const EmbeddedText kPageScript;
 
 }  // namespace morsel::tools::batch

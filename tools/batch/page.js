@@ -35,7 +35,8 @@ const show = () => {
     row.hidden = !matches || matching > limit;
   }
   all.hidden = matching <= limit;
-  found.textContent = (wanted ? `${matching} of ${body.rows.length}` : "") + (all.hidden ? "" : ` The first ${limit} are shown.`);
+  found.textContent = (wanted ? `${matching} of ${body.rows.length}` : "") +
+      (all.hidden ? "" : ` The first ${limit} are shown.`);
 };
 let later = 0;
 find.addEventListener("input", () => {

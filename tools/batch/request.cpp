@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "morsel/core/error.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/render/request_words.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/results/file_list.h"
@@ -91,27 +93,27 @@ Json mesh_key(const Json& common, const fs::path& mesh) {
 }
 
 std::vector<std::string> request_words(const BatchRequest& request) {
-  const ComparisonRequest& asked = request.comparison;
-  std::vector<std::string> words = {"--field=" + asked.field};
-  for (const std::string& method : asked.methods) words.push_back("--method=" + method);
-  if (asked.target) words.push_back("--target=" + std::to_string(*asked.target));
-  if (asked.snap) words.emplace_back("--snap");
-  if (request.repair) words.emplace_back("--repair");
-  if (!request.items) words.emplace_back("--no-items");
-  const render::FigureText& figure = request.figure;
-  if (has_pictures(request))
-    words.insert(words.end(), {"--view=" + figure.camera.view, "--up=" + to_string(figure.camera.up)});
-  if (request.figures) {
-    words.push_back("--size=" + figure.size);
-    if (!figure.camera.inset.empty()) words.push_back("--inset=" + figure.camera.inset);
-  }
+  std::vector<std::string> words = render::words_of(request.comparison, request.repair);
+  add_flag(words, "--no-items", !request.items);
+  if (!has_pictures(request)) return words;
+  add_words(words, request.figures ? render::words_of(request.figure)
+                                   : render::words_of_thumbnails(request.figure.camera));
+  return words;
+}
+
+std::vector<std::string> batch_words(const BatchRequest& request) {
+  std::vector<std::string> words = request_words(request);
+  add_flag(words, "--no-thumbnails", !request.thumbnails);
+  add_flag(words, "--html", request.pages);
+  add_flag(words, "--figures", request.figures);
+  add_flag(words, "--export", request.exports);
   return words;
 }
 
 std::vector<std::string> compare_words(const BatchRequest& request, const CollectionMesh& mesh,
                                        const fs::path& work, const OutFolder& out, int threads) {
   std::vector<std::string> words = {"morsel", "compare", "--quiet", "--threads=" + std::to_string(threads)};
-  for (std::string& word : request_words(request)) words.push_back(std::move(word));
+  add_words(words, request_words(request));
   words.push_back("--output=" + (work / "report.json").string());
   if (request.thumbnails) words.push_back("--thumbnails=" + (work / "thumbnail").string());
   if (request.pages)

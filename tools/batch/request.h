@@ -51,6 +51,8 @@ Json mesh_key(const Json& common, const std::filesystem::path& mesh);
 
 /// The words of the command line that `compare` and `batch` have in common.
 std::vector<std::string> request_words(const BatchRequest& request);
+/// These, and what `batch` makes of each mesh.
+std::vector<std::string> batch_words(const BatchRequest& request);
 
 /// The arguments of the program that compare one mesh, the program's name first; it writes its products into
 /// `work`.

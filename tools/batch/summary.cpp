@@ -54,9 +54,9 @@ std::string csv_rows(const MeshOutcome& outcome, const ComparisonRequest& reques
   return rows;
 }
 
-void write_table(const std::filesystem::path& path, const std::vector<MeshOutcome>& outcomes,
+void write_table(const core::FileTarget& target, const std::vector<MeshOutcome>& outcomes,
                  const ComparisonRequest& request, bool with_timings) {
-  core::FileWriter file(path);
+  core::FileWriter file(target);
   file.write(
       "mesh,sha256,status,vertices,edges,faces,components,boundary_loops,euler_characteristic,genus,method,"
       "minima,saddles,saddle_multiplicity,maxima,total,pairs,pairs_over_1_percent,");
@@ -87,9 +87,9 @@ Json mesh_section(const MeshOutcome& outcome, const BatchRequest& request) {
   return section;
 }
 
-void write_document(const std::filesystem::path& path, const std::vector<MeshOutcome>& outcomes,
+void write_document(const core::FileTarget& target, const std::vector<MeshOutcome>& outcomes,
                     const BatchRequest& request, const SummaryOptions& options) {
-  core::FileWriter file(path);
+  core::FileWriter file(target);
   JsonStream json(file.stream());
   json.begin_object();
   json.member("schema", "morsel.batch/1");

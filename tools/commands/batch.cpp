@@ -67,22 +67,16 @@ void warn_of_damaged_states(const std::vector<batch::MeshOutcome>& outcomes, Con
                   " as absent: " + first->state_damage);
 }
 
-/// A name as a plan has it: a JSON string if it has control characters, or looks like one; else as it is.
+/// A name as a plan has it: a JSON string if it has characters that a terminal would not just show, or looks
+/// like one; else as it is.
 std::string planned_name(const std::string& name) {
-  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  if (!name.starts_with('"') && std::ranges::none_of(name, is_control)) return name;
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "\"";
+  std::string text;
   for (const char c : name) {
-    if (is_control(c)) {
-      const auto byte = static_cast<unsigned char>(c);
-      text += {'\\', 'u', '0', '0', kDigits[byte >> 4], kDigits[byte & 15]};
-    } else {
-      if (c == '"' || c == '\\') text += '\\';
-      text += c;
-    }
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
   }
-  return text + '"';
+  const std::string shown = core::json_printable(text);
+  return shown == text && !name.starts_with('"') ? name : '"' + shown + '"';
 }
 
 /// A line for each of the meshes that a run would work on.
@@ -169,8 +163,6 @@ void add_what_is_made(Command& command, Options& options) {
   command.flag("--export", request.exports,
                "Write surfaces, complexes (.vtp, for ParaView) and points (.csv)");
   add_figure_options(command, request.figure);
-  command.option("--size").needs("--figures");
-  command.option("--inset").needs("--figures");
 }
 
 void add_how_it_is_run(Command& command, Options& options) {

@@ -30,7 +30,7 @@ int list(const Entries& entries, const std::string& name,
 void add_catalogue(Program& program) {
   const auto name = std::make_shared<std::string>();
   Command& fields = program.add("fields", "List the Morse functions, or the keys of one");
-  fields.text("NAME", *name, "Of one of them: its keys, their defaults and meanings");
+  fields.text("NAME", *name, "Of one of them: its keys, their defaults and meanings").is_function();
   fields.examples = {{"fields", "the names, a line each"},
                      {"fields mean-curvature", "its keys, to be written as mean-curvature:scale=8eps"}};
   fields.action = [name](Console&) {
@@ -38,7 +38,7 @@ void add_catalogue(Program& program) {
   };
 
   Command& all = program.add("methods", "List the methods, or the keys of one");
-  all.text("NAME", *name, "Of one of them: its keys, their defaults and meanings");
+  all.text("NAME", *name, "Of one of them: its keys, their defaults and meanings").is_method();
   all.examples = {{"methods", "the names, a line each"},
                   {"methods salient", "its keys, to be written as salient:iterations=5,sigma=4eps"}};
   all.action = [name](Console&) {

@@ -36,9 +36,11 @@ std::string counted(std::size_t count, const std::string& what) {
 
 /// What is said of a report in one line.
 std::string verdict(const ReportCheck& check) {
-  if (check.mesh_is_missing) return "the mesh " + check.mesh_path + " is missing";
+  if (check.input_is_missing)
+    return (check.is_of_landmarks ? "the list " : "the mesh ") + check.input_path + " is missing";
   if (check.differences.empty())
-    return "unchanged (" + counted(check.methods, "method") + " on " + check.mesh_path + ")";
+    return "unchanged (" + counted(check.rows, check.is_of_landmarks ? "row" : "method") + " on " +
+           check.input_path + ")";
   return counted(check.differences.size(), "difference") + " (report -> now)";
 }
 
@@ -135,15 +137,19 @@ int check(const Options& options, const Run& run) {
 
 void add_check(Program& program) {
   auto options = std::make_shared<Options>();
-  Command& command = program.add("check", "Run comparisons of reports again and show what changed");
-  command.paths("REPORT", options->paths, "Reports of morsel compare, or folders with such reports (.json)")
+  Command& command =
+      program.add("check", "Run the comparisons of reports again, or landmarks, and show what changed");
+  command
+      .paths("REPORT", options->paths,
+             "Reports of compare or landmarks, or folders with such reports (.json)")
       .required();
   command.flag("--all", options->all, "Show every difference, not only the first 20 of a report");
   add_common_options(command, program.common, false);
   command.examples = {{"check report.json", "is what the report says still so?"},
                       {"check results/reports", "all reports of a folder, as of a batch"}};
   command.notes =
-      "Meshes are looked for from the working folder, then from the report's folder. Timings and the "
+      "Meshes, and lists of marked ones, are looked for from the working folder, then from the report's "
+      "folder. Timings and the "
       "program's version may differ; counts and texts may not, real numbers by no more than 1e-9 of "
       "themselves.\n\n"
       "Exit code: 0 if nothing changed, 1 if anything did, 3 if a report could not be checked.";

@@ -54,6 +54,16 @@ Option& Option::value(std::string name) {
   return *this;
 }
 
+Option& Option::is_function() {
+  kind = ValueKind::function;
+  return value("F");
+}
+
+Option& Option::is_method() {
+  kind = ValueKind::method;
+  return value("M");
+}
+
 Option& Option::required() {
   is_required = true;
   return *this;
@@ -61,6 +71,11 @@ Option& Option::required() {
 
 Option& Option::shows_default(std::string text) {
   default_text = std::move(text);
+  return *this;
+}
+
+Option& Option::shortly(std::string text) {
+  in_short = std::move(text);
   return *this;
 }
 
@@ -151,7 +166,7 @@ Option& Command::texts(std::string names, std::vector<std::string>& target, std:
 
 Option& Command::add_path(std::string names, std::string help, std::function<void(const std::string&)> take) {
   Option row{std::move(names), std::move(help), "FILE"};
-  row.is_path = true;
+  row.kind = ValueKind::path;
   row.take = [take = std::move(take)](const Option& option, const std::vector<std::string>& words) {
     for (const std::string& word : words) {
       if (word.empty()) throw core::InvalidArgument(option.all_names().front() + ": '' names no file");

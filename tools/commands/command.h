@@ -19,14 +19,19 @@
 
 namespace morsel::tools {
 
+/// What a value is, for completions.
+enum class ValueKind : std::uint8_t { text, path, function, method };
+
 /// A row of the table. The functions that return the row itself refine it.
 struct Option {
   std::string names;              ///< "MESH" of an argument, "-o,--output" of an option
   std::string help;               ///< a line: what --help shows
   std::string value_name = {};    ///< what stands for a value in texts; a flag has none
   std::string default_text = {};  ///< empty: none is shown
+  std::string in_short = {};      ///< what completions show; empty: `help` up to the end of its first clause
   std::string details = {};       ///< what man pages say besides; line breaks are made by whoever shows it
   std::string group = {};         ///< the heading that help shows it under, with its neighbours
+  std::string told_by = {};       ///< the command whose help tells it: here help shows the name alone
   std::string negation = {};      ///< the name of the flag that says no
   std::string environment = {};   ///< a variable that gives the value if the option is not given
   std::vector<std::string> choices = {};
@@ -37,7 +42,7 @@ struct Option {
   bool is_least_excluded = false;
   bool is_required = false;
   bool is_repeated = false;  ///< may be given several times
-  bool is_path = false;
+  ValueKind kind = ValueKind::text;
   bool shapes_result = true;  ///< otherwise the contents of files are the same with any value
   /// Takes the words that were given for it; for a flag "yes" or "no". Throws InvalidArgument.
   std::function<void(const Option& option, const std::vector<std::string>& words)> take = {};
@@ -49,10 +54,14 @@ struct Option {
   bool is_called(std::string_view any_name) const;
 
   Option& value(std::string name);
+  /// The value is the name of a Morse function, with keys (F), or of a method or chain of methods (M).
+  Option& is_function();
+  Option& is_method();
   Option& required();
   Option& shows_default(std::string text);
+  Option& shortly(std::string text);
   Option& in_detail(std::string text);
-  /// Where outputs go, threads, messages: a provenance tells nothing of it.
+  /// Where outputs go, threads, messages: a provenance leaves it out.
   Option& shapes_nothing();
   Option& between(double low, double high);
   Option& above(double low);
@@ -104,8 +113,8 @@ class Command {
   Option& choice(std::string names, Target& target, std::vector<std::pair<std::string, Value>> choices,
                  std::string help);
   /// The same for values that to_string() names.
-  template <class Value>
-  Option& choice(std::string names, Value& target, std::initializer_list<Value> values, std::string help) {
+  template <class Value, class Values = std::initializer_list<Value>>
+  Option& choice(std::string names, Value& target, const Values& values, std::string help) {
     std::vector<std::pair<std::string, Value>> choices;
     for (const Value value : values) choices.emplace_back(to_string(value), value);
     return choice(std::move(names), target, std::move(choices), std::move(help));

@@ -79,7 +79,7 @@ void add_methods_option(Command& command, std::vector<std::string>& methods);
 void add_preset_option(Command& command, std::function<void(const std::string& name)> apply);
 /// --field, --method, --target, --preset and --snap of the commands that run several methods.
 void add_comparison_options(Command& command, ComparisonRequest& request);
-/// --size and the camera options of a comparison's pictures.
+/// --size and the camera options of a comparison's pictures, for a command that has --figures.
 void add_figure_options(Command& command, render::FigureText& figure);
 /// An output, which must be given: -o, --output
 Option& add_output_option(Command& command, std::string& output, std::string help);

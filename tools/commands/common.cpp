@@ -17,11 +17,13 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
       .shows_default("all")
       .shapes_nothing();
   if (with_repair)
-    command.flag("--repair", common.repair, "Mend what breaks the mesh's rules, instead of refusing the mesh")
+    command
+        .flag("--repair", common.repair,
+              "Repair what violates the mesh's rules, instead of refusing the mesh")
         .in_detail(
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");
-  command.flag("--quiet", common.quiet, "No progress, no messages").shapes_nothing();
+  command.flag("--quiet", common.quiet, "No progress, no messages, no warnings").shapes_nothing();
 }
 
 Option& add_target_option(Command& command, std::optional<std::size_t>& target) {
@@ -35,8 +37,8 @@ Option& add_target_option(Command& command, std::optional<std::size_t>& target) 
 
 void add_field_options(Command& command, std::string& mesh, FieldRequest& request) {
   command.path("MESH", mesh, mesh_help()).required();
-  command.text("--field", request.field, "Morse function").value("F");
-  command.text("--method", request.method, "A method or chain of methods").value("M");
+  command.text("--field", request.field, "Morse function").is_function();
+  command.text("--method", request.method, "A method or chain of methods").is_method();
   add_target_option(command, request.target);
 }
 
@@ -47,9 +49,7 @@ void add_camera_options(Command& command, render::CameraText& camera) {
           "Where pictures are taken from: best shows most of the mesh saliency; azimuth and elevation are in "
           "degrees: 0/0 is the front, 90/0 the right");
   command
-      .choice("--up", camera.up,
-              std::vector<std::pair<std::string, render::UpAxis>>{
-                  {"x", render::UpAxis::x}, {"y", render::UpAxis::y}, {"z", render::UpAxis::z}},
+      .choice("--up", camera.up, {render::UpAxis::x, render::UpAxis::y, render::UpAxis::z},
               "The axis that points up in pictures: x, y or z")
       .value("AXIS")
       .in_detail("The front is seen from +z (y up), -y (z up) or +y (x up)");
@@ -60,7 +60,7 @@ void add_camera_options(Command& command, render::CameraText& camera) {
 
 void add_methods_option(Command& command, std::vector<std::string>& methods) {
   command.texts("--method", methods, "A method or chain; repeatable")
-      .value("M")
+      .is_method()
       .in_detail("May be given several times; what is given replaces the default");
 }
 
@@ -80,7 +80,7 @@ void add_preset_option(Command& command, std::function<void(const std::string& n
 }
 
 void add_comparison_options(Command& command, ComparisonRequest& request) {
-  command.text("--field", request.field, "Morse function").value("F");
+  command.text("--field", request.field, "Morse function").is_function();
   add_methods_option(command, request.methods);
   add_target_option(command, request.target);
   add_preset_option(command, [&request](const std::string& name) { apply_preset(name, request); });
@@ -90,8 +90,11 @@ void add_comparison_options(Command& command, ComparisonRequest& request) {
 }
 
 void add_figure_options(Command& command, render::FigureText& figure) {
-  command.text("--size", figure.size, "Width and height of each method's picture in pixels").value("WxH");
+  command.text("--size", figure.size, "Width and height of each method's picture in pixels")
+      .value("WxH")
+      .needs("--figures");
   add_camera_options(command, figure.camera);
+  command.option("--inset").needs("--figures");
 }
 
 Option& add_output_option(Command& command, std::string& output, std::string help) {
@@ -107,9 +110,9 @@ std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
 void add_specification_notes(Command& command) {
   command.notes +=
       "F and M are written name or name:key=value,key=value; methods chain as M+M. Lengths are in the mesh's "
-      "unit, in eps (0.3 % of the bounding box's diagonal), in percent of that, in mean edges or in roots of "
-      "the area: 8eps, 5%, 3edges, 0.02rootarea. `morsel fields` and `morsel methods` list all names, "
-      "`morsel methods salient` the keys of one.";
+      "unit or as in 8eps (eps: 0.3 % of the bounding box's diagonal), 5% (of it), 3edges (mean ones) and "
+      "0.02rootarea. `morsel fields` and `morsel methods` list all names, `morsel methods salient` the "
+      "keys of one.";
   command.details += "A backslash keeps , : + = / in names and values literal.";
 }
 

@@ -12,6 +12,7 @@
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/points_options.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/export/export_sink.h"
@@ -19,6 +20,7 @@
 #include "morsel/tools/html/html_sink.h"
 #include "morsel/tools/plot/plot_sink.h"
 #include "morsel/tools/render/figure_sink.h"
+#include "morsel/tools/render/request_words.h"
 #include "morsel/tools/render/thumbnail_sink.h"
 #include "morsel/tools/report/comparison_table.h"
 #include "morsel/tools/report/report_writer.h"
@@ -30,6 +32,7 @@ namespace {
 struct Options {
   std::string mesh;
   ComparisonRequest request;
+  PointsOptions points;  // which the request gets
   std::string report;
   bool no_items = false;
   std::string export_folder;
@@ -73,13 +76,9 @@ class SideBySide : public ComparisonSink {
 
 /// What makes the page again. What changes nothing in it is left out.
 std::string page_command(const Options& options, const CommonOptions& common) {
-  const ComparisonRequest& request = options.request;
-  std::vector<std::string> words = {"morsel", "compare", options.mesh, "--field", request.field};
-  for (const std::string& method : request.methods) words.insert(words.end(), {"--method", method});
-  if (request.target) words.insert(words.end(), {"--target", std::to_string(*request.target)});
-  if (request.snap) words.emplace_back("--snap");
-  if (common.repair) words.emplace_back("--repair");
-  words.insert(words.end(), {"--html", options.page_place.empty() ? options.page : options.page_place});
+  std::vector<std::string> words = {"morsel", "compare", options.mesh};
+  add_words(words, render::words_of(options.request, common.repair));
+  add_option(words, "--html", options.page_place.empty() ? options.page : options.page_place);
   return command_line(words);
 }
 
@@ -115,7 +114,7 @@ class Folders {
 /// All that a comparison is written to.
 class Outputs {
  public:
-  /// Unwritable targets are told here, before the work.
+  /// Unwritable targets are refused here, before the work.
   Outputs(const Options& options, const Run& run)
       : options_(options),
         common_(run.common),
@@ -125,7 +124,7 @@ class Outputs {
     if (!options.page.empty()) page_file_.emplace(options.page);
   }
 
-  /// `sinks` are told, too. Refers to `input`.
+  /// `sinks` receive the results, too. Refers to `input`.
   void run(const ComparisonPlan& comparison, const MeshInput& input, std::vector<ComparisonSink*> sinks,
            const core::Progress& progress) {
     const core::LoadedMesh& loaded = input.loaded;
@@ -169,7 +168,8 @@ class Outputs {
   static RunFiles checked_files(const Options& options) {
     RunFiles files;
     files.reads("MESH", options.mesh).reads_of_field(options.request.field);
-    files.writes_document("-o", options.report).writes("--html", options.page);
+    reads_of_points(files, options.request.points);
+    files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
     if (!options.thumbnails.empty())
       for (const char* which : {"first", "last"})
         files.writes("--thumbnails", render::thumbnail_path(options.thumbnails, which));
@@ -193,7 +193,8 @@ class Outputs {
   SideBySide files_;
 };
 
-int compare(const Options& options, const Run& run) {
+int compare(Options& options, const Run& run) {
+  options.request.points = options.points.request();
   if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   if (!options.thumbnails.empty()) drawing::require_pictures("--thumbnails");
   const ComparisonPlan comparison = prepare(options.request);
@@ -239,6 +240,7 @@ void add_outputs(Command& command, Options& options) {
       .path("--html-place", options.page_place,
             "Where the page will be moved to, for the command that it shows")
       .value("PATH")
+      .needs("--html")
       .shapes_nothing();
 }
 
@@ -250,14 +252,13 @@ void add_compare(Program& program) {
       "compare", "Run methods on a field and compare their critical points, diagrams and complexes");
   command.path("MESH", options->mesh, mesh_help()).required();
   add_comparison_options(command, options->request);
+  add_points_options(command, options->points, "points");
   add_outputs(command, *options);
   command.begin_group("Pictures");
   add_figure_options(command, options->figure);
   add_common_options(command, program.common);
   command.examples = {
-      {"compare scan.off",
-       "a table: conventional, salient, and tps held to as many points as salient leaves, on the mean "
-       "curvature"},
+      {"compare scan.off", "a table: conventional, salient and, at equal count, tps on the mean curvature"},
       {"compare scan.off --preset noise", "a field and methods for noisy surfaces"},
       {"compare scan.off --method conventional --method salient:iterations=20,sigma=4eps --figures out",
        "two methods, with pictures and plots"},

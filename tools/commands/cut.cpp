@@ -50,16 +50,11 @@ std::string table(const CutOutcome& outcome) {
 
 int cut(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  check_cut_mesh_path(options.output);
-  if (!options.graph.empty()) check_cut_graph_path(options.graph);
-  base.files()
-      .writes("-o", options.output)
+  base.writes("-o", options.output, check_cut_mesh_path)
       .writes_document("--json", options.json)
-      .writes("--graph", options.graph)
-      .check();
+      .writes("--graph", options.graph, check_cut_graph_path)
+      .check_files();
   DocumentTarget document(options.json);
-  check_writable(options.output);
-  check_writable(options.graph);
 
   base.read();
   base.make();
@@ -101,7 +96,7 @@ void add_cut(Program& program) {
   command.flag("--no-shorten", options->no_shorten,
                "Cut along the complex's arcs as they are, which are longer");
   add_json_option(command, options->json, "Write what was cut here")
-      .in_detail("It tells which vertices the copies copy, too");
+      .in_detail("It lists, too, the vertex that each copy is of");
   command.path("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
       .value("FILE.vtp")
       .shapes_nothing();

@@ -11,7 +11,7 @@
 
 namespace morsel::tools {
 
-/// To be made before the work, so that a file that cannot be written is told then; the file is there after
+/// To be made before the work, so that one that cannot be written is reported then; the file is there after
 /// commit().
 class DocumentTarget {
  public:
@@ -25,7 +25,7 @@ class DocumentTarget {
 
   /// Prints what is for a person to read, unless standard output is for the document.
   void show(const std::string& text) const;
-  /// Tells where the document is, if it is a file: "report: PATH".
+  /// Prints where the document is, if it is a file: "report: PATH".
   void tell(const std::string& what, Console& console) const;
 
  protected:

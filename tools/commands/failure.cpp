@@ -90,19 +90,13 @@ int tell_defect(const char* what) {
   return kBadInput;
 }
 
-int tell_system_error(const std::system_error& error) {
+/// Whether the system ran short of something; then that is told, with what helps.
+bool tell_shortage(const std::system_error& error) {
   const bool of_system =
       error.code().category() == std::generic_category() || error.code().category() == std::system_category();
   const char* help = of_system ? help_for(error.code().value()) : nullptr;
-  if (help != nullptr) {
-    tell(Escaped(error.what()).text(), help);
-    return kOutOfMemory;
-  }
-  if (dynamic_cast<const std::filesystem::filesystem_error*>(&error) != nullptr) {
-    tell(Escaped(error.what()).text());
-    return kWriteFailed;
-  }
-  return tell_defect(error.what());
+  if (help != nullptr) tell(Escaped(error.what()).text(), help);
+  return help != nullptr;
 }
 
 int tell_handled() {
@@ -120,8 +114,12 @@ int tell_handled() {
   } catch (const std::ios_base::failure&) {  // FileWriter's streams throw WriteFailed
     tell("cannot write to standard output");
     return kWriteFailed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    if (tell_shortage(error)) return kOutOfMemory;
+    tell(Escaped(error.what()).text());
+    return kWriteFailed;
   } catch (const std::system_error& error) {
-    return tell_system_error(error);
+    return tell_shortage(error) ? kOutOfMemory : tell_defect(error.what());
   } catch (const std::runtime_error& error) {
     // How oneTBB says that it cannot make a thread.
     if (!std::string_view(error.what()).starts_with("pthread_create")) return tell_defect(error.what());

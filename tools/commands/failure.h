@@ -1,5 +1,5 @@
 #pragma once
-/// What becomes of an error that nobody handled: one sentence on standard error and an exit code.
+/// How an error that nothing else handles is reported: one sentence on standard error and an exit code.
 
 namespace morsel::tools {
 

@@ -1,9 +1,14 @@
 // morsel field: writes one field.
 
 #include <memory>
+#include <optional>
 
+#include "morsel/core/error.h"
+#include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/points_options.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/export/field_file.h"
+#include "morsel/tools/report/points_writer.h"
 
 namespace morsel::tools {
 namespace {
@@ -11,17 +16,42 @@ namespace {
 struct Options {
   std::string mesh;
   FieldRequest request;
+  PointsOptions points;
   std::string output;
+  std::string json;
 };
+
+/// Points that are wanted, and that only a document can hold.
+void check_points(const Options& options) {
+  if (options.points.count && options.json.empty() && !holds_points(options.output))
+    throw core::InvalidArgument("a text has the field's values alone: chosen points need --json, or " +
+                                options.output + " as .ply or .vtp");
+}
 
 int write(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  base.files().writes("-o", options.output).check();
-  check_field_path(options.output);
+  const std::optional<PointsRequest> request = options.points.request();
+  std::optional<PointsPlan> plan;
+  if (request) plan = prepare(*request);
+  reads_of_points(base, request);
+  base.writes("-o", options.output, check_field_path).writes_document("--json", options.json);
+  check_points(options);
+  base.check_files();
+  DocumentTarget document(options.json);
+
   base.read_whole();
   base.make();
+  std::optional<MadePoints> points;
+  if (plan) points = base.choose_points(*plan);
+  const Json asked = request_section(options.request, request, run.common.repair);
+  Provenance provenance = base.provenance(asked);
+  if (points && points->fill) provenance.set_fill(*points->fill);
+  if (document.is_wanted())
+    write_points_document(document.json(), asked, base.source(), *points, base.timings());
   write_field(options.output, base.field(), base.loaded().source.numbering, base.input_positions(),
-              base.made().input.name, base.provenance(request_section(options.request, run.common.repair)));
+              base.made().input.name, provenance, points ? &*points : nullptr);
+  document.commit();
+  document.tell("points", run.console);
   run.console.message("field: " + options.output);
   return kDone;
 }
@@ -32,14 +62,20 @@ void add_field(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add("field", "Write one scalar field, as it is or after a method");
   add_field_options(command, options->mesh, options->request);
+  add_points_options(command, options->points);
+  command.begin_group("What is written");
   add_output_option(command, options->output,
                     ".txt (a value a line), .ply or .vtp (the surface with the values)")
-      .in_detail("Vertices have the input's numbers");
+      .shortly("The file to write")
+      .in_detail("Vertices have the input's numbers; chosen points are marked, but in .txt");
+  add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);
   command.examples = {
       {"field scan.off -o curvature.txt", "the mean curvature of every vertex, a value a line"},
       {"field scan.off --field height:axis=z --method salient -o smooth.vtp",
-       "the smoothed height on the surface, for ParaView"}};
+       "the smoothed height on the surface, for ParaView"},
+      {"field scan.off --method salient --points 20 -o smooth.vtp --json points.json",
+       "the smoothed curvature with 20 of its extrema"}};
   add_specification_notes(command);
   set_action(program, command, options, write);
 }

@@ -21,6 +21,15 @@ std::string row(const std::string& heading, const std::string& text) {
   return line + wrapped(text, kColumn, kWidth) + "\n";
 }
 
+/// The row of an option, or of several whose texts are another command's; `at` is moved behind them.
+std::string next_row(const std::deque<Option>& options, std::size_t& at) {
+  const Option& first = options[at++];
+  if (first.told_by.empty()) return row(option_heading(first), option_text(first));
+  std::string names = first.names;
+  for (; at < options.size() && options[at].told_by == first.told_by; ++at) names += ", " + options[at].names;
+  return row(names, "As of morsel " + first.told_by + ", whose help tells them");
+}
+
 }  // namespace
 
 const char* const kExitCodes =
@@ -81,10 +90,14 @@ std::string command_help(const Command& command) {
   for (const Option& option : command.options())
     if (option.is_argument()) text += row(option_heading(option), option_text(option));
   std::string group;
-  for (const Option& option : command.options()) {
-    if (option.is_argument()) continue;
+  for (std::size_t at = 0; at < command.options().size();) {
+    const Option& option = command.options()[at];
+    if (option.is_argument()) {
+      ++at;
+      continue;
+    }
     if (option.group != group) text += "\n" + (group = option.group) + ":\n";
-    text += row(option_heading(option), option_text(option));
+    text += next_row(command.options(), at);
   }
   if (!command.examples.empty()) text += "\nExamples:\n";
   for (const Example& example : command.examples)
@@ -103,7 +116,7 @@ std::string program_help(const std::deque<Command>& commands) {
       "Usage: morsel MESH [OPTIONS]             the same as morsel compare MESH [OPTIONS]\n"
       "       morsel COMMAND ARGUMENTS [OPTIONS]\n\nCommands:\n";
   for (const Command& command : commands) text += row(command.name, command.summary);
-  text += row("help COMMAND", "Tell about a command, as morsel COMMAND --help does");
+  text += row("help COMMAND", "Print help for a command, as morsel COMMAND --help does");
   text +=
       "\nExamples:\n"
       "  morsel scan.off                        critical points of a surface's curvature, three methods\n"

@@ -91,9 +91,10 @@ void add_hierarchy(Program& program) {
       .shows_default("1,5,10 or 0.1%,1%,5%")
       .in_detail(
           "By iteration their numbers, 0 being the method's input; by persistence thresholds, in the field's "
-          "unit or in % of its extent; in any order");
+          "unit or in % of its range; in any order");
   command.text("--counts", request.counts, "By persistence: how many critical cells to leave")
       .value("N,N,...")
+      .shortly("Numbers of critical cells to leave")
       .in_detail(
           "In place of thresholds; cells are minima, saddles with their multiplicities and maxima. Where a "
           "number cannot be had it is the nearest smaller one");

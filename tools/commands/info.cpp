@@ -115,8 +115,8 @@ void print_text(const Findings& findings, bool repair_tried) {
   if (findings.defects.empty()) line("defects", "none");
   for (const core::Defect& defect : findings.defects) {
     const std::string_view repair = core::repair_of(defect.kind);
-    std::string remedy = "; no repair mends this";
-    if (!repair.empty() && !repair_tried) remedy = "; --repair mends this by " + std::string(repair);
+    std::string remedy = "; no repair fixes this";
+    if (!repair.empty() && !repair_tried) remedy = "; --repair fixes this by " + std::string(repair);
     line("defect", core::describe(defect) + remedy);
   }
 }
@@ -156,7 +156,7 @@ int inform(const Options& options, const Run& run) {
   const Json provenance = provenance_of(options.file, findings.has_value(), run.console);
   if (!findings && provenance.is_null())
     throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
-                         ") and does not tell where it comes from");
+                         ") and has no provenance");
   if (options.json) {
     Json document = findings ? as_json(options.file, *findings) : head_section();
     if (!provenance.is_null()) document["provenance"] = provenance;
@@ -179,7 +179,9 @@ void add_info(Program& program) {
   command
       .path("FILE", options->file, "A triangle mesh (" + core::mesh_extensions() + "), or what morsel wrote")
       .required()
-      .in_detail("Of these any but JSON, which tells by itself: .png, .svg, .vtp, .html, .csv, .txt");
+      .in_detail(
+          "What morsel wrote may be a mesh, .png, .svg, .vtp, .html, .csv or .txt; JSON documents state "
+          "their own origin");
   command.flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, program.common);
   command.examples = {{"info scan.off", "counts, genus, boundary loops, and what would have to be repaired"},

@@ -1,7 +1,5 @@
 // morsel molecule: the surface of a molecule.
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -21,31 +19,20 @@
 namespace morsel::tools {
 namespace {
 
-constexpr std::array<const char*, 4> kKinds = {"gaussian", "ses", "sas", "vdw"};  // as SurfaceKind has them
-
 struct Options {
   std::string structure;
   std::string output;
-  std::string kind = kKinds[0];
   SurfaceOptions surface;
-  std::string cavities = "drop";
   bool waters = false;
   bool no_hydrogens = false;
   core::Specification atoms{"molecule", {}};  ///< the rest of what chooses the atoms, as keys
 };
 
-bool is_ply(const std::filesystem::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension != ".off" && extension != ".ply")
-    throw core::InvalidArgument("a surface is written to .off or .ply, not to \"" + path.string() + "\"");
-  return extension == ".ply";
-}
-
 core::MoleculeOptions molecule_options(const Options& options) {
   core::Specification keys = options.atoms;
   if (options.waters) keys.given.emplace_back("waters", "yes");
   if (options.no_hydrogens) keys.given.emplace_back("hydrogens", "no");
-  core::ParameterReader reader(std::move(keys));
+  core::ParameterReader reader = core::ParameterReader::of_options(std::move(keys));
   return core::read_molecule_options(reader);
 }
 
@@ -73,22 +60,20 @@ std::string described(const MolecularSurface& surface, const Options& options) {
 }
 
 Json request_section(const Options& options, const core::MoleculeOptions& atoms) {
-  Json section = {{"kind", options.kind},
+  Json section = {{"kind", to_string(options.surface.kind)},
                   {"resolution", options.surface.resolution},
                   {"probe", options.surface.probe},
                   {"blobbiness", options.surface.blobbiness},
-                  {"cavities", options.cavities}};
+                  {"cavities", options.surface.cavities ? "keep" : "drop"}};
   section.update(to_json(core::molecule_parameters(atoms)));
   return section;
 }
 
-int make(Options& options, const Run& run) {
+int make(const Options& options, const Run& run) {
   core::require_molecules("morsel molecule");
-  const bool ply = is_ply(options.output);
+  const std::string extension =
+      core::checked_extension(options.output, "a surface is written", {".off", ".ply"});
   const core::MoleculeOptions wanted = molecule_options(options);
-  options.surface.kind =
-      static_cast<SurfaceKind>(std::find(kKinds.begin(), kKinds.end(), options.kind) - kKinds.begin());
-  options.surface.cavities = options.cavities == "keep";
   check_surface_options(options.surface);
   RunFiles().reads("FILE", options.structure).writes("-o", options.output).check();
   check_writable(options.output);
@@ -97,7 +82,7 @@ int make(Options& options, const Run& run) {
   const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
   const Provenance provenance(run.common.command, request_section(options, wanted),
                               {{options.structure, sha256_of_file(options.structure)}});
-  if (ply)
+  if (extension == ".ply")
     core::write_ply(options.output, surface.mesh, {}, provenance.lines(), progress);
   else
     core::write_off(options.output, surface.mesh, provenance.lines(), progress);
@@ -114,8 +99,10 @@ void add_molecule(Program& program) {
   Command& command = program.add("molecule", "Make the surface of a molecule, a closed manifold");
   command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif").required();
   add_output_option(command, options->output, "The surface, in Å: .off or .ply").value("SURFACE");
-  command.text("--kind", options->kind, "gaussian, ses, sas or vdw")
-      .among({kKinds.begin(), kKinds.end()})
+  command
+      .choice("--kind", options->surface.kind,
+              {SurfaceKind::gaussian, SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw},
+              "gaussian, ses, sas or vdw")
       .value("KIND")
       .in_detail(
           "gaussian: a level of a sum of Gaussians, smooth; ses: solvent-excluded; sas: solvent-accessible; "
@@ -128,9 +115,12 @@ void add_molecule(Program& program) {
   command
       .number("--blobbiness", options->surface.blobbiness,
               "B of exp(B (1 - d²/r²)) for gaussian: the smaller, the smoother")
-      .value("B");
-  command.text("--cavities", options->cavities, "keep or drop the walls of closed cavities inside")
-      .among({"keep", "drop"})
+      .value("B")
+      .shortly("How smooth gaussian is");
+  command
+      .choice("--cavities", options->surface.cavities,
+              std::vector<std::pair<std::string, bool>>{{"keep", true}, {"drop", false}},
+              "keep or drop the walls of closed cavities inside")
       .value("C");
 
   // The keys of atomic-density, with their texts.

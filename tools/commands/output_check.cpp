@@ -1,6 +1,8 @@
 #include "morsel/tools/commands/output_check.h"
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/links.h"
+#include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/results/file_list.h"
 
@@ -15,8 +17,8 @@ RunFiles& RunFiles::reads(const std::string& option, const std::filesystem::path
   return *this;
 }
 
-RunFiles& RunFiles::reads_of_field(const std::string& specification) {
-  for (const auto& [key, file] : named_files(specification)) add(inputs_, key, file);
+RunFiles& RunFiles::reads_of_field(const std::string& specification, const std::string& option) {
+  for (const auto& [key, file] : named_files(specification)) add(inputs_, option + " " + key, file);
   return *this;
 }
 
@@ -31,7 +33,12 @@ RunFiles& RunFiles::writes(const std::string& option, const std::filesystem::pat
 }
 
 RunFiles& RunFiles::writes_document(const std::string& option, const std::filesystem::path& file) {
-  return file == "-" ? *this : writes(option, file);
+  return file == "-" ? *this : writes_no_mesh(option, file);
+}
+
+RunFiles& RunFiles::writes_no_mesh(const std::string& option, const std::filesystem::path& file) {
+  add(no_meshes_, option, file);
+  return writes(option, file);
 }
 
 RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path& folder) {
@@ -39,13 +46,17 @@ RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path
   return *this;
 }
 
+void RunFiles::refuse_lists() const {
+  for (const Named& output : outputs_)
+    if (core::followed(output.path).filename() == FileList::kName)
+      throw core::InvalidArgument(output.text() +
+                                  " is the list of files of a folder of results; it is not written to");
+}
+
 void RunFiles::check() const {
   std::vector<Named> all = outputs_;
   all.insert(all.end(), folders_.begin(), folders_.end());
-  for (const Named& output : outputs_)
-    if (output.path.filename() == FileList::kName)
-      throw core::InvalidArgument(output.text() +
-                                  " is the list of files of a folder of results; it is not written to");
+  refuse_lists();
   for (const Named& output : all)
     for (const Named& input : inputs_)
       if (output.place == input.place && !output.place.is_device)
@@ -63,6 +74,10 @@ void RunFiles::check() const {
         throw core::InvalidArgument(
             "the folder of results " + folder.text() + " and " + input.text() +
             ", which is read, are one or lie in one another; choose a folder elsewhere");
+  for (const Named& output : no_meshes_)
+    if (core::has_mesh_extension(output.path))
+      throw core::InvalidArgument("the output " + output.text() + " is no mesh and is not written to " +
+                                  core::mesh_extensions() + "; give another name");
 }
 
 std::vector<std::filesystem::path> RunFiles::outputs() const {

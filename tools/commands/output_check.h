@@ -14,18 +14,21 @@ namespace morsel::tools {
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
-  /// The files that keys of a Morse function name.
-  RunFiles& reads_of_field(const std::string& specification);
+  /// The files that keys of a Morse function, given by `option`, name.
+  RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field");
   RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
   RunFiles& writes(const std::string& option, const std::filesystem::path& file);
+  /// A file of a format that is no mesh's: named as a mesh, it could replace one that was meant to be read.
+  RunFiles& writes_no_mesh(const std::string& option, const std::filesystem::path& file);
+  /// The same for a document.
   RunFiles& writes_document(const std::string& option, const std::filesystem::path& file);
   /// A folder of results (result_folder.h).
   RunFiles& fills(const std::string& option, const std::filesystem::path& folder);
 
   /// Throws InvalidArgument where an output is an input, or another output, by identity of the file
-  /// (file_place.h); and where a folder that is read and one that is filled lie in one another. Devices and
-  /// pipes may be named any number of times; two options may fill one folder, and an output file may lie in
-  /// it.
+  /// (file_place.h); where a folder that is read and one that is filled lie in one another; and where the
+  /// name of an output is that of a mesh but its format is not. Devices and pipes may be named any number of
+  /// times; two options may fill one folder, and an output file may lie in it.
   void check() const;
 
   /// Those of writes().
@@ -38,9 +41,11 @@ class RunFiles {
     FilePlace place;
     std::string text() const { return option + " " + path.string(); }
   };
+  /// Of folders of results, also through links.
+  void refuse_lists() const;
   static void add(std::vector<Named>& list, const std::string& option, const std::filesystem::path& path);
 
-  std::vector<Named> inputs_, input_folders_, outputs_, folders_;
+  std::vector<Named> inputs_, input_folders_, outputs_, folders_, no_meshes_;
 };
 
 }  // namespace morsel::tools

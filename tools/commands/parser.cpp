@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/text/listed.h"
 #include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
@@ -57,7 +56,9 @@ std::vector<std::string> option_names(const Command& command) {
   if (!word.starts_with('-') || word.size() == 1)
     refuse(command, "\"" + word + "\" is one argument too many");
   const std::string name = word.substr(0, word.find('='));
-  refuse(command, "there is no option " + name + core::nearest_hint(name, option_names(command)));
+  const bool is_letter = name.size() == 2;  // which is near to every other
+  refuse(command,
+         "there is no option " + name + (is_letter ? "" : core::nearest_hint(name, option_names(command))));
 }
 
 /// What CLI11 has against the option that its message begins with.
@@ -93,9 +94,7 @@ void check(const Command& command, const std::vector<Parsed>& rows) {
     const auto word = std::ranges::find_if(words, [&](const std::string& given) {
       return std::ranges::find(option.choices, given) == option.choices.end();
     });
-    if (word != words.end())
-      refuse(command, name + " must be " + core::listed(option.choices, " or ") + ", not \"" + *word + "\"" +
-                          core::nearest_hint(*word, option.choices));
+    if (word != words.end()) refuse(command, name + " " + core::must_be_one_of(option.choices, *word));
   }
 }
 

@@ -1,9 +1,9 @@
 // morsel quads: from a field to an all-quad mesh.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/commands/document_target.h"
@@ -21,13 +21,14 @@ struct Options {
   std::string json;
 };
 
+void check_path(const std::filesystem::path& path) {
+  core::checked_extension(path, "quads are written", {".obj"});
+}
+
 int make(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.field, run);
   const QuadPlan quads = prepare(options.quads);
-  if (core::file_extension(options.output) != ".obj")
-    throw core::InvalidArgument("quads are written as .obj, not to " + options.output);
-  base.files().writes("-o", options.output).writes_document("--json", options.json).check();
-  check_writable(options.output);
+  base.writes("-o", options.output, check_path).writes_document("--json", options.json).check_files();
   DocumentTarget document(options.json);
 
   base.read();
@@ -60,7 +61,7 @@ void add_quads(Program& program) {
       .text("--persistence", options->quads.persistence,
             "Cancel pairs of at most this persistence before the layout")
       .value("T")
-      .in_detail("A number in the field's unit or a share of its extent (1%)");
+      .in_detail("A number in the field's unit or a share of its range (1%)");
   command.number("--resolution", options->quads.resolution, "Quads along each side of a patch, 2 or more");
   command
       .number("--relaxation", options->quads.relaxation,

@@ -1,9 +1,9 @@
 // morsel render: a picture of a surface, its field and its critical points.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,32 +30,30 @@ struct Options {
   std::optional<bool> arcs;
   std::string size = "1200x900";
   render::CameraText camera;
-  std::string background = "white";
   std::string range = "2%";
   std::string caption;
   std::string frame;
   std::string close_up;
 };
 
+void check_path(const std::filesystem::path& path) {
+  core::checked_extension(path, "a picture is written", {".png"});
+}
+
 int draw(const Options& options, const Run& run) {
   drawing::require_pictures("morsel render");
   render::PictureRequest request = options.picture;
   request.size = render::parse_size(options.size);
-  request.transparent = options.background == "transparent";
   const bool segments = request.show != render::Show::field && request.show != render::Show::plain;
   request.arcs = options.arcs.value_or(segments);
   render::parse_range(options.range, request.scale);
-  if (!request.scale.colormap.empty()) const render::Colormap known(request.scale.colormap);
   options.camera.check();
   for (const std::string& region : {options.frame, options.close_up})
     if (!region.empty()) render::parse_inset(region);
   if (!options.close_up.empty() && !(options.frame.empty() && options.camera.inset.empty()))
     throw core::InvalidArgument("--close-up does not go with --inset or --frame");
   FieldRun base(options.mesh, options.field, run);
-  base.files().writes("-o", options.output).check();
-  if (core::file_extension(options.output) != ".png")
-    throw core::InvalidArgument("a picture is written to .png, not to \"" + options.output + "\"");
-  core::FileWriter file(options.output);
+  base.writes("-o", options.output, check_path).check_files();
 
   base.read();
   const core::LoadedMesh& loaded = base.loaded();
@@ -75,25 +73,19 @@ int draw(const Options& options, const Run& run) {
   const morse::CriticalPoints& points = measurement.critical_points;
   const std::string counts = render::counts_line(points.minima, points.saddles, points.maxima);
   const MethodChain& chain = base.plan().chain;
-  render::Subject subject{base.field(), &measurement,
-                          render::quantity_of(base.made().input.name, chain.steps.back().name),
-                          options.caption};
+  render::Subject subject{
+      base.field(), &measurement,
+      render::quantity_of(base.made().input.name, base.made().input.unit, chain.quantity()), options.caption};
   if (subject.caption == "auto") subject.caption = chain.name + "\n" + counts;
   const render::Image image =
       studio.take(studio.view(options.camera.view, options.camera.up, progress), subject, request, progress);
   Provenance provenance = base.provenance(request_section(options.field, run.common.repair));
   provenance.set("picture",
                  render::picture_section(request, options.camera, subject.caption, loaded.source.numbering));
-  file.write(drawing::with_png_comment(render::encode_png(image), provenance.json()));
-  file.commit();
+  core::write_file(options.output, drawing::with_png_comment(render::encode_png(image), provenance.json()));
   run.console.message(counts);
   run.console.message("picture: " + options.output);
   return kDone;
-}
-
-std::string colormaps() {
-  const std::vector<std::string_view> names = render::colormap_names();
-  return core::listed(std::vector<std::string>(names.begin(), names.end()), " or ");
 }
 
 }  // namespace
@@ -105,7 +97,7 @@ void add_render(Program& program) {
   render::PictureRequest& picture = options->picture;
   Command& command = program.add(
       "render",
-      "Take a picture (PNG) of a surface coloured by a field or its segments, with critical points and arcs");
+      "Take a picture of a surface coloured by a field or its segments, with critical points and arcs (PNG)");
   add_field_options(command, options->mesh, options->field);
   add_output_option(command, options->output, "The picture").value("OUT.png");
 
@@ -130,15 +122,17 @@ void add_render(Program& program) {
   command.switches("--legend", "--no-legend", picture.legend, "The colour bar").shows_default("yes");
   command.text("--caption", options->caption, "Text below the picture; auto is the method and its counts")
       .value("TEXT");
-  command.text("--background", options->background, "white or transparent")
-      .among({"white", "transparent"})
+  command
+      .choice("--background", picture.transparent,
+              std::vector<std::pair<std::string, bool>>{{"white", false}, {"transparent", true}},
+              "white or transparent")
       .value("GROUND");
   command.text("--size", options->size, "Width and height in pixels").value("WxH");
   command.number("--samples", picture.samples, "Samples a pixel, 1 to 1024").between(1, 1024);
 
   command.begin_group("Where it is taken from");
   add_camera_options(command, options->camera);
-  command.text("--frame", options->frame, "Frame what --close-up shows")
+  command.text("--frame", options->frame, "Draw a frame around what --close-up shows")
       .value("VERTEX[:RADIUS]")
       .in_detail("The radius is 15eps if it is not given");
   command.text("--close-up", options->close_up, "Fill the picture with a vertex and what is around it")
@@ -146,19 +140,22 @@ void add_render(Program& program) {
       .in_detail("The radius is 15eps if it is not given");
 
   command.begin_group("Colours of the field");
-  command.text("--colormap", picture.scale.colormap, colormaps())
+  const std::vector<std::string> colormaps = render::colormap_names();
+  command.text("--colormap", picture.scale.colormap, core::listed(colormaps, " or "))
+      .among(colormaps)
       .value("NAME")
       .in_detail("By default blue-orange where the colours have a centre, else sand");
-  command.text("--range", options->range, "Values at their ends, LOW/HIGH, or the percentage to cut off")
+  command
+      .text("--range", options->range, "The range of values that the colours span: LOW/HIGH or a percentage")
       .value("RANGE")
-      .in_detail("So many of the vertices are beyond either end");
+      .in_detail("With a percentage, that share of the vertices lies below the range, and as many above");
   command
       .choice(
           "--center", picture.scale.center,
           std::vector<std::pair<std::string, ScaleRequest::Center>>{{"zero", ScaleRequest::Center::zero},
                                                                     {"median", ScaleRequest::Center::median},
                                                                     {"none", ScaleRequest::Center::none}},
-          "The value in their middle: zero, median or none")
+          "The value at the middle of the colours: zero, median or none")
       .value("CENTER")
       .in_detail("By default that of a field of both signs is zero, or the median where one sign is rare");
   add_common_options(command, program.common);

@@ -17,12 +17,14 @@ int make_again(reproduce::Request& request, const Run& run) {
   request.repair = run.common.repair;
   const reproduce::Prepared prepared = reproduce::prepare(request);
   RunFiles files;
-  for (const reproduce::MeshFile& file : prepared.files) files.reads("the mesh", file.path);
+  for (const reproduce::MeshFile& file : prepared.files)
+    if (!file.is_made) files.reads("the mesh", file.path);
   files.fills("DIR", request.folder).check();
   const reproduce::Reproduction reproduction = reproduce::run(prepared, run.console.progress());
   for (std::size_t i = 0; i < prepared.files.size(); ++i)
-    run.console.message(std::string(reproduce::models()[i].name) + ": " + prepared.files[i].path.string() +
-                        (prepared.files[i].is_sample ? " (a sample mesh in its place)" : ""));
+    if (!prepared.files[i].is_made)
+      run.console.message(std::string(reproduce::models()[i].name) + ": " + prepared.files[i].path.string() +
+                          (prepared.files[i].is_sample ? " (a sample mesh in its place)" : ""));
   std::cout << reproduce::table_text(reproduction);
   run.console.message("page: " + (request.folder / "index.html").string());
   return kDone;

@@ -4,6 +4,9 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "morsel/tools/commands/document_target.h"
 #include "morsel/tools/commands/steps.h"
@@ -18,7 +21,7 @@ namespace {
 struct Options {
   std::string mesh;
   FieldRequest request;
-  std::string by = to_string(mscomplex::SegmentKind::descending);
+  mscomplex::SegmentKind by = mscomplex::SegmentKind::descending;
   std::optional<std::size_t> segments;
   std::string persistence;
   std::string output;
@@ -27,7 +30,7 @@ struct Options {
 
 SegmentRequest segment_request(const Options& options) {
   SegmentRequest request;
-  request.kind = parse_segment_kind(options.by);
+  request.kind = options.by;
   request.segments = options.segments;
   if (!options.persistence.empty())
     request.persistence = persistence::parse_threshold(options.persistence, "--persistence");
@@ -49,10 +52,8 @@ std::string described(const MadeSegments& made) {
 int segment(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const SegmentsRequest request{options.request, segment_request(options), run.common.repair};
-  RunFiles files = base.files();
-  for (const std::filesystem::path& file : label_files(options.output)) files.writes("-o", file);
-  files.writes_document("--json", options.json).check();
-  check_label_path(options.output);
+  for (const std::filesystem::path& file : label_files(options.output)) base.writes("-o", file);
+  base.writes_document("--json", options.json).check_files();
   DocumentTarget document(options.json);
 
   base.read_whole();
@@ -81,7 +82,10 @@ void add_segment(Program& program) {
   Command& command = program.add(
       "segment", "Cut the surface into the segments of one field, small ones merged by persistence");
   add_field_options(command, options->mesh, options->request);
-  command.text("--by", options->by, "descending, ascending or morse-smale")
+  using mscomplex::SegmentKind;
+  std::vector<std::pair<std::string, SegmentKind>> kinds;
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) kinds.emplace_back(to_string(kind), kind);
+  command.choice("--by", options->by, std::move(kinds), "descending, ascending or morse-smale")
       .value("KIND")
       .in_detail(
           "descending: a segment for each maximum, the bumps of a curvature; ascending: for each minimum, "
@@ -92,8 +96,9 @@ void add_segment(Program& program) {
       .in_detail("Those of least persistence first");
   command.text("--persistence", options->persistence, "Or: merge all of at most this persistence")
       .value("T")
+      .shortly("Merge all of at most this persistence")
       .shows_default("none")
-      .in_detail("In the field's unit or, as in 0.1%, in percent of its extent");
+      .in_detail("In the field's unit or, as in 0.1%, in percent of its range");
   add_output_option(command, options->output, "Labels of vertices and triangles: .ply, .vtp or .txt")
       .in_detail(
           "In the input's vertex numbers: .ply (int properties \"segment\"), .vtp (arrays \"segment\", and "

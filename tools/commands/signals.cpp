@@ -20,6 +20,7 @@ constexpr std::array kAtOnce = {SIGQUIT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABR
 
 std::atomic<int> received_signal{0};
 std::atomic<std::stop_source*> stop_requests{nullptr};
+std::atomic<pthread_t> watching{};  // the thread that a signal is to interrupt, while there are stop requests
 
 void act_by_default(int signal) {
   struct sigaction action {};
@@ -37,7 +38,9 @@ void act_by_default(int signal) {
 void stop_in_order(int signal) {
   const int error = errno;
   int none = 0;
-  if (received_signal.compare_exchange_strong(none, signal)) {
+  if (stop_requests.load() != nullptr && pthread_equal(pthread_self(), watching) == 0) {
+    pthread_kill(watching, signal);  // which may wait for a pipe
+  } else if (received_signal.compare_exchange_strong(none, signal)) {
     if (std::stop_source* stop = stop_requests.load()) stop->request_stop();
   } else if (signal != SIGPIPE) {  // of which every further write to a closed pipe makes one
     core::unlink_temporary_files();
@@ -77,6 +80,7 @@ void use_a_stack_of_its_own() {
 }  // namespace
 
 SignalWatch::SignalWatch() {
+  watching = pthread_self();
   stop_requests = &stop_;
   use_a_stack_of_its_own();
   for (const int signal : kOrderly) handle(signal, stop_in_order);

@@ -8,13 +8,11 @@ namespace morsel::tools {
 
 /// While it lives, signals end the program in order, without a thread of their own:
 /// - SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2, SIGXCPU, SIGIO, SIGPWR:
-/// the first
-///   requests a stop, so that the computation unwinds; a second one (but for SIGPIPE) ends the program at
-///   once.
+///   the first requests a stop, so that the computation unwinds; a second one (but for SIGPIPE) ends the
+///   program at once. They are passed to the thread that made the watch, so that its waiting for a pipe ends.
 /// - SIGXFSZ is ignored: the write fails with its reason.
 /// - SIGQUIT and those of a crash act at once, as always; named temporary files are removed before. If memory
-/// had run
-///   out before a crash, the program ends with the exit code and the sentence for that.
+///   had run out before a crash, the program ends with the exit code and the sentence for that.
 /// What was ignored when the program began (nohup) stays ignored; what somebody else handles is left to him.
 class SignalWatch {
  public:

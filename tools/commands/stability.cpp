@@ -43,7 +43,7 @@ int measure_stability(const Options& options, const Run& run) {
   RunFiles files;
   files.reads("MESH", options.mesh);
   for (const std::string& field : request.fields) files.reads_of_field(field);
-  if (!request.reference_field.empty()) files.reads_of_field(request.reference_field);
+  if (!request.reference_field.empty()) files.reads_of_field(request.reference_field, "--reference-field");
   write_table(files, options.output).fills("--figures", options.figure_folder).check();
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, files, run);
   TableTarget target(options.output);
@@ -88,7 +88,8 @@ void add_perturbation_options(Command& command, StabilityRequest& request) {
   command.numbers("--subdivide", request.subdivide, "Numbers of equal pieces that every edge is cut into")
       .in_detail("The surface stays the same");
   command.number("--trials", request.trials, "Trials of each random perturbation").between(1, 1'000'000);
-  command.number("--seed", request.seed, "Of the random numbers: a trial depends on it and its number");
+  command.number("--seed", request.seed,
+                 "Seed of the random numbers; a trial depends on it and on its number");
 }
 
 void add_agreement_options(Command& command, StabilityRequest& request) {
@@ -99,12 +100,12 @@ void add_agreement_options(Command& command, StabilityRequest& request) {
   command.choice("--points", request.points, {PointChoice::all, PointChoice::extrema},
                  "Which points are compared: all or extrema");
   command.text("--reference", request.reference, "Agreement is the share of points that this method has, too")
-      .value("M")
+      .is_method()
       .in_detail(
           "Of a method's points on the clean surface; the reference is ended with as many points, by "
           "persistence cancellation");
   command.text("--reference-field", request.reference_field, "Morse function of the reference")
-      .value("F")
+      .is_function()
       .shows_default("each method's own field");
 }
 
@@ -117,9 +118,9 @@ void add_stability(Program& program) {
       "stability",
       "How well critical points repeat on perturbed surfaces: with noise, with fewer vertices, with more");
   command.path("MESH", options->mesh, mesh_help()).required();
-  command.texts("--field", request.fields, "Morse function; repeatable").value("F");
+  command.texts("--field", request.fields, "Morse function; repeatable").is_function();
   add_methods_option(command, request.methods);
-  add_target_option(command, request.target).help =
+  add_target_option(command, request.target).shortly("End with K critical points, too").help =
       "Besides each method's own count: end with K critical points, or fewer";
   add_preset_option(command, [&request](const std::string& name) { apply_preset(name, request); });
   command

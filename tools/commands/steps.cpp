@@ -1,14 +1,17 @@
 #include "morsel/tools/commands/steps.h"
 
+#include <system_error>
 #include <utility>
 
 #include "morsel/core/io/file_writer.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/tools/report/hashed_mesh.h"
 
 namespace morsel::tools {
 
-void check_writable(const std::string& path) {
-  if (!path.empty()) const core::FileWriter probe(path);
+void check_writable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!path.empty() && !std::filesystem::is_fifo(path, error)) const core::FileWriter probe(path);
 }
 
 std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFiles& files, const Run& run) {
@@ -40,11 +43,46 @@ void tell_made(const MadeField& made, Console& console) {
     if (!text.empty()) console.message(text);
 }
 
-FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
-    : request_(request), run_(run), plan_(prepare(request)), file_{mesh, {}} {}
+void tell_points(const MadePoints& made, const PointsRequest& request, Console& console) {
+  if (made.fill) tell_warnings(*made.fill, console);
+  const std::size_t count = made.chosen.points.size();
+  std::string text = "points: " + core::grouped(count);
+  if (count > 1 && made.chosen.spacing > 0)
+    text += ", at least " + core::to_digits(made.chosen.spacing) + " (" + core::to_string(request.spacing) +
+            ") apart along the surface";
+  if (const std::optional<double> mean = made.mean_percentile())
+    text += "; mean saliency percentile " + core::to_decimals(*mean, 2);
+  console.message(text);
+  if (!made.note.empty()) console.message(made.note);
+}
 
-RunFiles FieldRun::files() const {
-  return RunFiles().reads("MESH", file_.path).reads_of_field(request_.field);
+FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
+    : run_(run), plan_(prepare(request)), file_{mesh, {}} {
+  files_.reads("MESH", mesh).reads_of_field(request.field);
+}
+
+FieldRun& FieldRun::writes(const std::string& option, const std::filesystem::path& path,
+                           CheckPath check_path) {
+  if (path.empty()) return *this;
+  if (check_path != nullptr) check_path(path);
+  files_.writes(option, path);
+  written_.push_back(path);
+  return *this;
+}
+
+FieldRun& FieldRun::writes_document(const std::string& option, const std::filesystem::path& path) {
+  files_.writes_document(option, path);
+  return *this;
+}
+
+FieldRun& FieldRun::reads_of_field(const std::string& specification, const std::string& option) {
+  files_.reads_of_field(specification, option);
+  return *this;
+}
+
+void FieldRun::check_files() const {
+  files_.check();
+  for (const std::filesystem::path& path : written_) check_writable(path);
 }
 
 void FieldRun::read() {
@@ -68,12 +106,21 @@ void FieldRun::make() {
   tell_made(*made_, run_.console);
 }
 
+MadePoints FieldRun::choose_points(const PointsPlan& plan) {
+  const Stopwatch watch;
+  MadePoints points = make_points(plan, loaded(), *made_, run_.console.progress());
+  points_seconds_ = watch.seconds();
+  tell_points(points, plan.request, run_.console);
+  return points;
+}
+
 Provenance FieldRun::provenance(const Json& request) const {
   return {run_.common.command, request, source()};
 }
 
 Timings FieldRun::timings(const Timings& more) const {
   Timings all = {{"load", load_seconds_}, {"field", made_->input.seconds}, {"method", made_->method_seconds}};
+  if (points_seconds_) all.emplace_back("points", *points_seconds_);
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }

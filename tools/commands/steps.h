@@ -1,8 +1,9 @@
 #pragma once
 /// The steps that commands on a mesh share, in their order: names are looked up, files checked and targets
-/// opened, so that what is wrong with them is told before the work; the mesh is read and its field made;
-/// results are written with their provenance and told.
+/// opened, so that what is wrong with them is reported before the work; the mesh is read and its field made;
+/// results are written with their provenance, and their paths printed.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,8 +20,9 @@
 
 namespace morsel::tools {
 
-/// Throws WriteFailed unless a file could be written there. An empty path stands for none.
-void check_writable(const std::string& path);
+/// Throws WriteFailed unless a file could be written there. An empty path stands for none; a pipe is not
+/// opened, since closing it again would end its reader.
+void check_writable(const std::filesystem::path& path);
 
 /// The folder of results at `path`, which knows the run's other outputs; null if the path is empty. Throws as
 /// ResultFolder.
@@ -42,6 +44,9 @@ void tell_warnings(const std::vector<StepOutcome>& steps, Console& console);
 /// Warnings, why a wanted number of critical points was not reached, and whether it ended a method early.
 void tell_made(const MadeField& made, Console& console);
 
+/// How many points were chosen, how far apart, and why there are fewer than asked for.
+void tell_points(const MadePoints& made, const PointsRequest& request, Console& console);
+
 /// What commands on one field begin with: MESH, and what --field, --method and --target make on it.
 class FieldRun {
  public:
@@ -50,8 +55,19 @@ class FieldRun {
   FieldRun(const FieldRun&) = delete;
   FieldRun& operator=(const FieldRun&) = delete;
 
-  /// What is read: MESH and the files that keys of the field name.
-  RunFiles files() const;
+  /// Throws InvalidArgument if a file's name has an extension that is not written.
+  using CheckPath = void (*)(const std::filesystem::path& path);
+  /// Adds an output that is written when all is computed; an empty path stands for none. Throws as
+  /// `check_path`.
+  FieldRun& writes(const std::string& option, const std::filesystem::path& path,
+                   CheckPath check_path = nullptr);
+  /// Adds a document, which a DocumentTarget opens. Throws InvalidArgument if it is named as a mesh.
+  FieldRun& writes_document(const std::string& option, const std::filesystem::path& path);
+  /// Adds the files that keys of another field name.
+  FieldRun& reads_of_field(const std::string& specification, const std::string& option);
+  /// To be called when all of them are added. Throws as RunFiles::check(), then as check_writable() for those
+  /// of writes().
+  void check_files() const;
 
   /// Reads MESH. Throws as core::read_mesh().
   void read();
@@ -61,26 +77,30 @@ class FieldRun {
   /// Of all vertices of the file, after read_whole().
   const std::vector<core::Point>& input_positions() const { return mesh_->input_positions; }
 
-  /// Makes the field on the mesh and tells what is to be told of it.
+  /// Makes the field on the mesh; prints why a wanted number of critical points was not reached.
   void make();
   const core::ScalarField& field() const { return made_->field(); }
   const MadeField& made() const { return *made_; }
+  /// Chooses points of it and tells what is to be told of them.
+  MadePoints choose_points(const PointsPlan& plan);
   const FieldPlan& plan() const { return plan_; }
 
   /// What documents and other files say of all that. `request`: all options that shape the result.
   FieldSource source() const { return {file_, loaded(), plan_, *made_}; }
   Provenance provenance(const Json& request) const;
-  /// "load", "field" and "method", then `more`.
-  Timings timings(const Timings& more) const;
+  /// "load", "field", "method" and, where points were chosen, "points"; then `more`.
+  Timings timings(const Timings& more = {}) const;
 
  private:
-  const FieldRequest& request_;
   const Run& run_;
   FieldPlan plan_;
   HashedFile file_;
+  RunFiles files_;  // MESH, what keys of the field name, and what was added
+  std::vector<std::filesystem::path> written_;
   std::optional<core::WholeMesh> mesh_;
   double load_seconds_ = 0;
   std::optional<MadeField> made_;
+  std::optional<double> points_seconds_;
 };
 
 }  // namespace morsel::tools

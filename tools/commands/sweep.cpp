@@ -51,7 +51,7 @@ int sweep(const Options& options, const Run& run) {
   TableTarget target(options.output);
 
   const MeshInput input = read_input(options.mesh, run);
-  const std::vector<HashedFile> files = input_files(fields_of(prepared));
+  const std::vector<HashedFile> files = input_files(fields_of(prepared), prepared.registry);
   std::optional<RowJournal> done;
   if (Journal* journal = target.open_journal(rows_key(input.about, files)))
     done.emplace(*journal, prepared, files);
@@ -88,8 +88,8 @@ void add_sweep(Program& program) {
   Command& command = program.add(
       "sweep", "How the numbers of critical points depend on parameters: every combination of their values");
   command.path("MESH", options->mesh, mesh_help()).required();
-  command.text("--field", options->request.field, "Morse function").value("F");
-  command.text("--method", options->request.method, "A method or chain of methods").value("M");
+  command.text("--field", options->request.field, "Morse function").is_function();
+  command.text("--method", options->request.method, "A method or chain of methods").is_method();
   command
       .texts("--vary", options->request.vary,
              "A parameter and its values: LIST, A..B or A..B..STEP; repeatable")

@@ -1,6 +1,5 @@
 #include "morsel/tools/commands/table_target.h"
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 
 namespace morsel::tools {
@@ -11,21 +10,15 @@ std::string journal_path(const std::string& path) { return path + ".journal"; }
 
 bool is_csv(const std::string& path) { return core::file_extension(path) == ".csv"; }
 
-/// The path, if it names no file or one of a kind that can be written.
-const std::string& checked(const std::string& path) {
-  if (!path.empty() && path != "-" && !is_csv(path) && core::file_extension(path) != ".json")
-    throw core::InvalidArgument("cannot write " + path + ": the output is a .json or a .csv file");
-  return path;
-}
-
 }  // namespace
 
 RunFiles& write_table(RunFiles& files, const std::string& path) {
   if (path.empty() || path == "-") return files;
+  core::checked_extension(path, "a table is written", {".json", ".csv"});
   return files.writes("-o", path).writes("the journal of -o", journal_path(path));
 }
 
-TableTarget::TableTarget(const std::string& path) : DocumentTarget(checked(path)) {}
+TableTarget::TableTarget(const std::string& path) : DocumentTarget(path) {}
 
 Journal* TableTarget::open_journal(const Json& key) {
   if (is_file()) journal_.emplace(journal_path(path()), key);
@@ -36,7 +29,7 @@ void TableTarget::tell_journal(std::size_t count, const std::string& of_what, Co
   if (!journal_) return;
   for (const std::string& warning : journal_->warnings()) console.warning(warning);
   if (count > 0)
-    console.message("going on with " + std::to_string(count) + of_what + ": " + journal_path(path()));
+    console.message("resuming with " + std::to_string(count) + of_what + ": " + journal_path(path()));
 }
 
 void TableTarget::write(const std::function<void(JsonSink&)>& as_json,

@@ -13,20 +13,20 @@
 
 namespace morsel::tools {
 
-/// Adds what a TableTarget at this path writes.
+/// Adds what a TableTarget at this path writes. Throws InvalidArgument on another extension.
 RunFiles& write_table(RunFiles& files, const std::string& path);
 
 /// A document that can be a table (.csv), too, and what an interrupted run leaves of it.
 class TableTarget : public DocumentTarget {
  public:
-  /// `path`: a file, "-" for JSON on standard output, nothing if it is empty. Throws InvalidArgument on
-  /// another ending and WriteFailed.
+  /// `path`: a file that write_table() takes, "-" for JSON on standard output, nothing if it is empty. Throws
+  /// WriteFailed.
   explicit TableTarget(const std::string& path);
 
   /// OUT.journal, beside a file that is wanted: what the run has done so far, should it be interrupted. Takes
   /// what follows from the same `key` over. Throws as Journal.
   Journal* open_journal(const Json& key);
-  /// Warns of what is wrong with the journal, and tells how much of the work it holds, if any: `count`, and
+  /// Warns of what is wrong with the journal, and prints how much of the work it holds, if any: `count`, and
   /// of what (" trials done").
   void tell_journal(std::size_t count, const std::string& of_what, Console& console) const;
 

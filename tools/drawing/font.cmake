@@ -7,12 +7,24 @@ find_file(MORSEL_FONT DejaVuSans.ttf
 set(MORSEL_FONT_SOURCE ${PROJECT_BINARY_DIR}/generated/font.cpp)
 if(NOT EXISTS ${MORSEL_FONT_SOURCE} OR MORSEL_FONT IS_NEWER_THAN MORSEL_FONT_SOURCE
    OR CMAKE_CURRENT_LIST_FILE IS_NEWER_THAN MORSEL_FONT_SOURCE)
-  file(SIZE ${MORSEL_FONT} size)
+  # String literals, which compilers read a hundred times faster than lists of numbers; in pieces, as they need
+  # not take literals of more than 65,536 bytes.
   file(READ ${MORSEL_FONT} bytes HEX)
-  # String literals, which compilers read a hundred times faster than lists of numbers; of pieces, as \x would
-  # go on.
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" bytes "${bytes}")
+  set(digits 32768)
+  set(pieces "")
+  while(NOT bytes STREQUAL "")
+    string(LENGTH "${bytes}" length)
+    if(length LESS digits)
+      set(digits ${length})
+    endif()
+    string(SUBSTRING "${bytes}" 0 ${digits} piece)
+    string(SUBSTRING "${bytes}" ${digits} -1 bytes)
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" piece "${piece}")
+    math(EXPR size "${digits} / 2")
+    string(APPEND pieces "    {\"${piece}\", ${size}},\n")
+  endwhile()
   file(WRITE ${MORSEL_FONT_SOURCE}
        "#include \"morsel/tools/drawing/font.h\"\n\nnamespace morsel::tools::drawing {\n\n"
-       "const char* const kFontBytes = \"${bytes}\";\nconst std::size_t kFontSize = ${size};\n\n}\n")
+       "static constexpr std::string_view kPieces[] = {\n${pieces}};\n"
+       "const std::span<const std::string_view> kFontPieces = kPieces;\n\n}\n")
 endif()

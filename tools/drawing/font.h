@@ -1,12 +1,13 @@
 #pragma once
 /// The bytes of the font of pictures and plots.
 
-#include <cstddef>
+#include <span>
+#include <string_view>
 
 namespace morsel::tools::drawing {
 
-/// DejaVu Sans, a TrueType file; made by CMake from the file it finds.
-extern const char* const kFontBytes;
-extern const std::size_t kFontSize;
+/// DejaVu Sans, a TrueType file, in pieces: compilers need not take string literals of more than 65,536 bytes.
+/// Made by CMake from the file it finds.
+extern const std::span<const std::string_view> kFontPieces;
 
 }  // namespace morsel::tools::drawing

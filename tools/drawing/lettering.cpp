@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <string>
+#include <string_view>
 
 #include "morsel/core/error.h"
 #include "morsel/tools/drawing/font.h"
@@ -38,6 +40,7 @@ std::size_t character_length(std::string_view text, std::size_t i) {
 
 /// A FreeType face and the library that it lives in.
 struct Face {
+  std::string bytes;  // of which FreeType has no copy
   FT_Library library = nullptr;
   FT_Face face = nullptr;
   ~Face() {
@@ -47,9 +50,10 @@ struct Face {
 
 cairo_font_face_t* make_font() {
   auto holder = std::make_unique<Face>();
+  for (const std::string_view piece : kFontPieces) holder->bytes += piece;
   if (FT_Init_FreeType(&holder->library) != 0 ||
-      FT_New_Memory_Face(holder->library, reinterpret_cast<const FT_Byte*>(kFontBytes),
-                         static_cast<FT_Long>(kFontSize), 0, &holder->face) != 0)
+      FT_New_Memory_Face(holder->library, reinterpret_cast<const FT_Byte*>(holder->bytes.data()),
+                         static_cast<FT_Long>(holder->bytes.size()), 0, &holder->face) != 0)
     throw std::bad_alloc();
   cairo_font_face_t* font = cairo_ft_font_face_create_for_ft_face(holder->face, 0);
   // cairo keeps a font for a while after its last use; the face is freed when cairo frees the font.

@@ -15,7 +15,7 @@ namespace morsel::tools::drawing {
 class Lettering {
  public:
   Lettering();
-  ~Lettering();
+  ~Lettering();  // NOLINT(performance-trivially-destructible): not where there is a font
   Lettering(const Lettering&) = delete;
   Lettering& operator=(const Lettering&) = delete;
 
@@ -29,8 +29,8 @@ class Lettering {
   void use(cairo_t* context, double size);
 
  private:
-  cairo_surface_t* surface_;
-  cairo_t* context_;
+  [[maybe_unused]] cairo_surface_t* surface_;
+  [[maybe_unused]] cairo_t* context_;
 };
 
 /// Throws InvalidArgument unless it is UTF-8 without control characters, which neither cairo nor XML takes.

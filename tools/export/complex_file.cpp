@@ -45,7 +45,7 @@ Polylines trace_arcs(const mscomplex::MorseSmaleComplex& complex) {
 
 }  // namespace
 
-void write_complex_file(const std::filesystem::path& path, const core::LoadedMesh& loaded,
+void write_complex_file(const core::FileTarget& target, const core::LoadedMesh& loaded,
                         const mscomplex::MorseSmaleComplex& complex, const Provenance& provenance,
                         const std::vector<VtpArray>& more) {
   using mscomplex::NodeKind;
@@ -84,7 +84,7 @@ void write_complex_file(const std::filesystem::path& path, const core::LoadedMes
                           {"end_vertex", std::span<const std::int32_t>(end_vertices)}};
   document.cell_arrays.insert(document.cell_arrays.end(), more.begin(), more.end());
   document.provenance = provenance.json();
-  write_vtp(path, document, core::Sync::never);
+  write_vtp(target, document, core::Sync::never);
 }
 
 }  // namespace morsel::tools

@@ -15,7 +15,7 @@ namespace morsel::tools {
 /// descending arc, 5 ascending arc), `vertex` (a node's critical vertex, an arc's saddle) and `end_vertex`
 /// (where an arc ends; −1 for nodes and at caps), in the input's numbers; `more` are further arrays of one
 /// value a node and one an arc. Does not wait until the file is on disk. Throws WriteFailed.
-void write_complex_file(const std::filesystem::path& path, const core::LoadedMesh& loaded,
+void write_complex_file(const core::FileTarget& target, const core::LoadedMesh& loaded,
                         const mscomplex::MorseSmaleComplex& complex, const Provenance& provenance,
                         const std::vector<VtpArray>& more = {});
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "morsel/core/error.h"
+#include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/vtp_writer.h"
 
@@ -13,10 +13,7 @@ namespace morsel::tools {
 namespace {
 
 bool is_ply(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension != ".ply" && extension != ".off")
-    throw core::InvalidArgument("a cut mesh is written as .off or .ply, not as " + path.string());
-  return extension == ".ply";
+  return core::checked_extension(path, "a cut mesh is written", {".off", ".ply"}) == ".ply";
 }
 
 }  // namespace
@@ -37,8 +34,7 @@ void write_cut_mesh(const std::filesystem::path& path, const mscomplex::CutMesh&
 }
 
 void check_cut_graph_path(const std::filesystem::path& path) {
-  if (path.extension() != ".vtp")
-    throw core::InvalidArgument("a cut is written for ParaView as .vtp, not as " + path.string());
+  core::checked_extension(path, "a cut is written for ParaView", {".vtp"});
 }
 
 void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGraph& cut,

@@ -8,16 +8,17 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/parallel/stop.h"
 #include "morsel/tools/export/complex_file.h"
+#include "morsel/tools/export/points_file.h"
 #include "morsel/tools/export/surface_file.h"
 #include "morsel/tools/formats/csv.h"
 
 namespace morsel::tools {
 namespace {
 
-void write_points(const std::filesystem::path& path, const core::LoadedMesh& loaded,
-                  const MethodOutcome& outcome, std::span<const double> persistence,
-                  const Provenance& provenance) {
-  core::FileWriter file(path, core::Sync::never);
+void write_critical_points(const core::FileTarget& target, const core::LoadedMesh& loaded,
+                           const MethodOutcome& outcome, std::span<const double> persistence,
+                           const Provenance& provenance) {
+  core::FileWriter file(target, core::Sync::never);
   file.write("vertex,x,y,z,type,multiplicity,value,persistence,origin,provenance\n");
   const std::vector<morse::CriticalPoint>& critical = outcome.measurement.critical_points.points;
   for (std::size_t i = 0; i < critical.size(); ++i) {
@@ -62,17 +63,26 @@ void ExportSink::method(const MethodOutcome& outcome) {
       persistence::vertex_persistence(outcome.measurement.diagram, loaded_.mesh.vertex_count());
   const Measurement& m = outcome.measurement;
   std::vector<std::uint8_t> types(loaded_.mesh.vertex_count(), 0);
-  for (const morse::CriticalPoint& point : m.critical_points.points)
+  for (const morse::CriticalPoint& point : outcome.shown_points().points)
     types[point.vertex] = static_cast<std::uint8_t>(point.type);
-  const SurfaceFile surface{loaded_, field_name_, outcome.field, types, persistence, m.segmentation};
-  const Provenance provenance = provenance_.with_method(outcome.steps);
-  const std::filesystem::path surface_path = folder_.claim(name + ".surface.vtp");  // in this order always
-  const std::filesystem::path complex_path = folder_.claim(name + ".complex.vtp");
-  const std::filesystem::path points_path = folder_.claim(name + ".points.csv");
+  std::vector<std::int32_t> chosen;
+  if (outcome.chosen) chosen = chosen_order(outcome.chosen->made, loaded_.mesh.vertex_count());
+  const SurfaceFile surface{loaded_, field_name_, outcome.field, types, persistence, m.segmentation, chosen};
+  Provenance provenance = provenance_.with_method(outcome.steps);
+  if (outcome.chosen && outcome.chosen->made.fill) provenance.set_fill(*outcome.chosen->made.fill);
+  const core::FileTarget surface_target = folder_.claim(name + ".surface.vtp");
+  const core::FileTarget complex_target = folder_.claim(name + ".complex.vtp");
+  const core::FileTarget points_target = folder_.claim(name + ".points.csv");
   const std::array<std::function<void()>, 3> writers = {
-      [&] { write_surface_file(surface_path, surface, provenance); },
-      [&] { write_complex_file(complex_path, loaded_, m.complex, provenance); },
-      [&] { write_points(points_path, loaded_, outcome, persistence, provenance); }};
+      [&] { write_surface_file(surface_target, surface, provenance); },
+      [&] { write_complex_file(complex_target, loaded_, m.complex, provenance); },
+      [&] {
+        if (outcome.chosen)
+          write_points_table(points_target, outcome.chosen->made, loaded_, field_name_, provenance,
+                             core::Sync::never);
+        else
+          write_critical_points(points_target, loaded_, outcome, persistence, provenance);
+      }};
   core::parallel_for(0, writers.size(), 1, [&](std::size_t i, std::size_t) { writers[i](); });
 }
 

@@ -14,6 +14,7 @@ namespace morsel::tools {
 ///   NAME.surface.vtp  the surface with the field, critical types and segment labels as arrays
 ///   NAME.complex.vtp  the nodes and arcs of the Morse-Smale complex
 ///   NAME.points.csv   the critical points; column `provenance` has a text in the first row alone
+/// Where points were chosen, the table has these (points_file.h), and critical types are theirs alone.
 /// They are written whole (file_writer.h) without waiting for the disk, since they can be made again.
 /// NAME is the method's; a second method of the same name gets "-2", and so on.
 class ExportSink : public ComparisonSink {

@@ -1,22 +1,19 @@
 #include "morsel/tools/export/field_file.h"
 
-#include "morsel/core/error.h"
+#include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/export/input_numbers.h"
+#include "morsel/tools/export/points_file.h"
 #include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
 namespace {
 
-enum class Format { text, ply, vtp };
+constexpr const char* kChosen = "chosen";
 
-Format format_of(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  if (extension == ".txt") return Format::text;
-  if (extension == ".ply") return Format::ply;
-  if (extension == ".vtp") return Format::vtp;
-  throw core::InvalidArgument("a field is written as .txt, .ply or .vtp, not as " + path.string());
+std::string extension_of(const std::filesystem::path& path) {
+  return core::checked_extension(path, "a field is written", {".txt", ".ply", ".vtp"});
 }
 
 void write_text(const std::filesystem::path& path, std::span<const double> values,
@@ -30,30 +27,46 @@ void write_text(const std::filesystem::path& path, std::span<const double> value
   file.commit();
 }
 
+/// By the input's vertices.
+std::vector<std::int32_t> chosen_order(const MadePoints& chosen, const core::TriangleMesh& mesh,
+                                       const core::VertexNumbering& numbering) {
+  const std::vector<std::int32_t> by_vertex = tools::chosen_order(chosen, mesh.vertex_count());
+  std::vector<std::int32_t> order(numbering.input_count, 0);
+  for (core::Index v = 0; v < by_vertex.size(); ++v)
+    if (by_vertex[v] > 0) order[numbering.input_vertex(v)] = by_vertex[v];
+  return order;
+}
+
 }  // namespace
 
-void check_field_path(const std::filesystem::path& path) { format_of(path); }
+void check_field_path(const std::filesystem::path& path) { extension_of(path); }
+
+bool holds_points(const std::filesystem::path& field_path) { return extension_of(field_path) != ".txt"; }
 
 void write_field(const std::filesystem::path& path, const core::ScalarField& field,
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
-                 const std::string& name, const Provenance& provenance) {
-  const Format format = format_of(path);
+                 const std::string& name, const Provenance& provenance, const MadePoints* chosen) {
+  const std::string extension = extension_of(path);
   const std::vector<double> values = by_input_vertex(field, numbering);
-  if (format == Format::text) {
+  if (extension == ".txt") {
     write_text(path, values, provenance);
     return;
   }
+  std::vector<std::int32_t> order;
+  if (chosen != nullptr) order = chosen_order(*chosen, field.mesh(), numbering);
   const std::vector<core::Triangle> triangles = on_input_vertices(field.mesh(), numbering);
-  if (format == Format::vtp) {
+  if (extension == ".vtp") {
     VtpDocument document;
     document.points = {input_positions};
     document.polygons = {triangles, input_positions.size()};
     document.point_arrays = {{name, std::span<const double>(values)}};
+    if (chosen != nullptr) document.point_arrays.emplace_back(kChosen, std::span<const std::int32_t>(order));
     document.provenance = provenance.json();
     write_vtp(path, document);
   } else {
-    const core::PropertyView property(name, values);
-    core::write_ply(path, input_positions, triangles, {&property, 1}, {}, provenance.lines());
+    std::vector<core::PropertyView> properties = {{name, std::span<const double>(values)}};
+    if (chosen != nullptr) properties.emplace_back(kChosen, std::span<const std::int32_t>(order));
+    core::write_ply(path, input_positions, triangles, properties, {}, provenance.lines());
   }
 }
 

@@ -7,18 +7,23 @@
 #include "morsel/core/field/scalar_field.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/provenance.h"
+#include "morsel/tools/study/made_points.h"
 
 namespace morsel::tools {
 
 /// Writes `field` in the vertex numbers of the input file: .txt has one value a line, as short as reads back
 /// exactly, below lines that begin with #; .ply (binary) and .vtp have the surface with the values as vertex
 /// property `name`. An input vertex that the mesh does not have gets `nan`; one that repair split gets the
-/// value of its first copy. Throws InvalidArgument on another ending, WriteFailed where writing fails.
+/// value of its first copy. Chosen points, if there are any, are a property `chosen` (chosen_order()), which
+/// .txt does not have. Throws InvalidArgument on another ending, WriteFailed where writing fails.
 void write_field(const std::filesystem::path& path, const core::ScalarField& field,
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
-                 const std::string& name, const Provenance& provenance);
+                 const std::string& name, const Provenance& provenance, const MadePoints* chosen = nullptr);
 
 /// Throws InvalidArgument unless write_field() knows the path's ending; to be called before long work.
 void check_field_path(const std::filesystem::path& path);
+
+/// Whether a file of this ending has chosen points, too.
+bool holds_points(const std::filesystem::path& field_path);
 
 }  // namespace morsel::tools

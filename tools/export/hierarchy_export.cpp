@@ -38,8 +38,8 @@ void HierarchyExport::level(const Level& level) {
   const std::string place = std::to_string(level.place);
   Provenance provenance = provenance_;
   provenance.set("level", {{"place", level.place}, {"asked", level.name.asked}});
-  const std::filesystem::path surface = folder_.claim("surface." + place + ".vtp");  // in this order always
-  const std::filesystem::path complex = folder_.claim("complex." + place + ".vtp");
+  const core::FileTarget surface = folder_.claim("surface." + place + ".vtp");
+  const core::FileTarget complex = folder_.claim("complex." + place + ".vtp");
   core::parallel_for(0, 2, 1, [&](std::size_t i, std::size_t) {
     if (i == 0)
       write_surface(surface, level, provenance);
@@ -48,7 +48,7 @@ void HierarchyExport::level(const Level& level) {
   });
 }
 
-void HierarchyExport::write_surface(const std::filesystem::path& path, const Level& level,
+void HierarchyExport::write_surface(const core::FileTarget& target, const Level& level,
                                     const Provenance& provenance) const {
   std::vector<std::uint8_t> types(loaded_.mesh.vertex_count(), 0);
   std::vector<double> persistence(loaded_.mesh.vertex_count(), 0);
@@ -58,18 +58,18 @@ void HierarchyExport::write_surface(const std::filesystem::path& path, const Lev
     persistence[point.vertex] = level.persistence[i];
   }
   std::vector<VtpArray> links;
-  links.reserve(2 * kCellKinds.size());
-  for (const CellKind kind : kCellKinds) {
-    const std::string name(to_string(kind));
+  links.reserve(2 * mscomplex::kSegmentKinds.size());
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) {
+    const std::string name = key_of(kind);
     const std::vector<Index>& labels = level.cells(kind).triangle;
     links.push_back(linked_cells(name + "_parent", labels, level.cell_links(kind).parents));
     links.push_back(linked_cells(name + "_merges_into", labels, level.cell_links(kind).merges_into));
   }
-  write_surface_file(path, {loaded_, field_name_, *level.field, types, persistence, level.segmentation},
+  write_surface_file(target, {loaded_, field_name_, *level.field, types, persistence, level.segmentation},
                      provenance, links);
 }
 
-void HierarchyExport::write_complex(const std::filesystem::path& path, const Level& level,
+void HierarchyExport::write_complex(const core::FileTarget& target, const Level& level,
                                     const Provenance& provenance) const {
   const mscomplex::MorseSmaleComplex& complex = level.complex;
   const std::vector<morse::CriticalPoint>& points = level.points.points;
@@ -84,7 +84,7 @@ void HierarchyExport::write_complex(const std::filesystem::path& path, const Lev
     if (parent != core::kNone) parents[n] = numbering.input_vertex(parent);
   }
   write_complex_file(
-      path, loaded_, complex, provenance,
+      target, loaded_, complex, provenance,
       {{"parent", parents.size(), numbering.input_count, [&](std::size_t i) { return parents[i]; }}});
 }
 

@@ -25,10 +25,8 @@ class HierarchyExport : public HierarchySink {
   void level(const Level& level) override;
 
  private:
-  void write_surface(const std::filesystem::path& path, const Level& level,
-                     const Provenance& provenance) const;
-  void write_complex(const std::filesystem::path& path, const Level& level,
-                     const Provenance& provenance) const;
+  void write_surface(const core::FileTarget& target, const Level& level, const Provenance& provenance) const;
+  void write_complex(const core::FileTarget& target, const Level& level, const Provenance& provenance) const;
 
   ResultFolder& folder_;
   const core::LoadedMesh& loaded_;

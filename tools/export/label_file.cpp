@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
@@ -39,27 +38,18 @@ void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, c
 }  // namespace
 
 std::vector<fs::path> label_files(const fs::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension == ".ply" || extension == ".vtp") return {path};
-  if (extension != ".txt")
-    throw core::InvalidArgument("labels are written as .ply, .vtp or .txt, not as \"" + path.string() + "\"");
+  if (core::checked_extension(path, "labels are written", {".ply", ".vtp", ".txt"}) != ".txt") return {path};
   fs::path base = path;
   base.replace_extension();
   return {base.string() + ".vertices" + path.extension().string(),
           base.string() + ".faces" + path.extension().string()};
 }
 
-std::vector<fs::path> check_label_path(const fs::path& path) {
-  const std::vector<fs::path> files = label_files(path);
-  for (const fs::path& file : files) const core::FileWriter target(file);
-  return files;
-}
-
 std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, const core::ScalarField& field,
                                    const std::string& field_name, const core::VertexNumbering& numbering,
                                    std::span<const core::Point> input_positions,
                                    const Provenance& provenance) {
-  const std::vector<fs::path> files = label_files(path);
+  std::vector<fs::path> files = label_files(path);
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
   const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
   if (files.size() == 2) {

@@ -36,10 +36,8 @@ std::vector<std::filesystem::path> write_labels(const std::filesystem::path& pat
                                                 std::span<const core::Point> input_positions,
                                                 const Provenance& provenance);
 
-/// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending.
+/// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending; to be
+/// called before long work.
 std::vector<std::filesystem::path> label_files(const std::filesystem::path& path);
-
-/// The same; throws WriteFailed, too, unless they can be written: to be called before long work.
-std::vector<std::filesystem::path> check_label_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

@@ -2,13 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
-#include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/vtp_writer.h"
@@ -18,29 +17,6 @@ namespace {
 
 /// 1, 2, 3: as the surface files of compare --export have them.
 std::int32_t code_of(morse::CriticalType type) { return static_cast<std::int32_t>(type); }
-
-void write_table(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
-                 const std::string& field_name, const Provenance& provenance) {
-  core::FileWriter file(path);
-  file.write("vertex,x,y,z,type,multiplicity,value,persistence,rank,distance,percentile,field,provenance\n");
-  for (std::size_t i = 0; i < made.chosen.points.size(); ++i) {
-    const auto& [candidate, source, distance] = made.chosen.points[i];
-    const morse::CriticalPoint& point = candidate.point;
-    CsvLine line;
-    line.add(std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)});
-    for (const double x : loaded.mesh.position(point.vertex)) line.add(x);
-    line.add(to_string(point.type));
-    line.add(std::uint64_t{point.multiplicity});
-    for (const double number :
-         {candidate.value, candidate.persistence, candidate.rank, distance, made.percentiles[i]})
-      line.add(number);
-    line.add(source == 0 ? field_name : made.fill->name);
-    line.add(i == 0 ? provenance.json() : "");
-    file.write(line.text());
-    file.write("\n");
-  }
-  file.commit();
-}
 
 /// The points by their numbers, each of them in a list of its own.
 struct Columns {
@@ -56,12 +32,12 @@ Columns columns_of(const MadePoints& made, const core::LoadedMesh& loaded) {
   for (std::size_t i = 0; i < made.chosen.points.size(); ++i) {
     const auto& [candidate, source, distance] = made.chosen.points[i];
     const morse::CriticalPoint& point = candidate.point;
-    columns.positions.push_back(loaded.mesh.position(point.vertex));
+    columns.positions.push_back(loaded.mesh.position(made.places[i]));
     const std::array whole = {static_cast<std::int32_t>(loaded.source.numbering.input_vertex(point.vertex)),
                               code_of(point.type), static_cast<std::int32_t>(point.multiplicity),
                               static_cast<std::int32_t>(source)};
     const std::array real = {candidate.value, candidate.persistence, candidate.rank, distance,
-                             made.percentiles[i]};
+                             made.percentile(i).value_or(std::numeric_limits<double>::quiet_NaN())};
     for (std::size_t k = 0; k < whole.size(); ++k) columns.whole[k].second.push_back(whole[k]);
     for (std::size_t k = 0; k < real.size(); ++k) columns.real[k].second.push_back(real[k]);
   }
@@ -70,19 +46,46 @@ Columns columns_of(const MadePoints& made, const core::LoadedMesh& loaded) {
 
 }  // namespace
 
+std::vector<std::int32_t> chosen_order(const MadePoints& made, core::Index vertices) {
+  std::vector<std::int32_t> order(vertices, 0);
+  for (std::size_t i = 0; i < made.chosen.points.size(); ++i)
+    order[made.chosen.points[i].candidate.point.vertex] = static_cast<std::int32_t>(i + 1);
+  return order;
+}
+
 void check_points_path(const std::filesystem::path& path) {
-  const std::string extension = core::file_extension(path);
-  if (extension != ".csv" && extension != ".ply" && extension != ".vtp")
-    throw core::InvalidArgument("points are written as .csv, .json, .ply or .vtp, not as \"" + path.string() +
-                                "\"");
+  core::checked_extension(path, "points are written", {".csv", ".json", ".ply", ".vtp"});
+}
+
+void write_points_table(const core::FileTarget& target, const MadePoints& made,
+                        const core::LoadedMesh& loaded, const std::string& field_name,
+                        const Provenance& provenance, core::Sync sync) {
+  core::FileWriter file(target, sync);
+  file.write("vertex,x,y,z,type,multiplicity,value,persistence,rank,distance,percentile,field,provenance\n");
+  for (std::size_t i = 0; i < made.chosen.points.size(); ++i) {
+    const auto& [candidate, source, distance] = made.chosen.points[i];
+    const morse::CriticalPoint& point = candidate.point;
+    CsvLine line;
+    line.add(std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)});
+    for (const double x : loaded.mesh.position(made.places[i])) line.add(x);
+    line.add(to_string(point.type));
+    line.add(std::uint64_t{point.multiplicity});
+    for (const double number : {candidate.value, candidate.persistence, candidate.rank, distance})
+      line.add(number);
+    line.add(made.percentile(i));
+    line.add(source == 0 ? field_name : made.fill->name);
+    line.add(i == 0 ? provenance.json() : "");
+    file.write(line.text());
+    file.write("\n");
+  }
+  file.commit();
 }
 
 void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
                   const std::string& field_name, const Provenance& provenance) {
-  check_points_path(path);
-  const std::string extension = core::file_extension(path);
+  const std::string extension = core::checked_extension(path, "points are written", {".csv", ".ply", ".vtp"});
   if (extension == ".csv") {
-    write_table(path, made, loaded, field_name, provenance);
+    write_points_table(path, made, loaded, field_name, provenance);
     return;
   }
   const Columns columns = columns_of(made, loaded);

@@ -1,9 +1,12 @@
 #pragma once
 /// Chosen points as files: a table, a cloud of points for other programs.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/study/made_points.h"
@@ -15,11 +18,21 @@ namespace morsel::tools {
 ///   percentile, field
 ///   .ply, .vtp  a point for each, with the numbers among these as properties or arrays: `type` is 1 for
 ///   minima, 2 for saddles, 3 for maxima, `field` 0, or 1 where the field that fills up has the point
-/// Infinite numbers are "inf". Throws InvalidArgument on another ending, WriteFailed where writing fails.
+/// Infinite numbers are "inf"; a percentile that was not asked for is empty, or nan. Throws InvalidArgument
+/// on another ending, WriteFailed where writing fails.
 void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
                   const std::string& field_name, const Provenance& provenance);
 
-/// Throws InvalidArgument unless write_points() knows the path's ending; to be called before long work.
+/// The table (.csv) alone, at any path; `sync` as FileWriter's.
+void write_points_table(const core::FileTarget& target, const MadePoints& made,
+                        const core::LoadedMesh& loaded, const std::string& field_name,
+                        const Provenance& provenance, core::Sync sync = core::Sync::when_replacing);
+
+/// For each of so many vertices: 1 for the point that was chosen first, 2 for the next, …, 0 where none was.
+std::vector<std::int32_t> chosen_order(const MadePoints& made, core::Index vertices);
+
+/// Throws InvalidArgument unless write_points() knows the path's ending, or it is .json, whose document
+/// points_writer.h makes; to be called before long work.
 void check_points_path(const std::filesystem::path& path);
 
 }  // namespace morsel::tools

@@ -2,7 +2,7 @@
 
 namespace morsel::tools {
 
-void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
+void write_surface_file(const core::FileTarget& target, const SurfaceFile& surface,
                         const Provenance& provenance, const std::vector<VtpArray>& more) {
   const core::TriangleMesh& mesh = surface.loaded.mesh;
   const std::size_t vertices = mesh.vertex_count();
@@ -16,6 +16,7 @@ void write_surface_file(const std::filesystem::path& path, const SurfaceFile& su
                            {"input_vertex", vertices, numbering.input_count, [&](std::size_t v) {
                               return std::int64_t{numbering.input_vertex(static_cast<core::Index>(v))};
                             }}};
+  if (!surface.chosen.empty()) document.point_arrays.emplace_back("chosen", surface.chosen);
   const auto add = [&](const char* name, const mscomplex::SegmentLabels& segments) {
     document.point_arrays.emplace_back(name, segments.vertex, segments.count);
     document.cell_arrays.emplace_back(name, segments.triangle, segments.count);
@@ -25,7 +26,7 @@ void write_surface_file(const std::filesystem::path& path, const SurfaceFile& su
   add("morse_smale", surface.segmentation.morse_smale);
   document.cell_arrays.insert(document.cell_arrays.end(), more.begin(), more.end());
   document.provenance = provenance.json();
-  write_vtp(path, document, core::Sync::never);
+  write_vtp(target, document, core::Sync::never);
 }
 
 }  // namespace morsel::tools

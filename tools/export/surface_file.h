@@ -23,12 +23,13 @@ struct SurfaceFile {
   std::span<const std::uint8_t> critical_types;  ///< per vertex: 0 regular, 1 minimum, 2 saddle, 3 maximum
   std::span<const double> persistence;           ///< per vertex
   const mscomplex::Segmentation& segmentation;
+  std::span<const std::int32_t> chosen = {};  ///< per vertex, if points were chosen: chosen_order()
 };
 
-/// Per vertex the field, critical_type, persistence and input_vertex; per vertex and triangle the labels
-/// descending, ascending and morse_smale; `more` are arrays of one value a triangle. Does not wait until the
-/// file is on disk. Throws WriteFailed.
-void write_surface_file(const std::filesystem::path& path, const SurfaceFile& surface,
+/// Per vertex the field, critical_type, persistence, input_vertex and, if it is there, chosen; per vertex and
+/// triangle the labels descending, ascending and morse_smale; `more` are arrays of one value a triangle. Does
+/// not wait until the file is on disk. Throws WriteFailed.
+void write_surface_file(const core::FileTarget& target, const SurfaceFile& surface,
                         const Provenance& provenance, const std::vector<VtpArray>& more = {});
 
 }  // namespace morsel::tools

@@ -22,4 +22,19 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
+void add_option(std::vector<std::string>& words, const std::string& name, const std::string& value) {
+  if (value.starts_with('-'))
+    words.push_back(name + "=" + value);
+  else
+    words.insert(words.end(), {name, value});
+}
+
+void add_words(std::vector<std::string>& words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+void add_flag(std::vector<std::string>& words, const std::string& name, bool given) {
+  if (given) words.push_back(name);
+}
+
 }  // namespace morsel::tools

@@ -49,10 +49,20 @@ Journal::Journal(std::filesystem::path path, const Json& key) : path_(std::move(
     }
     const Json expected = read_line_as_json(json_text(key));  // as it is read back
     read(expected);
-    if (!has_head_) append({{"schema", kSchema}, {"key", expected}});
+    if (!has_head_) begin(expected);
     is_empty_ = entries_.empty();
   } catch (...) {
     close(file_);
+    throw;
+  }
+}
+
+/// A file that cannot be begun is not left: it has no entries.
+void Journal::begin(const Json& key) {
+  try {
+    append({{"schema", kSchema}, {"key", key}});
+  } catch (const core::WriteFailed&) {
+    unlink(path_.c_str());
     throw;
   }
 }

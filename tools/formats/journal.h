@@ -51,6 +51,7 @@ class Journal {
   };
   [[noreturn]] void fail(int error) const;
   void open_file();
+  void begin(const Json& key);
   void append(const Json& value);
   void blank(const Line& line);
   void drop(const Line& line, const std::string& why);

@@ -7,6 +7,7 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/parallel/stop.h"
 #include "morsel/core/text/numbers.h"
+#include "morsel/core/text/printable.h"
 
 namespace morsel::tools {
 namespace {
@@ -81,7 +82,7 @@ void append_row(std::string& text, Row row) {
 }  // namespace
 
 std::string json_text(const Json& value, int indent) {
-  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+  return core::json_printable(value.dump(indent, ' ', false, Json::error_handler_t::replace), "\n");
 }
 
 void JsonStream::write_out() {

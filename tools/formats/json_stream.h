@@ -84,7 +84,7 @@ class JsonStream : public JsonSink {
 };
 
 /// A value as text on one line (indent −1) or several. Text in it that is not UTF-8 (a path may hold any
-/// bytes) is written with replacement characters.
+/// bytes) is written with replacement characters; control characters, also those beyond ASCII, are escaped.
 std::string json_text(const Json& value, int indent = -1);
 
 }  // namespace morsel::tools

@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "morsel/core/io/file_bytes.h"
 #include "morsel/core/parallel/exhaustion.h"
 
 namespace morsel::tools {
@@ -47,16 +48,18 @@ class Sha256 {
 }  // namespace
 
 std::string sha256_of_file(const std::filesystem::path& path) {
+  const std::string what = "cannot read " + path.string();
+  core::check_regular_file(path, what);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) core::fail_to_read(errno, "cannot read " + path.string());
+  if (!in) core::fail_to_read(errno, what);
   Sha256 hash;
   std::vector<char> buffer(std::size_t{1} << 20);
   while (in) {
     in.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
     hash.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
   }
-  if (in.bad()) core::fail_to_read(errno, "cannot read " + path.string());
+  if (in.bad()) core::fail_to_read(errno, what);
   return hash.finish();
 }
 

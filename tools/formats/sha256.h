@@ -7,7 +7,8 @@
 
 namespace morsel::tools {
 
-/// SHA-256 of a file's bytes as 64 hexadecimal digits. Throws BadInput if it cannot be read.
+/// SHA-256 of a file's bytes as 64 hexadecimal digits. Throws BadInput if it cannot be read or is not a
+/// regular file.
 std::string sha256_of_file(const std::filesystem::path& path);
 
 /// The same of bytes in memory.

@@ -57,7 +57,8 @@ VtpArray::VtpArray(std::string array_name, std::size_t count, std::uint64_t boun
       bytes(count * (bound <= kInt32Bound ? sizeof(std::int32_t) : sizeof(std::int64_t))),
       value(std::move(value_of)) {}
 
-VtpCells::VtpCells(std::size_t cells, std::size_t first_point, std::function<std::int64_t(std::size_t)> end)
+VtpCells::VtpCells(std::size_t cells, std::size_t first_point,
+                   const std::function<std::int64_t(std::size_t)>& end)
     : count(cells),
       connectivity("connectivity", points_in(cells, end), first_point + points_in(cells, end),
                    [first_point](std::size_t i) { return static_cast<std::int64_t>(first_point + i); }),
@@ -77,8 +78,8 @@ namespace {
 /// Writes the XML head with each array's place in the appended block, then the block itself.
 class VtpWriter {
  public:
-  VtpWriter(const std::filesystem::path& path, const VtpDocument& document, core::Sync sync)
-      : file_(path, sync), document_(document) {}
+  VtpWriter(const core::FileTarget& target, const VtpDocument& document, core::Sync sync)
+      : file_(target, sync), document_(document) {}
 
   void write() {
     const auto count = [](const VtpCells& cells) { return std::to_string(cells.count); };
@@ -169,8 +170,8 @@ class VtpWriter {
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document, core::Sync sync) {
-  VtpWriter(path, document, sync).write();
+void write_vtp(const core::FileTarget& target, const VtpDocument& document, core::Sync sync) {
+  VtpWriter(target, document, sync).write();
 }
 
 }  // namespace morsel::tools

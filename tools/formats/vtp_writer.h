@@ -45,7 +45,7 @@ struct VtpCells {
 
   VtpCells() : VtpCells(0, 0, {}) {}
   /// Cell i has the points first_point + end(i − 1) … first_point + end(i) − 1, consecutive; end(−1) is 0.
-  VtpCells(std::size_t cells, std::size_t first_point, std::function<std::int64_t(std::size_t)> end);
+  VtpCells(std::size_t cells, std::size_t first_point, const std::function<std::int64_t(std::size_t)>& end);
   /// Triangles on `points` points; refers to them.
   VtpCells(std::span<const core::Triangle> triangles, std::size_t points);
 };
@@ -62,7 +62,7 @@ struct VtpDocument {
 };
 
 /// Writes binary (raw appended) data, whole or not at all. Throws WriteFailed.
-void write_vtp(const std::filesystem::path& path, const VtpDocument& document,
+void write_vtp(const core::FileTarget& target, const VtpDocument& document,
                core::Sync sync = core::Sync::when_replacing);
 
 }  // namespace morsel::tools

@@ -38,6 +38,7 @@ struct HtmlSink::State {
   const core::LoadedMesh& loaded;
   std::string command;
   Provenance provenance;
+  std::string page = joined(html::kPage);
   std::ostringstream report_text;
   JsonStream json;
   ReportWriter report;  // without items
@@ -61,7 +62,7 @@ void HtmlSink::field(const FieldOutcome& outcome) {
   State& s = *state_;
   s.report.field(outcome);
   s.provenance.set_field(outcome);
-  s.file.write(html::kPage.substr(0, html::kPage.find(html::kPagePlace)));
+  s.file.write(s.page.substr(0, s.page.find(html::kPagePlace)));
   s.file.write("<script type=\"application/octet-stream\" id=\"buffers\">");
   s.packed.emplace(s.file);
   s.buffers.emplace(*s.packed);
@@ -80,7 +81,7 @@ void HtmlSink::finish() {
   s.packed->finish();
   s.file.write("</script>\n<script type=\"application/octet-stream\" id=\"three\">");
   html::PackedStream three(s.file);
-  three.write(html::kThree);
+  for (const std::string_view piece : html::kThree) three.write(piece);
   three.finish();
   s.file.write("</script>\n<script type=\"application/json\" id=\"page\">");
   const Json head = {{"schema", "morsel.page/1"},
@@ -92,7 +93,7 @@ void HtmlSink::finish() {
   text.pop_back();  // the closing brace: the report, which is text already, comes in front of it
   s.file.write(without_markup(text + ",\"report\":" + s.report_text.str() + "}"));
   s.file.write("</script>\n");
-  s.file.write(html::kPage.substr(html::kPage.find(html::kPagePlace) + html::kPagePlace.size()));
+  s.file.write(s.page.substr(s.page.find(html::kPagePlace) + html::kPagePlace.size()));
   s.file.write(s.provenance.html_comment());
 }
 

@@ -1,5 +1,7 @@
 #include "morsel/tools/manual/completions.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -22,17 +24,14 @@ std::vector<std::string> names_of(const Entries& entries) {
 }
 
 /// What a value can be, where that is a list.
-std::vector<std::string> values_of(const Command& command, const Option& option) {
-  if (!option.choices.empty()) return option.choices;
-  if (option.value_name == "F" || (option.is_argument() && command.name == "fields"))
-    return names_of(Registry::standard().functions());
-  if (option.value_name == "M" || (option.is_argument() && command.name == "methods"))
-    return names_of(Registry::standard().methods());
-  return {};
+std::vector<std::string> values_of(const Option& option) {
+  if (option.kind == ValueKind::function) return names_of(Registry::standard().functions());
+  if (option.kind == ValueKind::method) return names_of(Registry::standard().methods());
+  return option.choices;
 }
 
 constexpr const char* kImplied = "compare";  // of which a file is, where a command is expected
-constexpr const char* kHelpText = "Tell about a command";
+constexpr const char* kHelpText = "Print help for a command";
 
 std::vector<std::string> command_names(const std::deque<Command>& commands) {
   std::vector<std::string> names = {"help"};
@@ -47,20 +46,28 @@ std::string quoted_word(std::string_view text) {
   return word + "'";
 }
 
-/// The text of an option up to its first clause, for a list of options.
-std::string brief(const std::string& help) { return help.substr(0, help.find_first_of(".:;(")); }
+/// A text up to the end of its first clause, for a list.
+std::string brief(const std::string& text) {
+  std::size_t end = text.size();
+  for (const char* mark : {". ", ": ", "; ", " ("}) end = std::min(end, text.find(mark));
+  return text.substr(0, end);
+}
+
+std::string brief(const Option& option) {
+  return option.in_short.empty() ? brief(option.help) : option.in_short;
+}
 
 /// Within the brackets of an argument of zsh's _arguments.
 std::string for_zsh(const std::string& text) {
   std::string escaped;
-  for (const char c : brief(text))
+  for (const char c : text)
     escaped += c == '[' || c == ']' || c == '\\' ? std::string("\\") + c : std::string(1, c);
   return escaped;
 }
 
-std::string zsh_action(const Command& command, const Option& option) {
-  if (const auto values = values_of(command, option); !values.empty()) return "(" + joined(values, " ") + ")";
-  return option.is_path ? "_files" : " ";
+std::string zsh_action(const Option& option) {
+  if (const auto values = values_of(option); !values.empty()) return "(" + joined(values, " ") + ")";
+  return option.kind == ValueKind::path ? "_files" : " ";
 }
 
 }  // namespace
@@ -72,7 +79,7 @@ std::string bash_completion(const std::deque<Command>& commands) {
     std::vector<std::string> options = {"--help"};
     std::string values;
     for (const Option& option : command.options()) {
-      const std::vector<std::string> listed = values_of(command, option);
+      const std::vector<std::string> listed = values_of(option);
       if (option.is_argument()) {
         if (!listed.empty())
           values += "        *) [[ $word != -* ]] && words=" + quoted_word(joined(listed, " ")) + " ;;\n";
@@ -81,7 +88,7 @@ std::string bash_completion(const std::deque<Command>& commands) {
       for (const std::string& name : option.all_names()) options.push_back(name);
       if (!option.is_flag())
         values.insert(0, "        " + joined(option.all_names(), "|") + ") " +
-                             (listed.empty() ? option.is_path ? "files=1" : "words="
+                             (listed.empty() ? option.kind == ValueKind::path ? "files=1" : "words="
                                              : "words=" + quoted_word(joined(listed, " "))) +
                              "; value=1 ;;\n");
     }
@@ -117,19 +124,17 @@ std::string zsh_completion(const std::deque<Command>& commands) {
   std::string cases;
   for (const Command& command : commands) {
     list += "    " + quoted_word(command.name + ":" + brief(command.summary)) + "\n";
-    cases += "    " + command.name + ")\n      _arguments '--help[Tell about this command]'";
+    cases += "    " + command.name + ")\n      _arguments '--help[Print help for this command]'";
     for (const Option& option : command.options()) {
       std::string line;
       if (option.is_argument()) {
-        line = (option.is_repeated ? "*" : "1") + std::string(":") + option.names + ":" +
-               zsh_action(command, option);
+        line = (option.is_repeated ? "*" : "1") + std::string(":") + option.names + ":" + zsh_action(option);
         cases += " \\\n        " + quoted_word(line);
         continue;
       }
       for (const std::string& name : option.all_names()) {
-        line = (option.is_repeated ? "*" : "") + name + "[" + for_zsh(option.help) + "]";
-        if (!option.is_flag())
-          line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(command, option);
+        line = (option.is_repeated ? "*" : "") + name + "[" + for_zsh(brief(option)) + "]";
+        if (!option.is_flag()) line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(option);
         cases += " \\\n        " + quoted_word(line);
       }
     }
@@ -164,9 +169,9 @@ std::string fish_completion(const std::deque<Command>& commands) {
   for (const Command& command : commands) offer_name(command.name, command.summary);
   for (const Command& command : commands) {
     const std::string begin = "complete -c morsel -n " + quoted_word("__morsel_is " + command.name);
-    text += begin + " -l help -d 'Tell about this command'\n";
+    text += begin + " -l help -d 'Print help for this command'\n";
     for (const Option& option : command.options()) {
-      const std::vector<std::string> listed = values_of(command, option);
+      const std::vector<std::string> listed = values_of(option);
       const std::string offered = listed.empty() ? "" : " -f -a " + quoted_word(joined(listed, " "));
       if (option.is_argument()) {
         if (!listed.empty()) text.append(begin).append(offered).append("\n");
@@ -176,8 +181,8 @@ std::string fish_completion(const std::deque<Command>& commands) {
       for (const std::string& name : option.all_names())
         text.append(name.starts_with("--") ? " -l " : " -s ")
             .append(name.substr(name.starts_with("--") ? 2 : 1));
-      if (!option.is_flag()) text += option.is_path ? " -r" : " -x";
-      text.append(offered).append(" -d ").append(quoted_word(brief(option.help))).append("\n");
+      if (!option.is_flag()) text += option.kind == ValueKind::path ? " -r" : " -x";
+      text.append(offered).append(" -d ").append(quoted_word(brief(option))).append("\n");
     }
   }
   return text;

@@ -165,6 +165,20 @@ MolecularSurface finish(const TriangleMesh& mesh, bool keep_cavities) {
 
 }  // namespace
 
+std::string to_string(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::gaussian:
+      return "gaussian";
+    case SurfaceKind::ses:
+      return "ses";
+    case SurfaceKind::sas:
+      return "sas";
+    case SurfaceKind::vdw:
+      break;
+  }
+  return "vdw";
+}
+
 void check_surface_options(const SurfaceOptions& options) {
   check(options.resolution > 0 && std::isfinite(options.resolution), "resolution", options.resolution,
         "above 0 Å");

@@ -19,6 +19,9 @@ enum class SurfaceKind {
   vdw   ///< of the union of the balls of radius r_i
 };
 
+/// "gaussian", "ses", "sas", "vdw": as in the syntax of the command line.
+std::string to_string(SurfaceKind kind);
+
 struct SurfaceOptions {
   SurfaceKind kind = SurfaceKind::gaussian;
   double resolution = 0.5;  ///< the grid's spacing in Å, about the length of the mesh's edges

@@ -164,9 +164,10 @@ class Layouter {
     double bottom = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Panel& panel = plot_.panels[i];
-      const auto row = static_cast<double>(i / columns_), column = static_cast<double>(i % columns_);
-      const Box frame{left_ + column * (frame_width_ + gap_),
-                      first_top + row * (frame_height_ + kPanelGap + head), frame_width_, frame_height_};
+      const std::size_t row = i / columns_, column = i % columns_;
+      const Box frame{left_ + static_cast<double>(column) * (frame_width_ + gap_),
+                      first_top + static_cast<double>(row) * (frame_height_ + kPanelGap + head), frame_width_,
+                      frame_height_};
       double above = frame.y - head;
       if (titles) {
         above += kPanelSize;

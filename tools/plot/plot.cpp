@@ -74,15 +74,15 @@ void set_line_style(Series& series, std::size_t i) {
   series.dash = kDashes[i / std::size(kPalette) % std::size(kDashes)];
 }
 
-void write_svg(const std::filesystem::path& path, const Plot& plot) {
+void write_svg(const core::FileTarget& target, const Plot& plot) {
   drawing::Lettering lettering;
   const Layout layout = lay_out(plot, lettering);
   SvgCanvas canvas(layout.width, layout.height, plot.title, plot.metadata, lettering);
   draw(layout, canvas);
-  core::write_file(path, canvas.finish());
+  core::write_file(target, canvas.finish());
 }
 
-void write_png(const std::filesystem::path& path, const Plot& plot, int width) {
+void write_png(const core::FileTarget& target, const Plot& plot, int width) {
   if (width < 100 || width > 10'000)
     throw core::InvalidArgument("a plot cannot be " + std::to_string(width) +
                                 " pixels wide, only 100 to 10000");
@@ -90,7 +90,7 @@ void write_png(const std::filesystem::path& path, const Plot& plot, int width) {
   const Layout layout = lay_out(plot, lettering);
   PixelCanvas canvas(layout.width, layout.height, width / layout.width, lettering);
   draw(layout, canvas);
-  core::write_file(path, drawing::with_png_comment(canvas.png(), plot.metadata));
+  core::write_file(target, drawing::with_png_comment(canvas.png(), plot.metadata));
 }
 
 }  // namespace morsel::tools::plot

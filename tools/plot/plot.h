@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "morsel/core/io/file_writer.h"
 
 namespace morsel::tools::plot {
 
@@ -99,10 +100,10 @@ struct Plot {
 /// infinities other than y = +∞ of marks, values beyond ±1e300 or of 0 or less on a logarithmic axis, limits
 /// that are not an interval, a width outside 100 to 2000, text that is not UTF-8 or has control characters;
 /// WriteFailed where writing fails. May be called from several threads at once.
-void write_svg(const std::filesystem::path& path, const Plot& plot);
+void write_svg(const core::FileTarget& target, const Plot& plot);
 
 /// The same drawing in pixels, `width` of them from left to right (100 to 10,000, else InvalidArgument):
 /// 8-bit RGB on white. The same bytes as long as cairo, FreeType and zlib stay the same.
-void write_png(const std::filesystem::path& path, const Plot& plot, int width);
+void write_png(const core::FileTarget& target, const Plot& plot, int width);
 
 }  // namespace morsel::tools::plot

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/nearest_name.h"
 #include "morsel/core/text/parameters.h"
 
 namespace morsel::tools::render {
@@ -80,11 +83,13 @@ View named_view(std::string_view text, UpAxis up) {
   for (const Named& view : kViews)
     if (view.name == text) return view_at(view.azimuth, view.elevation, up);
   const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos)
-    throw core::InvalidArgument(
-        "unknown view '" + std::string(text) +
-        "'; there are: front back left right top bottom best, and azimuth/elevation in "
-        "degrees such as 30/15");
+  if (slash == std::string_view::npos) {
+    std::vector<std::string> names = {"best"};
+    for (const Named& view : kViews) names.emplace_back(view.name);
+    throw core::InvalidArgument("there is no view \"" + std::string(text) + "\"" +
+                                core::nearest_of(text, names, "there are") +
+                                ", and azimuth/elevation in degrees such as 30/15");
+  }
   return view_at(core::parse_number(text.substr(0, slash), "a view's azimuth"),
                  core::parse_number(text.substr(slash + 1), "a view's elevation"), up);
 }

@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -118,7 +119,7 @@ void Canvas::fill_triangle(const double (&x)[3], const double (&y)[3], const Col
 }
 
 void Canvas::ramp(const Colormap& map, double x, double y, double width, double height) {
-  const int rows = std::max(1, static_cast<int>(height + 0.5));
+  const int rows = std::max(1, static_cast<int>(std::lround(height)));
   for (int i = 0; i < rows; ++i) {
     surface_->set(map(1 - (i + 0.5) / rows));
     cairo_rectangle(surface_->cairo, x, y + i * height / rows, width, height / rows);

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools::render {
 namespace {
@@ -83,11 +84,9 @@ constexpr std::array<Entry, 5> kMaps = {{
 Colormap::Colormap(std::string_view name) : name_(name) {
   const auto* const found =
       std::find_if(kMaps.begin(), kMaps.end(), [&](const Entry& e) { return e.name == name; });
-  if (found == kMaps.end()) {
-    std::string message = "unknown colour map '" + name_ + "'; there are:";
-    for (const Entry& entry : kMaps) message += " " + std::string(entry.name);
-    throw core::InvalidArgument(message);
-  }
+  if (found == kMaps.end())
+    throw core::InvalidArgument("there is no colour map \"" + name_ + "\"" +
+                                core::nearest_of(name_, colormap_names(), "there are"));
   diverging_ = found->diverging;
   table_ = found->make();
 }
@@ -99,9 +98,9 @@ Color Colormap::operator()(double t) const {
   return (1 - f) * table_[i] + f * table_[i + 1];
 }
 
-std::vector<std::string_view> colormap_names() {
-  std::vector<std::string_view> names;
-  for (const Entry& entry : kMaps) names.push_back(entry.name);
+std::vector<std::string> colormap_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : kMaps) names.emplace_back(entry.name);
   return names;
 }
 

@@ -31,6 +31,6 @@ class Colormap {
 /// Renslow (2018, CC0), both by 33 points of their tables. "blue-orange", "purple-green" and "sand" are
 /// defined here, in OKLab: their lightness falls evenly from the middle to the ends, or from the lower end to
 /// the upper.
-std::vector<std::string_view> colormap_names();
+std::vector<std::string> colormap_names();
 
 }  // namespace morsel::tools::render

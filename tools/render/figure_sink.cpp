@@ -30,6 +30,7 @@ FigureSink::FigureSink(ResultFolder& folder, const core::LoadedMesh& loaded, Cam
 
 void FigureSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
+  unit_ = outcome.unit;
   provenance_.set_field(outcome);
   all_ = provenance_;
   studio_.emplace(outcome.field.mesh());
@@ -38,9 +39,9 @@ void FigureSink::field(const FieldOutcome& outcome) {
 
 void FigureSink::method(const MethodOutcome& outcome) {
   const std::string name = names_.next(outcome.name);
-  const morse::CriticalPoints& points = outcome.measurement.critical_points;
-  request_.arcs = points.total() <= kPointsWithArcs;
-  Image picture = studio_->take(view_, subject_of(outcome, field_name_), request_, progress_);
+  const morse::CriticalPoints& points = outcome.shown_points();
+  request_.arcs = !outcome.chosen && points.total() <= kPointsWithArcs;
+  Image picture = studio_->take(view_, subject_of(outcome, field_name_, unit_), request_, progress_);
   std::string caption =
       outcome.specification + "\n" + counts_line(points.minima, points.saddles, points.maxima);
   Provenance provenance = provenance_.with_method(outcome.steps);

@@ -17,8 +17,8 @@ namespace morsel::tools::render {
 
 /// Writes, into one folder:
 ///   NAME.png   per method: the surface coloured by its field, with its critical points, and the complex's
-///              arcs if there are no more than 500 points; all in the same view, each with its own range of
-///              colours
+///              arcs if there are no more than 500 points; or, where points were chosen, with these alone;
+///              all in the same view, each with its own range of colours
 ///   sheet.png  these side by side, with captions (method, counts)
 /// NAME is the method's; a second method of the same name gets "-2", and so on. Called by the thread that
 /// made it.
@@ -45,6 +45,7 @@ class FigureSink : public ComparisonSink {
   std::optional<Studio> studio_;
   View view_;
   std::string field_name_;
+  std::string unit_;
   FileNames names_;
   std::vector<Panel> panels_;
 };

@@ -1,27 +1,12 @@
 #include "morsel/tools/render/legend.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string_view>
 
 #include "morsel/core/text/numbers.h"
 
 namespace morsel::tools::render {
 namespace {
-
-struct Unit {
-  std::string_view function;
-  std::string_view unit;
-};
-constexpr std::array<Unit, 8> kUnits = {{{"curvedness", "1/length"},
-                                         {"gaussian-curvature", "1/length²"},
-                                         {"geodesic", "length"},
-                                         {"heat-kernel-signature", "1/length²"},
-                                         {"height", "length"},
-                                         {"mean-curvature", "1/length"},
-                                         {"principal-curvature", "1/length"},
-                                         {"wave-kernel-signature", "1/length²"}}};
 
 double step_of(const std::vector<double>& at) { return at.size() > 1 ? at[1] - at[0] : 0; }
 
@@ -34,14 +19,8 @@ Measures measures(double em) { return {1.05 * em, 0.35 * em, 0.9 * em}; }
 
 }  // namespace
 
-Quantity quantity_of(const std::string& function, const std::string& method) {
-  Quantity quantity{function, ""};
-  if (method == "saliency") {
-    quantity.words = "saliency of " + function;
-  } else {
-    for (const Unit& u : kUnits)
-      if (u.function == function) quantity.unit = u.unit;
-  }
+Quantity quantity_of(const std::string& function, const std::string& unit, const std::string& made) {
+  Quantity quantity = made.empty() ? Quantity{function, unit} : Quantity{made + " of " + function, ""};
   std::replace(quantity.words.begin(), quantity.words.end(), '-', ' ');
   return quantity;
 }

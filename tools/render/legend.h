@@ -10,12 +10,13 @@
 namespace morsel::tools::render {
 
 /// The name of a field's quantity ("mean curvature") and its unit in terms of the mesh's ("1/length"; empty
-/// if it has none or is unknown). `method` is the last step that made it: saliency has no unit.
+/// if it has none or is unknown).
 struct Quantity {
   std::string words;
   std::string unit;
 };
-Quantity quantity_of(const std::string& function, const std::string& method = {});
+/// Of the function's field, or of what methods `made` of it (MethodChain::quantity()), which has no unit.
+Quantity quantity_of(const std::string& function, const std::string& unit, const std::string& made = {});
 
 /// Round numbers from low to high, five or so (never more than nine).
 std::vector<double> ticks(double low, double high);

@@ -21,37 +21,38 @@ const Color kPlain = from_hex(0xd9d4ca);
 constexpr double kCloseBall = 0.045;  // the largest sphere of a close-up, in radii of what it shows
 
 void color_surface(Scene& scene, const Subject& subject, Show show, const ValueScale& scale) {
-  switch (show) {
-    case Show::field: {
-      ValueColors colors{{}, scale.map};
-      for (const double value : subject.field.values())
-        colors.values.push_back(static_cast<float>(std::clamp(scale.position(value), -4., 5.)));
-      scene.surface = std::move(colors);
-      return;
-    }
-    case Show::plain:
-      scene.surface = kPlain;
-      return;
-    case Show::descending:
-      scene.surface =
-          color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::descending);
-      return;
-    case Show::ascending:
-      scene.surface = color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::ascending);
-      return;
-    case Show::morse_smale:
-      scene.surface =
-          color_segments(scene.body.mesh, subject.measurement->segmentation, Segments::morse_smale);
-      return;
+  if (const std::optional<mscomplex::SegmentKind> kind = segments_of(show)) {
+    scene.surface = color_segments(scene.body.mesh, subject.measurement->segmentation, *kind);
+  } else if (show == Show::plain) {
+    scene.surface = kPlain;
+  } else {
+    ValueColors colors{{}, scale.map};
+    for (const double value : subject.field.values())
+      colors.values.push_back(static_cast<float>(std::clamp(scale.position(value), -4., 5.)));
+    scene.surface = std::move(colors);
   }
 }
 
 }  // namespace
 
-Subject subject_of(const MethodOutcome& outcome, const std::string& field_name) {
-  return {outcome.field, &outcome.measurement,
-          quantity_of(field_name, outcome.steps.empty() ? "" : outcome.steps.back().name), "",
-          outcome.places};
+std::optional<mscomplex::SegmentKind> segments_of(Show show) {
+  switch (show) {
+    case Show::descending:
+      return mscomplex::SegmentKind::descending;
+    case Show::ascending:
+      return mscomplex::SegmentKind::ascending;
+    case Show::morse_smale:
+      return mscomplex::SegmentKind::morse_smale;
+    case Show::field:
+    case Show::plain:
+      break;
+  }
+  return std::nullopt;
+}
+
+Subject subject_of(const MethodOutcome& outcome, const std::string& field_name, const std::string& unit) {
+  return {outcome.field,          &outcome.measurement,   quantity_of(field_name, unit, outcome.quantity), "",
+          outcome.shown_places(), &outcome.shown_points()};
 }
 
 Studio::Studio(const core::TriangleMesh& mesh)
@@ -81,8 +82,7 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   check_size(request.size);
   if (!subject.field.mesh().is_same(mesh_))
     throw core::InvalidArgument("a picture's field is on another mesh");
-  const bool measured =
-      request.points || request.arcs || (request.show != Show::field && request.show != Show::plain);
+  const bool measured = request.points || request.arcs || segments_of(request.show);
   if (measured && subject.measurement == nullptr)
     throw core::InvalidArgument("critical points, arcs and segments are shown of a measured field only");
 
@@ -107,14 +107,16 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   Scene scene{body_};
   color_surface(scene, subject, request.show, scale);
   if (measured) {
-    GlyphSizes sizes = glyph_sizes(body_, subject.measurement->critical_points.total());
+    const morse::CriticalPoints& points =
+        subject.points != nullptr ? *subject.points : subject.measurement->critical_points;
+    GlyphSizes sizes = glyph_sizes(body_, points.total());
     if (request.close_up) {
       sizes.ball = std::min(sizes.ball, kCloseBall * radius_of(*request.close_up));
       sizes.tube = std::min(sizes.tube, 0.4 * sizes.ball);
     }
-    if (request.points) add_points(scene, subject.measurement->critical_points, sizes.ball, subject.places);
+    if (request.points) add_points(scene, points, sizes.ball, subject.places);
     if (request.arcs) {
-      const bool borders = request.show != Show::field && request.show != Show::plain;
+      const bool borders = segments_of(request.show).has_value();
       const double freedom = borders ? 0.7 * sizes.tube : std::numeric_limits<double>::infinity();
       std::optional<mscomplex::ArcKind> only;  // those that bound the segments shown
       if (request.show == Show::descending) only = mscomplex::ArcKind::descending;

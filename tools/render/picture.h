@@ -9,6 +9,7 @@
 
 #include "morsel/core/mesh/length.h"
 #include "morsel/core/parallel/progress.h"
+#include "morsel/mscomplex/segmentation.h"
 #include "morsel/tools/render/body.h"
 #include "morsel/tools/render/camera.h"
 #include "morsel/tools/render/image.h"
@@ -21,6 +22,8 @@ namespace morsel::tools::render {
 
 /// What the surface is coloured by.
 enum class Show { field, descending, ascending, morse_smale, plain };
+/// The kind of segments that is shown, if segments are.
+std::optional<mscomplex::SegmentKind> segments_of(Show show);
 
 /// A region around a vertex that is shown magnified.
 struct Inset {
@@ -48,13 +51,14 @@ struct Subject {
   const core::ScalarField& field;
   const Measurement* measurement = nullptr;  ///< must be there for points, arcs and segments
   Quantity quantity;
-  std::string caption;  ///< lines; none if empty
-  std::span<const core::Index> places =
-      {};  ///< for each critical point, the vertex to show it at; empty: its own
+  std::string caption;                       ///< lines; none if empty
+  std::span<const core::Index> places = {};  ///< for each point, the vertex to show it at; empty: its own
+  const morse::CriticalPoints* points = nullptr;  ///< to show; null: the measurement's
 };
 
-/// What a picture of a method shows. `field_name`: of the field before the method. Refers to the outcome.
-Subject subject_of(const MethodOutcome& outcome, const std::string& field_name);
+/// What a picture of a method shows: chosen points where there are such. `field_name` and `unit`: of the
+/// field before the method. Refers to the outcome.
+Subject subject_of(const MethodOutcome& outcome, const std::string& field_name, const std::string& unit);
 
 /// One surface from one side, for any number of pictures. Holds the mesh by value.
 class Studio {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "morsel/core/parallel/parallel.h"
 
@@ -26,49 +29,71 @@ Color palette_color(std::size_t k) {
   constexpr std::array<float, 6> kShift = {0, -0.11f, 0.06f, -0.2f, -0.055f, -0.155f};
   lab[0] = std::clamp(lab[0] + kShift[round % kShift.size()], 0.3f, 0.96f);
   // Beyond these only the numbers differ, and the lightness slightly.
-  lab[0] -= 0.004f * static_cast<float>(round / kShift.size());
+  const std::size_t lap = round / kShift.size();
+  lab[0] -= 0.004f * static_cast<float>(lap);
   return from_oklab(lab).cwiseMax(0.f).cwiseMin(1.f);
 }
 
-}  // namespace
+constexpr std::uint32_t kUncolored = std::numeric_limits<std::uint32_t>::max();
 
-std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge> edges,
-                                       std::vector<Color>& palette) {
-  std::vector<Edge> both;
-  both.reserve(2 * edges.size());
-  for (const auto& [a, b] : edges) {
-    if (a == b) continue;
-    both.emplace_back(a, b);
-    both.emplace_back(b, a);
-  }
-  std::sort(both.begin(), both.end());
-  both.erase(std::unique(both.begin(), both.end()), both.end());
-  std::vector<std::size_t> offset(nodes + std::size_t{1}, 0);
-  for (const Edge& e : both) ++offset[e.first + 1];
-  for (std::uint32_t i = 0; i < nodes; ++i) offset[i + 1] += offset[i];
-  const auto neighbours = [&](std::uint32_t i) {
-    return std::span<const Edge>(both).subspan(offset[i], offset[i + 1] - offset[i]);
-  };
-
-  palette.clear();
-  std::vector<Eigen::Vector3f> lab;
-  std::vector<std::size_t> used;
-  const auto extend = [&] {
-    for (std::size_t k = 0; k < kLight.size(); ++k) {
-      palette.push_back(palette_color(palette.size()));
-      lab.push_back(to_oklab(palette.back()));
-      used.push_back(0);
+/// The neighbours of each node, ascending.
+class GraphNeighbors {
+ public:
+  GraphNeighbors(std::uint32_t nodes, std::span<const Edge> edges) : offset_(nodes + std::size_t{1}, 0) {
+    both_.reserve(2 * edges.size());
+    for (const auto& [a, b] : edges) {
+      if (a == b) continue;
+      both_.emplace_back(a, b);
+      both_.emplace_back(b, a);
     }
-  };
-  extend();
-  extend();
+    std::sort(both_.begin(), both_.end());
+    both_.erase(std::unique(both_.begin(), both_.end()), both_.end());
+    for (const Edge& e : both_) ++offset_[e.first + 1];
+    for (std::uint32_t i = 0; i < nodes; ++i) offset_[i + 1] += offset_[i];
+  }
 
-  constexpr std::uint32_t kUncolored = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> color(nodes, kUncolored);
-  std::vector<std::uint32_t> saturation(nodes,
-                                        0);  // coloured neighbours: a node's different colours are no more
-  // The most constrained node first: most coloured neighbours, then most neighbours, then the smallest
-  // number.
+  std::size_t degree(std::uint32_t i) const { return offset_[i + 1] - offset_[i]; }
+  /// As edges from i to them.
+  std::span<const Edge> of(std::uint32_t i) const {
+    return std::span<const Edge>(both_).subspan(offset_[i], degree(i));
+  }
+
+ private:
+  std::vector<Edge> both_;
+  std::vector<std::size_t> offset_;
+};
+
+/// Colours the nodes of a graph, the most constrained one first.
+class GraphColoring {
+ public:
+  GraphColoring(std::uint32_t nodes, std::span<const Edge> edges, std::vector<Color>& palette)
+      : neighbors_(nodes, edges), palette_(palette), color_(nodes, kUncolored), saturation_(nodes, 0) {
+    palette_.clear();
+    extend();
+    extend();
+    for (std::uint32_t i = 0; i < nodes; ++i) queue_.insert(key(i));
+  }
+
+  std::vector<std::uint32_t> run() {
+    while (!queue_.empty()) {
+      const std::uint32_t node = queue_.begin()->node;
+      queue_.erase(queue_.begin());
+      std::size_t color = best_color(node);
+      for (; color == palette_.size(); color = best_color(node)) extend();
+      color_[node] = static_cast<std::uint32_t>(color);
+      ++used_[color];
+      for (const Edge& e : neighbors_.of(node)) {
+        if (color_[e.second] != kUncolored) continue;
+        queue_.erase(key(e.second));
+        ++saturation_[e.second];
+        queue_.insert(key(e.second));
+      }
+    }
+    return std::move(color_);
+  }
+
+ private:
+  /// Most coloured neighbours, then most neighbours, then the smallest number.
   struct Key {
     std::uint32_t saturation;
     std::size_t degree;
@@ -79,60 +104,68 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge
       return node < o.node;
     }
   };
-  std::set<Key> queue;
-  for (std::uint32_t i = 0; i < nodes; ++i) queue.insert({0, neighbours(i).size(), i});
-  std::vector<float> nearest;
-  while (!queue.empty()) {
-    const std::uint32_t node = queue.begin()->node;
-    queue.erase(queue.begin());
-    for (;;) {
-      nearest.assign(palette.size(), 1.f);
-      for (const Edge& e : neighbours(node)) {
-        const std::uint32_t other = color[e.second];
-        if (other == kUncolored) continue;
-        for (std::size_t k = 0; k < palette.size(); ++k)
-          nearest[k] = k == other ? 0 : std::min(nearest[k], (lab[k] - lab[other]).norm());
-      }
-      std::size_t best = palette.size();
-      // Among colours that are far enough the least used one, so that two colours do not dominate the
-      // picture.
-      constexpr float kEnough = 0.16f;
-      for (std::size_t k = 0; k < palette.size(); ++k) {
-        if (nearest[k] <= 0) continue;
-        if (best == palette.size()) {
-          best = k;
-          continue;
-        }
-        const float here = std::min(nearest[k], kEnough), there = std::min(nearest[best], kEnough);
-        if (here > there || (here == there && used[k] < used[best])) best = k;
-      }
-      if (best < palette.size()) {
-        color[node] = static_cast<std::uint32_t>(best);
-        ++used[best];
-        break;
-      }
-      extend();
-    }
-    for (const Edge& e : neighbours(node)) {
-      if (color[e.second] != kUncolored) continue;
-      queue.erase({saturation[e.second], neighbours(e.second).size(), e.second});
-      ++saturation[e.second];
-      queue.insert({saturation[e.second], neighbours(e.second).size(), e.second});
+  Key key(std::uint32_t node) const { return {saturation_[node], neighbors_.degree(node), node}; }
+
+  void extend() {
+    for (std::size_t k = 0; k < kLight.size(); ++k) {
+      palette_.push_back(palette_color(palette_.size()));
+      lab_.push_back(to_oklab(palette_.back()));
+      used_.push_back(0);
     }
   }
-  return color;
+
+  /// Among colours that are far enough from the neighbours' the least used one, so that two colours do not
+  /// dominate the picture; the palette's size if the neighbours have all.
+  std::size_t best_color(std::uint32_t node) {
+    nearest_.assign(palette_.size(), 1.f);
+    for (const Edge& e : neighbors_.of(node)) {
+      const std::uint32_t other = color_[e.second];
+      if (other == kUncolored) continue;
+      for (std::size_t k = 0; k < palette_.size(); ++k)
+        nearest_[k] = k == other ? 0 : std::min(nearest_[k], (lab_[k] - lab_[other]).norm());
+    }
+    constexpr float kEnough = 0.16f;
+    std::size_t best = palette_.size();
+    for (std::size_t k = 0; k < palette_.size(); ++k) {
+      if (nearest_[k] <= 0) continue;
+      if (best == palette_.size()) {
+        best = k;
+        continue;
+      }
+      const float here = std::min(nearest_[k], kEnough), there = std::min(nearest_[best], kEnough);
+      if (here > there || (here == there && used_[k] < used_[best])) best = k;
+    }
+    return best;
+  }
+
+  GraphNeighbors neighbors_;
+  std::vector<Color>& palette_;
+  std::vector<Eigen::Vector3f> lab_;  // per colour
+  std::vector<std::size_t> used_;     // per colour
+  std::vector<float> nearest_;        // per colour: the distance of the node's nearest coloured neighbour
+  std::vector<std::uint32_t> color_;  // per node
+  std::vector<std::uint32_t> saturation_;  // coloured neighbours: a node's different colours are no more
+  std::set<Key> queue_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> color_graph(std::uint32_t nodes, std::span<const Edge> edges,
+                                       std::vector<Color>& palette) {
+  return GraphColoring(nodes, edges, palette).run();
 }
 
 RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Segmentation& segmentation,
-                            Segments kind) {
+                            mscomplex::SegmentKind kind) {
   const std::size_t corners = mesh.halfedge_count();
   // A region is a pair of labels, of which a kind may use only one.
   using Pair = std::pair<Index, Index>;
   std::vector<Pair> label(corners);
   core::parallel_for_each(corners, [&](std::size_t h) {
     const Index v = mesh.origin(static_cast<Index>(h));
-    const Index low = kind == Segments::descending ? 0 : segmentation.ascending.vertex[v];
-    const Index high = kind == Segments::ascending ? 0 : segmentation.descending.triangle[h / 3];
+    const Index low = kind == mscomplex::SegmentKind::descending ? 0 : segmentation.ascending.vertex[v];
+    const Index high =
+        kind == mscomplex::SegmentKind::ascending ? 0 : segmentation.descending.triangle[h / 3];
     label[h] = {low, high};
   });
   std::vector<Pair> regions = label;

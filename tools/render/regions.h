@@ -11,8 +11,6 @@
 
 namespace morsel::tools::render {
 
-enum class Segments { descending, ascending, morse_smale };
-
 /// Colours each node of a graph so that neighbours have clearly different colours: the most constrained node
 /// first (Brélaz 1979), each in the colour that is farthest, in OKLab, from those of its neighbours, the less
 /// used one of two. From eighteen pale colours, Tol's "light" ones and tints of them, and further tints where
@@ -25,6 +23,6 @@ std::vector<std::uint32_t> color_graph(std::uint32_t nodes,
 /// The segments of one kind. Descending ones are unions of triangles, bounded by descending arcs; ascending
 /// ones of the vertices' dual cells, bounded by ascending arcs; Morse-Smale ones are their intersections.
 RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Segmentation& segmentation,
-                            Segments kind);
+                            mscomplex::SegmentKind kind);
 
 }  // namespace morsel::tools::render

@@ -6,23 +6,6 @@
 #include "morsel/core/text/parameters.h"
 
 namespace morsel::tools::render {
-namespace {
-
-const char* center_name(ScaleRequest::Center center) {
-  switch (center) {
-    case ScaleRequest::Center::automatic:
-      return "automatic";
-    case ScaleRequest::Center::zero:
-      return "zero";
-    case ScaleRequest::Center::median:
-      return "median";
-    case ScaleRequest::Center::none:
-      break;
-  }
-  return "none";
-}
-
-}  // namespace
 
 Size parse_size(const std::string& text) {
   const std::size_t x = text.find('x');
@@ -70,20 +53,23 @@ void FigureText::check() const {
   camera.check();
 }
 
-std::string to_string(Show show) {
-  switch (show) {
-    case Show::field:
-      return "field";
-    case Show::descending:
-      return "descending";
-    case Show::ascending:
-      return "ascending";
-    case Show::morse_smale:
-      return "morse-smale";
-    case Show::plain:
+std::string to_string(ScaleRequest::Center center) {
+  switch (center) {
+    case ScaleRequest::Center::automatic:
+      return "automatic";
+    case ScaleRequest::Center::zero:
+      return "zero";
+    case ScaleRequest::Center::median:
+      return "median";
+    case ScaleRequest::Center::none:
       break;
   }
-  return "plain";
+  return "none";
+}
+
+std::string to_string(Show show) {
+  if (const std::optional<mscomplex::SegmentKind> kind = segments_of(show)) return to_string(*kind);
+  return show == Show::field ? "field" : "plain";
 }
 
 Json picture_section(const PictureRequest& request, const CameraText& camera, const std::string& caption,
@@ -103,7 +89,7 @@ Json picture_section(const PictureRequest& request, const CameraText& camera, co
           {"arcs", request.arcs},
           {"legend", request.legend},
           {"colormap", scale.colormap.empty() ? Json() : Json(scale.colormap)},
-          {"center", center_name(scale.center)},
+          {"center", to_string(scale.center)},
           {"clip", scale.limits ? Json() : Json(scale.clip)},
           {"limits", scale.limits ? Json({scale.limits->first, scale.limits->second}) : Json()},
           {"inset", region(request.inset)},

@@ -43,6 +43,8 @@ struct FigureText {
 
 /// "field", "descending", "ascending", "morse-smale", "plain"
 std::string to_string(Show show);
+/// "automatic", "zero", "median", "none"
+std::string to_string(ScaleRequest::Center center);
 
 /// All settings that determine a picture besides the subject, vertices by their numbers in the input file.
 /// `caption`: as it is drawn.

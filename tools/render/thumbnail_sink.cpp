@@ -25,6 +25,7 @@ ThumbnailSink::ThumbnailSink(std::filesystem::path prefix, std::size_t methods, 
 
 void ThumbnailSink::field(const FieldOutcome& outcome) {
   field_name_ = outcome.name;
+  unit_ = outcome.unit;
   provenance_.set_field(outcome);
   studio_.emplace(outcome.field.mesh());
   view_ = studio_->view(camera_.view, camera_.up, progress_);
@@ -38,7 +39,7 @@ void ThumbnailSink::method(const MethodOutcome& outcome) {
   request.legend = false;
   Provenance provenance = provenance_.with_method(outcome.steps);
   provenance.set("picture", picture_section(request, camera_, "", loaded_.source.numbering));
-  const Image image = studio_->take(view_, subject_of(outcome, field_name_), request, progress_);
+  const Image image = studio_->take(view_, subject_of(outcome, field_name_, unit_), request, progress_);
   const std::string bytes = drawing::with_png_comment(encode_png(image), provenance.json());
   if (seen_ == 1) core::write_file(thumbnail_path(prefix_, "first"), bytes);
   if (seen_ == methods_) core::write_file(thumbnail_path(prefix_, "last"), bytes);

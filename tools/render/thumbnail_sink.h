@@ -38,6 +38,7 @@ class ThumbnailSink : public ComparisonSink {
   std::optional<Studio> studio_;
   View view_;
   std::string field_name_;
+  std::string unit_;
 };
 
 }  // namespace morsel::tools::render

@@ -126,7 +126,7 @@ void HierarchyWriter::write_items(const Level& level) {
   write_points(level);
   write_arcs(level);
   json_.begin_object("cells");
-  for (const CellKind kind : kCellKinds) write_cells(level, kind);
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) write_cells(level, kind);
   json_.end_object();
 }
 
@@ -161,24 +161,24 @@ void HierarchyWriter::write_arcs(const Level& level) {
   json_.end_array();
 }
 
-void HierarchyWriter::write_cells(const Level& level, CellKind kind) {
+void HierarchyWriter::write_cells(const Level& level, SegmentKind kind) {
   const std::vector<Index> labels = level.labels(kind);
   const CellLinks& links = level.cell_links(kind);
   const auto top_of = [&](Index label) { return level.complex.node(level.complex.maximum_node(label)); };
-  json_.begin_array(to_string(kind));
+  json_.begin_array(key_of(kind));
   json_.rows(labels.size(), [&](std::size_t i, const TakeRow& take) {
     const Index label = labels[i];
     Index minimum = label;
     Index top = label;
-    if (kind == CellKind::morse_smale) {
+    if (kind == SegmentKind::morse_smale) {
       minimum = level.segmentation.cells[label][0];
       top = level.segmentation.cells[label][1];
     }
     Cell lowest = nullptr;
     Cell highest = nullptr;
     Cell cap = nullptr;
-    if (kind != CellKind::descending) lowest = vertex(level.complex.node(minimum).vertex);
-    if (kind != CellKind::ascending) {
+    if (kind != SegmentKind::descending) lowest = vertex(level.complex.node(minimum).vertex);
+    if (kind != SegmentKind::ascending) {
       const mscomplex::Node node = top_of(top);
       (node.kind == NodeKind::cap ? cap : highest) =
           node.kind == NodeKind::cap ? number(node.cell) : vertex(node.vertex);

@@ -28,7 +28,7 @@ class HierarchyWriter : public HierarchySink {
   void write_items(const Level& level);
   void write_points(const Level& level);
   void write_arcs(const Level& level);
-  void write_cells(const Level& level, CellKind kind);
+  void write_cells(const Level& level, SegmentKind kind);
   Cell vertex(core::Index v) const;
 
   JsonSink& json_;

@@ -4,24 +4,22 @@
 #include <map>
 #include <system_error>
 
-#include "morsel/core/text/specification.h"
-#include "morsel/tools/study/registry.h"
-
 namespace morsel::tools {
 
-std::vector<std::pair<std::string, std::string>> named_files(const std::string& field) {
+std::vector<std::pair<std::string, std::string>> named_files(const std::string& field,
+                                                             const Registry& registry) {
   std::vector<std::pair<std::string, std::string>> files;
-  const std::string file_key = Registry::standard().make_function(field).file_key;
-  const core::Specification specification = core::parse_specification(field, "--field");
-  for (const auto& [key, raw] : specification.given)
-    if (key == file_key) files.emplace_back("--field " + specification.name + ":" + key, core::unescape(raw));
+  const NamedFunction function = registry.make_function(field);
+  files.reserve(function.files.size());
+  for (const core::FileParameter& file : function.files)
+    files.emplace_back(function.name + ":" + file.key, file.path);
   return files;
 }
 
-std::vector<HashedFile> input_files(const std::vector<std::string>& fields) {
+std::vector<HashedFile> input_files(const std::vector<std::string>& fields, const Registry& registry) {
   std::map<std::string, std::string> hashes;
   for (const std::string& field : fields)
-    for (const auto& [key, path] : named_files(field)) {
+    for (const auto& [key, path] : named_files(field, registry)) {
       std::error_code error;  // then the function's error is more specific
       if (!hashes.contains(path) && std::filesystem::is_regular_file(path, error))
         hashes[path] = sha256_of_file(path);
@@ -35,7 +33,7 @@ std::vector<HashedFile> input_files(const std::vector<std::string>& fields) {
 std::vector<HashedFile> hashed_files(const FieldOutcome& field) {
   std::vector<HashedFile> files;
   files.reserve(field.files.size());
-  for (const FieldFile& file : field.files) files.push_back({file.path, sha256_of_file(file.path)});
+  for (const core::FileParameter& file : field.files) files.push_back({file.path, sha256_of_file(file.path)});
   return files;
 }
 

@@ -56,7 +56,7 @@ Json tool_section() { return {{"name", "morsel"}, {"version", kVersion}}; }
 
 Json field_parameters(const FieldSummary& field, std::span<const HashedFile> known) {
   Json parameters = to_json(field.parameters);
-  for (const FieldFile& file : field.files) {
+  for (const core::FileParameter& file : field.files) {
     const auto hashed = std::ranges::find(known, file.path, &HashedFile::path);
     parameters[file.key + "_sha256"] = hashed != known.end() ? hashed->sha256 : sha256_of_file(file.path);
   }

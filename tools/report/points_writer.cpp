@@ -1,26 +1,21 @@
 #include "morsel/tools/report/points_writer.h"
 
-#include <optional>
+#include <cstdint>
 #include <span>
 
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/points_request.h"
 
 namespace morsel::tools {
 
-Json request_section(const FieldRequest& field, const PointsRequest& points, bool repair) {
+Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points, bool repair) {
   Json asked = request_section(field, repair);
-  asked["points"] = points.count;
-  asked["kind"] = to_string(points.kind);
-  asked["rank"] = to_string(points.rank);
-  asked["spacing"] = core::to_string(points.spacing);
-  if (points.fill) asked["fill"] = *points.fill;
-  if (points.scale) asked["scale"] = core::to_string(*points.scale);
+  if (points) asked["points"] = request_section(*points);
   return asked;
 }
 
-void write_points_document(JsonSink& json, const Json& request, const FieldSource& source,
-                           const MadePoints& made, const Timings& timings) {
-  begin_field_document(json, "morsel.points/1", request, source);
+void write_points(JsonSink& json, const MadePoints& made, const core::LoadedMesh& loaded,
+                  const std::string& field) {
   json.member("spacing", made.chosen.spacing);
   if (made.scale) json.member("salience_scale", *made.scale);
   json.member("candidates", made.candidates);
@@ -34,8 +29,9 @@ void write_points_document(JsonSink& json, const Json& request, const FieldSourc
   json.rows(made.chosen.points.size(), [&](std::size_t i, const TakeRow& take) {
     const auto& [candidate, list, distance] = made.chosen.points[i];
     const morse::CriticalPoint& point = candidate.point;
-    const core::Point& at = source.loaded.mesh.position(point.vertex);
-    take({{"vertex", std::uint64_t{source.loaded.source.numbering.input_vertex(point.vertex)}},
+    const std::optional<double> percentile = made.percentile(i);
+    const core::Point& at = loaded.mesh.position(made.places[i]);
+    take({{"vertex", std::uint64_t{loaded.source.numbering.input_vertex(point.vertex)}},
           {"position", std::span<const double, 3>(at.data(), 3)},
           {"type", to_string(point.type)},
           {"multiplicity", std::uint64_t{point.multiplicity}},
@@ -43,10 +39,16 @@ void write_points_document(JsonSink& json, const Json& request, const FieldSourc
           {"persistence", candidate.persistence},
           {"rank", candidate.rank},
           {"distance", distance},
-          {"percentile", made.percentiles[i]},
-          {"field", std::string_view(list == 0 ? source.made.input.name : made.fill->name)}});
+          {"percentile", percentile ? Cell(*percentile) : Cell(nullptr)},
+          {"field", std::string_view(list == 0 ? field : made.fill->name)}});
   });
   json.end_array();
+}
+
+void write_points_document(JsonSink& json, const Json& request, const FieldSource& source,
+                           const MadePoints& made, const Timings& timings) {
+  begin_field_document(json, "morsel.points/1", request, source);
+  write_points(json, made, source.loaded, source.made.input.name);
   json.member("timings", timings_section(timings));
   json.end_object();
 }

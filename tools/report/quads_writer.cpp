@@ -59,7 +59,8 @@ void write_quads(JsonSink& json, const QuadsRequest& request, const FieldSource&
                          {"arcs", complex.arc_count()},
                          {"patches", complex.quad_count()},
                          {"boundary_patches", boundary_patches(complex)},
-                         {"arcs_by_fewest_triangles", result.layout.missed}});
+                         {"arcs_by_fewest_triangles", result.layout.missed},
+                         {"nodes_left", result.layout.left}});
   json.member("quads", {{"vertices", result.mesh.positions.size()}, {"quads", result.mesh.quads.size()}});
   json.member("quality", quality_section(result.quality));
   json.begin_array("patches");

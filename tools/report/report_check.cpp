@@ -1,11 +1,13 @@
 #include "morsel/tools/report/report_check.h"
 
 #include <algorithm>
+#include <optional>
 #include <system_error>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/report/landmarks_reader.h"
 #include "morsel/tools/report/report_reader.h"
 #include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/study/comparison.h"
@@ -25,20 +27,36 @@ ReportDocument run_again(const LoadedReport& report, const std::filesystem::path
   return again.take();
 }
 
+/// `report` is a LoadedReport or LoadedLandmarks.
+template <class Report>
+void check_input(ReportCheck& result, const Report& report, const std::filesystem::path& path,
+                 const core::Progress& progress) {
+  const std::filesystem::path input = find_input(result.input_path, path);
+  if (input.empty()) {
+    result.input_is_missing = true;
+    return;
+  }
+  try {
+    result.differences = report_differences(report.document, run_again(report, input, progress));
+  } catch (const core::InvalidArgument& error) {
+    throw core::BadInput(path.string() + " requests what this version does not support: " + error.what());
+  }
+}
+
 }  // namespace
 
 ReportCheck check_report(const std::filesystem::path& path, const core::Progress& progress) {
-  const LoadedReport report = read_report(path);
-  ReportCheck result{report.mesh_path, report.request.methods.size(), false, {}};
-  const std::filesystem::path mesh = find_mesh(report, path);
-  if (mesh.empty()) {
-    result.mesh_is_missing = true;
-    return result;
-  }
-  try {
-    result.differences = report_differences(report.document, run_again(report, mesh, progress));
-  } catch (const core::InvalidArgument& error) {
-    throw core::BadInput(path.string() + " requests what this version does not support: " + error.what());
+  ReportCheck result;
+  if (const std::optional<LoadedLandmarks> report = read_landmarks(path)) {
+    result.is_of_landmarks = true;
+    result.input_path = report->list_path;
+    result.rows = report->document.head["rows"].size();
+    check_input(result, *report, path, progress);
+  } else {
+    const LoadedReport comparison = read_report(path);
+    result.input_path = comparison.mesh_path;
+    result.rows = comparison.request.methods.size();
+    check_input(result, comparison, path, progress);
   }
   return result;
 }

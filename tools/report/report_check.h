@@ -1,5 +1,5 @@
 #pragma once
-/// Reports as regression tests: runs their comparisons again.
+/// Reports as regression tests: runs their comparisons, or studies of landmarks, again.
 
 #include <filesystem>
 #include <string>
@@ -11,16 +11,18 @@
 namespace morsel::tools {
 
 struct ReportCheck {
-  std::string mesh_path;  ///< as in the report
-  std::size_t methods = 0;
-  bool mesh_is_missing = false;  ///< then nothing was run
+  bool is_of_landmarks = false;   ///< otherwise it is of a comparison
+  std::string input_path;         ///< of the mesh, or of the list of meshes; as in the report
+  std::size_t rows = 0;           ///< of a comparison a method each
+  bool input_is_missing = false;  ///< then nothing was run
   std::vector<Difference> differences;
 
-  bool is_unchanged() const { return !mesh_is_missing && differences.empty(); }
+  bool is_unchanged() const { return !input_is_missing && differences.empty(); }
 };
 
-/// Runs a report's comparison again and compares. Throws OtherDocument or BadInput (report_reader.h) on what
-/// is no report, BadInput also on a request that this version does not support, and what comparisons throw.
+/// Runs a report's comparison, or its study of landmarks, again and compares. Throws OtherDocument or
+/// BadInput (report_reader.h) on what is no report, BadInput also on a request that this version does not
+/// support, and what comparisons throw.
 ReportCheck check_report(const std::filesystem::path& report, const core::Progress& progress = {});
 
 /// The .json files in a folder and the folders in it, by name. Throws BadInput if it cannot be read or has

@@ -1,11 +1,12 @@
 #include "morsel/tools/report/report_reader.h"
 
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
+#include "morsel/core/io/file_bytes.h"
 #include "morsel/core/parallel/exhaustion.h"
 #include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/report/points_request.h"
 
 namespace morsel::tools {
 namespace {
@@ -19,13 +20,17 @@ bool is_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-LoadedReport read_report(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    core::fail_to_read(EISDIR, "cannot read the report " + path.string());
+std::ifstream open_report(const std::filesystem::path& path) {
+  const std::string what = "cannot read the report " + path.string();
+  core::check_regular_file(path, what);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) core::fail_to_read(errno, "cannot read the report " + path.string());
+  if (!in) core::fail_to_read(errno, what);
+  return in;
+}
+
+LoadedReport read_report(const std::filesystem::path& path) {
+  std::ifstream in = open_report(path);
   return read_report(in, path.string());
 }
 
@@ -45,6 +50,7 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
   if (const auto items = request.find("items")) report.items = items->truth();
   if (const auto target = request.find("target")) report.request.target = target->count();
   if (const auto snap = request.find("snap")) report.request.snap = snap->truth();
+  if (const auto points = request.find("points")) report.request.points = read_points_request(*points);
   report.mesh_path = head["mesh"]["path"].path();
   report.mesh_sha256 = head["mesh"]["sha256"].text();
   for (const JsonView& method : head["methods"].list(0, kMostMethods))
@@ -52,8 +58,8 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
   return report;
 }
 
-std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path) {
-  const std::filesystem::path path = report.mesh_path;
+std::filesystem::path find_input(const std::filesystem::path& path,
+                                 const std::filesystem::path& report_path) {
   if (is_file(path)) return path;
   const std::filesystem::path beside = report_path.parent_path() / path;
   return is_file(beside) ? beside : std::filesystem::path();

@@ -2,6 +2,7 @@
 /// Reading a report back, to run it again.
 
 #include <filesystem>
+#include <fstream>
 #include <istream>
 #include <string>
 
@@ -21,15 +22,18 @@ struct LoadedReport {
   std::string mesh_sha256;
 };
 
-/// Throws BadInput if the file is missing, is not JSON or is damaged, OtherDocument if it is not a report of
-/// this schema. Of results and of lists of methods only the methods' names are checked: a comparison
-/// of reports shows all other errors as differences.
+/// Throws BadInput if the file is missing, not a regular file, not JSON or damaged, OtherDocument if it is
+/// not a report of this schema. Of results and of lists of methods only the methods' names are checked: a
+/// comparison of reports shows all other errors as differences.
 LoadedReport read_report(const std::filesystem::path& path);
 /// The same of a stream; errors call it `name`.
 LoadedReport read_report(std::istream& in, const std::string& name);
 
-/// The place of the report's mesh now: its path from the working folder, or else from the report's own
-/// folder. Empty if it is in neither.
-std::filesystem::path find_mesh(const LoadedReport& report, const std::filesystem::path& report_path);
+/// Opens the file of a report; throws BadInput if it is missing or a folder.
+std::ifstream open_report(const std::filesystem::path& path);
+
+/// The place of a report's input now: its path, as the report has it, from the working folder, or else from
+/// the report's own folder. Empty if it is in neither.
+std::filesystem::path find_input(const std::filesystem::path& path, const std::filesystem::path& report_path);
 
 }  // namespace morsel::tools

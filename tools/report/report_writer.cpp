@@ -5,14 +5,27 @@
 #include "morsel/persistence/diagram.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/report/points_request.h"
+#include "morsel/tools/report/points_writer.h"
 
 namespace morsel::tools {
+namespace {
+
+Json matching_section(const Matching& matching) {
+  return {{"kept", matching.kept.size()},
+          {"moved", matching.moved.size()},
+          {"added", matching.added},
+          {"removed", matching.removed}};
+}
+
+}  // namespace
 
 Json request_section(const ReportInput& input, const ComparisonRequest& request) {
   Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
   if (!input.items) asked["items"] = false;
   if (request.target) asked["target"] = *request.target;
   if (request.snap) asked["snap"] = true;
+  if (request.points) asked["points"] = request_section(*request.points);
   return asked;
 }
 
@@ -27,6 +40,7 @@ ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const
 }
 
 void ReportWriter::field(const FieldOutcome& outcome) {
+  field_name_ = outcome.name;
   json_.member("field", field_section(outcome));
   timings_["field"] = outcome.seconds;
   timings_["methods"] = Json::array();
@@ -42,12 +56,10 @@ void ReportWriter::method(const MethodOutcome& outcome) {
   json_.member("field", {{"min", outcome.field.min()}, {"max", outcome.field.max()}});
   json_.member("critical_points", counts_section(m.critical_points));
   json_.member("ms_complex", complex_section(m.complex, m.segmentation, m.cells));
-  json_.member("compared_to_first", {{"kept", outcome.compared_to_first.kept.size()},
-                                     {"moved", outcome.compared_to_first.moved.size()},
-                                     {"added", outcome.compared_to_first.added},
-                                     {"removed", outcome.compared_to_first.removed}});
+  json_.member("compared_to_first", matching_section(outcome.compared_to_first));
   write_persistence(outcome);
   if (items_) write_items(outcome);
+  if (outcome.chosen) write_chosen(*outcome.chosen);
   json_.end_object();
   Json seconds = {{"name", outcome.name}};
   seconds.update(timings_section(outcome.timings));
@@ -141,6 +153,13 @@ void ReportWriter::write_items(const MethodOutcome& outcome) {
           {"moved", moved}});
   });
   json_.end_array();
+}
+
+void ReportWriter::write_chosen(const ChosenOutcome& chosen) {
+  json_.begin_object("chosen");
+  write_points(json_, chosen.made, loaded_, field_name_);
+  json_.member("compared_to_first", matching_section(chosen.compared_to_first));
+  json_.end_object();
 }
 
 void ReportWriter::finish() {

@@ -38,10 +38,12 @@ class ReportWriter : public ComparisonSink {
   void write_persistence(const MethodOutcome& outcome);
   void write_diagram(const MethodOutcome& outcome);
   void write_items(const MethodOutcome& outcome);
+  void write_chosen(const ChosenOutcome& chosen);
 
   JsonSink& json_;
   const core::LoadedMesh& loaded_;
   bool items_;
+  std::string field_name_;
   Json timings_;
   Stopwatch watch_;
 };

@@ -117,20 +117,20 @@ Json request_section(const StabilityRequest& request, bool repair) {
   return asked;
 }
 
-std::vector<HashedFile> input_files(const StabilityRequest& request) {
+std::vector<HashedFile> input_files(const StabilityRequest& request, const Registry& registry) {
   std::vector<std::string> fields = request.fields;
   if (!request.reference_field.empty()) fields.push_back(request.reference_field);
-  return input_files(fields);
+  return input_files(fields, registry);
 }
 
-Json trials_key(const StabilityRequest& request, const ReportInput& input) {
+Json trials_key(const StabilityRequest& request, const ReportInput& input, const Registry& registry) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
   return {{"schema", "morsel.stability/1"},
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},
           {"request", std::move(asked)},
-          {"files", files_section(input_files(request))}};
+          {"files", files_section(input_files(request, registry))}};
 }
 
 void write_stability(JsonSink& json, const StabilityReport& report) {

@@ -26,10 +26,12 @@ struct StabilityReport {
 Json request_section(const StabilityRequest& request, bool repair);
 
 /// The files that the request's Morse functions read.
-std::vector<HashedFile> input_files(const StabilityRequest& request);
+std::vector<HashedFile> input_files(const StabilityRequest& request,
+                                    const Registry& registry = Registry::standard());
 
 /// All that the trials of a run depend on besides their perturbation and number: the key of their journal.
-Json trials_key(const StabilityRequest& request, const ReportInput& input);
+Json trials_key(const StabilityRequest& request, const ReportInput& input,
+                const Registry& registry = Registry::standard());
 
 /// The whole document, every trial included.
 void write_stability(JsonSink& json, const StabilityReport& report);

@@ -1,10 +1,12 @@
 #include "morsel/tools/report/sweep_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/formats/version.h"
@@ -25,6 +27,15 @@ const std::string& value_of(const SweepReport& report, std::size_t row, std::siz
 std::array<std::uint64_t, 5> counts_of(const SweepRow& row) {
   const morse::CriticalPoints& points = row.critical_points;
   return {points.minima, points.saddles, points.saddle_multiplicity, points.maxima, points.total()};
+}
+
+/// Whether the field was read from the file that this variation's value names.
+bool is_path(const SweepReport& report, std::size_t row, std::size_t variation) {
+  const std::string& key = report.plan.variations[variation].key;
+  const std::string_view own_key = std::string_view(key).substr(key.rfind('.') + 1);  // npos + 1 is 0
+  return std::ranges::any_of(report.rows[row].field.files, [&](const core::FileParameter& file) {
+    return file.key == own_key && file.path == value_of(report, row, variation);
+  });
 }
 
 void write_row(JsonSink& json, const SweepReport& report, std::size_t i) {
@@ -97,7 +108,8 @@ void write_sweep_csv(std::ostream& out, const SweepReport& report) {
     line.add(report.input.mesh_sha256);
     line.add(to_string(combination.field));
     line.add(to_string(combination.steps));
-    for (std::size_t k = 0; k < combination.choices.size(); ++k) line.add(value_of(report, i, k));
+    for (std::size_t k = 0; k < combination.choices.size(); ++k)
+      is_path(report, i, k) ? line.add_path(value_of(report, i, k)) : line.add(value_of(report, i, k));
     line.add_json(row.iterations_run ? Json(*row.iterations_run) : Json());
     for (const std::uint64_t count : counts_of(row)) line.add(count);
     const PersistenceSummary& persistence = row.persistence;

@@ -22,6 +22,7 @@ Json model_section(const Model& model, const PictureOptions& pictures) {
       {"name", model.recipe().name},
       {"paper", model.recipe().paper},
       {"sample", model.file().is_sample},
+      {"made", model.file().is_made},
       {"view", pictures.camera.view},
       {"mesh", mesh_section(model.file().path, model.sha256(), model.mesh(), model.loaded().source.repairs)}};
 }
@@ -50,12 +51,18 @@ Json panel_section(const Model& model, const PanelOutcome& panel, std::size_t nu
 Json region_section(const Model& model, const ComparedRegion& region) {
   return {{"vertex", model.loaded().source.numbering.input_vertex(region.vertex)},
           {"radius", core::to_string(region.radius)},
+          {"all", region.all},
           {"first", region.first},
-          {"second", region.second}};
+          {"second", region.second},
+          {"places", region.places},
+          {"more_of_first", region.more_of_first},
+          {"more_of_second", region.more_of_second}};
 }
 
 Json figure_section(const FigureOutcome& figure) {
-  Json section = {{"figure", figure.recipe->number},
+  const int number = figure.recipe->number;
+  Json section = {{"figure", number > 0 ? Json(number) : Json()},
+                  {"section", number > 0 ? Json() : Json(figure.recipe->section)},
                   {"title", figure.recipe->title},
                   {"model", figure.model->recipe().name},
                   {"file", figure.file},
@@ -77,6 +84,10 @@ Json figure_section(const FigureOutcome& figure) {
   return section;
 }
 
+Json percentile_section(const std::optional<double>& percentile) {
+  return percentile ? Json(*percentile) : Json();
+}
+
 Json row_section(const TableRowOutcome& row) {
   Json section = {{"model", row.model->recipe().name},
                   {"figure", row.recipe->figure},
@@ -85,7 +96,22 @@ Json row_section(const TableRowOutcome& row) {
                   {"runs", Json::array()}};
   if (row.recipe->paper_points) section["paper"]["points"] = *row.recipe->paper_points;
   if (row.recipe->paper_seconds) section["paper"]["seconds"] = *row.recipe->paper_seconds;
-  for (const TableCell& cell : row.cells) section["runs"].push_back(run_section(*row.model, *cell.run));
+  for (const TableCell& cell : row.cells) {
+    section["runs"].push_back(run_section(*row.model, *cell.run));
+    section["runs"].back()["percentile"] = percentile_section(cell.percentile);
+  }
+  return section;
+}
+
+Json control_section(const ControlOutcome& control) {
+  Json section = {{"model", control.model->recipe().name},
+                  {"figure", control.row->figure},
+                  {"iterations", control.row->iterations},
+                  {"control", control.recipe->title},
+                  {"rank", control.recipe->rank ? Json(to_string(*control.recipe->rank)) : Json()},
+                  {"extrema", control.extrema},
+                  {"percentile", percentile_section(control.percentile)}};
+  section.update(run_section(*control.model, *control.run));
   return section;
 }
 
@@ -114,10 +140,11 @@ Provenance page_provenance(const Prepared& prepared, const Reproduction& reprodu
   Json runs = Json::array();
   for (const auto& model : reproduction.models) {
     models.push_back(model.get());
-    for (const auto& [method, run] : model->runs())
+    for (const auto& [name, run] : model->runs())
       runs.push_back({{"model", model->recipe().name},
+                      {"function", run->made.input.name},
                       {"field", to_json(run->made.input.parameters)},
-                      {"method", method},
+                      {"method", name.second},
                       {"parameters", parameters_section(run->made.outcome.steps)}});
   }
   Provenance provenance = provenance_of(prepared.request, models);
@@ -133,6 +160,8 @@ void write_document(JsonSink& json, const Prepared& prepared, const Reproduction
   for (const FigureOutcome& figure : reproduction.figures) figures.push_back(figure_section(figure));
   Json table = Json::array();
   for (const TableRowOutcome& row : reproduction.table) table.push_back(row_section(row));
+  Json controls = Json::array();
+  for (const ControlOutcome& control : reproduction.controls) controls.push_back(control_section(control));
   json.begin_object();
   json.member("schema", "morsel.reproduction/1");
   json.member("tool", tool_section());
@@ -140,6 +169,7 @@ void write_document(JsonSink& json, const Prepared& prepared, const Reproduction
   json.member("models", models);
   json.member("figures", figures);
   json.member("table", table);
+  json.member("controls", controls);
   json.member("timings", all_timings(reproduction));
   json.end_object();
 }

@@ -11,6 +11,7 @@
 #include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/render/caption.h"
+#include "morsel/tools/render/request_words.h"
 #include "morsel/tools/render/sheet.h"
 #include "morsel/tools/reproduce/region.h"
 #include "morsel/tools/study/hierarchy.h"
@@ -35,7 +36,8 @@ std::string resolved(std::string_view method, const FigureRecipe& recipe, Model&
     const std::size_t at = text.find(reference);
     if (at == std::string::npos) continue;
     const std::string other = resolved(recipe.panels[i].method, recipe, model, progress);
-    text.replace(at, reference.size(), std::to_string(model.run(other, progress).total()));
+    text.replace(at, reference.size(),
+                 std::to_string(model.run({std::string(recipe.field), other}, progress).total()));
   }
   return text;
 }
@@ -76,38 +78,15 @@ class SharedScales {
   std::map<std::string_view, render::ScaleRequest> requests_;
 };
 
-std::string region_text(const Model& model, const ComparedRegion& region) {
-  return std::to_string(model.loaded().source.numbering.input_vertex(region.vertex)) + ":" +
-         core::to_string(region.radius);
-}
-
 /// The arguments of `morsel render` that make the panel, without its output.
 std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const FigureOutcome& figure,
                                           const PictureOptions& options,
                                           const render::PictureRequest& request) {
   const Model& model = *figure.model;
-  std::vector<std::string> words = {
-      "morsel",   "render",    model.file().path.string(), "--field", std::string(kField),
-      "--method", panel.method};
-  const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
-  if (options.repair) add({"--repair"});
-  if (request.show != Show::field) add({"--show", render::to_string(request.show)});
-  if (!request.points) add({"--no-points"});
-  if (!request.legend) add({"--no-legend"});
-  if (request.arcs && request.show == Show::field) add({"--arcs"});
-  if (request.scale.limits)
-    add({"--range=" + core::shortest(request.scale.limits->first) + "/" +
-             core::shortest(request.scale.limits->second),
-         "--colormap", request.scale.colormap});
-  if (request.frame) add({"--frame", region_text(model, *figure.region)});
-  if (request.close_up) add({"--close-up", region_text(model, *figure.region)});
-  if (options.camera.view.starts_with('-'))
-    add({"--view=" + options.camera.view});
-  else
-    add({"--view", options.camera.view});
-  if (options.camera.up != render::UpAxis::y) add({"--up", to_string(options.camera.up)});
-  add({"--size", std::to_string(request.size.width) + "x" + std::to_string(request.size.height), "--samples",
-       std::to_string(request.samples)});
+  std::vector<std::string> words = {"morsel", "render", model.file().path.string()};
+  const FieldRequest field{std::string(figure.recipe->field), panel.method, {}};
+  add_words(words, render::words_of(field, options.repair));
+  add_words(words, render::words_of(request, options.camera, "", model.loaded().source.numbering));
   return words;
 }
 
@@ -115,7 +94,7 @@ std::string caption_of(const PanelOutcome& panel, const FigureOutcome& figure) {
   const morse::CriticalPoints& points = panel.run->measurement.critical_points;
   std::string text = std::string(panel.recipe->title) + "\n" + panel.method + "\n";
   if (panel.recipe->region == Region::close_up && figure.region) {
-    const bool is_first = panel.run == figure.panels[(*figure.recipe->compared)[0]].run;
+    const bool is_first = panel.run == figure.panels[(*figure.recipe->compared)[1]].run;
     const std::size_t count = is_first ? figure.region->first : figure.region->second;
     return text + grouped(count) + (count == 1 ? " critical point" : " critical points") + " within " +
            core::to_string(figure.region->radius) + " of the middle";
@@ -133,7 +112,7 @@ class LinkCounter : public HierarchySink {
  public:
   void begin(const HierarchyBasis&) override {}
   void level(const Level& level) override {
-    levels.push_back({level.points.total(), level.cells(CellKind::morse_smale).count,
+    levels.push_back({level.points.total(), level.cells(SegmentKind::morse_smale).count,
                       level.count(PointStatus::kept), level.count(PointStatus::moved),
                       level.count(PointStatus::fresh)});
   }
@@ -143,7 +122,7 @@ class LinkCounter : public HierarchySink {
 std::vector<LevelLinks> count_links(const FigureRecipe& recipe, const Model& model,
                                     const core::Progress& progress) {
   HierarchyRequest request;
-  request.field = {std::string(kField), std::string(recipe.hierarchy_method), {}};
+  request.field = {std::string(recipe.field), std::string(recipe.hierarchy_method), {}};
   request.levels = recipe.hierarchy_levels;
   LinkCounter counter;
   run_hierarchy(model.loaded(), prepare(request), {&counter}, progress);
@@ -151,12 +130,14 @@ std::vector<LevelLinks> count_links(const FigureRecipe& recipe, const Model& mod
 }
 
 /// The picture as `morsel render` with the panel's command writes it.
-std::string panel_png(const render::Image& image, const PanelOutcome& panel, const Model& model,
+std::string panel_png(const render::Image& image, const PanelOutcome& panel, const FigureOutcome& figure,
                       const PictureOptions& options, const render::PictureRequest& request) {
+  const Model& model = *figure.model;
   const HashedFile mesh{model.file().path.string(), model.sha256()};
   Provenance provenance(
       command_line(panel.shaping_words),
-      tools::request_section(FieldRequest{std::string(kField), panel.method, {}}, options.repair),
+      tools::request_section(FieldRequest{std::string(figure.recipe->field), panel.method, {}},
+                             options.repair),
       {mesh, model.loaded(), panel.run->plan, panel.run->made});
   provenance.set("picture",
                  render::picture_section(request, options.camera, "", model.loaded().source.numbering));
@@ -167,14 +148,14 @@ std::string panel_png(const render::Image& image, const PanelOutcome& panel, con
 
 FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const PictureOptions& options,
                           ResultFolder& folder, Provenance provenance, const core::Progress& progress) {
-  const std::string name = "figure" + std::to_string(recipe.number);
+  const std::string name = recipe.file_stem();
   FigureOutcome figure{&recipe, &model, name + ".png", {}, {}, {}, {}};
   SharedScales scales;
   for (std::size_t i = 0; i < recipe.panels.size(); ++i) {
     PanelOutcome panel;
     panel.recipe = &recipe.panels[i];
     panel.method = resolved(recipe.panels[i].method, recipe, model, progress);
-    panel.run = &model.run(panel.method, progress);
+    panel.run = &model.run({std::string(recipe.field), panel.method}, progress);
     panel.file = name + letter(i) + ".png";
     scales.add(*panel.recipe, panel.run->made.field());
     figure.panels.push_back(std::move(panel));
@@ -184,8 +165,8 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
     const auto points = [&](std::size_t i) -> const morse::CriticalPoints& {
       return figure.panels[(*recipe.compared)[i]].run->measurement.critical_points;
     };
-    const ComparedRegion region = most_different_region(model.mesh(), points(0), points(1),
-                                                        model.studio().shown(view, kFacing), kRegion);
+    const ComparedRegion region = fullest_region(model.mesh(), points(0), points(1), points(2),
+                                                 model.studio().shown(view, kFacing), kRegion);
     if (region.vertex != core::kNone) figure.region = region;
   }
   if (!recipe.hierarchy_levels.empty()) figure.levels = count_links(recipe, model, progress);
@@ -205,18 +186,19 @@ FigureOutcome make_figure(const FigureRecipe& recipe, Model& model, const Pictur
           render::Inset{figure.region->vertex, figure.region->radius};
     panel.shaping_words = shaping_words_of(panel, figure, options, request);
     panel.caption = caption_of(panel, figure);
-    const render::Subject subject{
-        panel.run->made.field(), &panel.run->measurement,
-        render::quantity_of(std::string(kField), panel.run->plan.chain.steps.back().name), ""};
+    const render::Subject subject{panel.run->made.field(), &panel.run->measurement,
+                                  render::quantity_of(panel.run->made.input.name, panel.run->made.input.unit,
+                                                      panel.run->plan.chain.quantity()),
+                                  ""};
     render::Image image = model.studio().take(view, subject, request, progress);
-    panel.png = panel_png(image, panel, model, options, request);
+    panel.png = panel_png(image, panel, figure, options, request);
     core::write_file(folder.claim(panel.file), panel.png, core::Sync::never);
     provenance.add_method(panel.run->made.outcome.steps);
     sheet.push_back({std::move(image), panel.caption});
   }
   figure.finding = recipe.finding(figure);
-  const std::string title = "Figure " + std::to_string(recipe.number) + ". " + std::string(recipe.title) +
-                            ": " + model.file().path.filename().string();
+  const std::string title =
+      recipe.name() + ". " + std::string(recipe.title) + ": " + model.file().path.filename().string();
   provenance.set_field(figure.panels.front().run->made.input);
   core::write_file(
       folder.claim(figure.file),

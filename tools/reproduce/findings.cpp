@@ -21,12 +21,22 @@ double share(std::size_t part, std::size_t whole) {
   return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-/// The mean share of the vertices that a field ranks below the critical points of a run.
-double mean_rank(const core::ScalarField& field, const morse::CriticalPoints& points) {
-  double sum = 0;
-  for (const morse::CriticalPoint& point : points.points) sum += field.rank(point.vertex);
-  const auto largest = static_cast<double>(field.mesh().vertex_count()) - 1;
-  return points.total() > 0 && largest > 0 ? sum / largest / static_cast<double>(points.total()) : 0;
+/// The mean saliency percentile of a run's extrema.
+std::string mean_percentile_text(Model& model, const MethodRun& run) {
+  const std::optional<double> mean = model.percentile(extrema_of(run));
+  return mean ? core::to_decimals(*mean, 2) : "-";
+}
+
+/// "a maximum", "regular"
+std::string type_at(const MethodRun& run, core::Index vertex) {
+  for (const morse::CriticalPoint& point : run.measurement.critical_points.points)
+    if (point.vertex == vertex) return "a " + std::string(to_string(point.type));
+  return "regular";
+}
+
+/// "(a)"
+std::string panel_letter(std::size_t panel) {
+  return std::string("(") + static_cast<char>('a' + panel) + ")";
 }
 
 }  // namespace
@@ -34,13 +44,11 @@ double mean_rank(const core::ScalarField& field, const morse::CriticalPoints& po
 std::string fewer_and_where(const FigureOutcome& figure) {
   const MethodRun& all = *figure.panels[1].run;
   const MethodRun& left = *figure.panels[3].run;
-  const core::ScalarField& saliency = figure.panels[2].run->made.field();
   return grouped(left.total()) + " of " + grouped(all.total()) + " critical points are left, " +
          percent(share(left.total(), all.total())) +
-         " (in the paper 6.5 %). The saliency at a critical point is above that of " +
-         percent(mean_rank(saliency, all.measurement.critical_points)) + " of the vertices in (b) and of " +
-         percent(mean_rank(saliency, left.measurement.critical_points)) +
-         " in (d), in the mean; by chance it would be 50 %.";
+         " (in the paper 6.5 %). The mean saliency percentile of the extrema is " +
+         mean_percentile_text(*figure.model, all) + " in (b) and " +
+         mean_percentile_text(*figure.model, left) + " in (d); by chance it would be 0.50.";
 }
 
 std::string simpler_complex(const FigureOutcome& figure) {
@@ -61,13 +69,16 @@ std::string region_compared(const FigureOutcome& figure) {
       grouped(threshold.total()) + " of the " + grouped(all.total()) +
       " critical points of this mesh, so (b) cancels as many pairs as leave " +
       grouped(figure.panels[1].run->total()) + ", for " + grouped(figure.panels[2].run->total()) + " in (c).";
-  if (figure.region) {
-    const core::Index vertex = figure.model->loaded().source.numbering.input_vertex(figure.region->vertex);
-    text += " (d) and (e) show the place in this view where (b) has most points more than (c) within " +
-            core::to_string(figure.region->radius) + ": around vertex " + grouped(vertex) +
-            ", where TPS keeps " + grouped(figure.region->first) + " and salient smoothing " +
-            grouped(figure.region->second) + ".";
-  }
+  if (!figure.region) return text;
+  const ComparedRegion& region = *figure.region;
+  const core::Index vertex = figure.model->loaded().source.numbering.input_vertex(region.vertex);
+  text +=
+      " (d) and (e) show the place in this view with most points of (a), " + grouped(region.all) +
+      " within " + core::to_string(region.radius) + ": around vertex " + grouped(vertex) +
+      ", where TPS keeps " + grouped(region.first) + " and salient smoothing " + grouped(region.second) +
+      ". Of all places in this view, TPS keeps more points than salient smoothing within that distance at " +
+      percent(share(region.more_of_first, region.places)) + ", fewer at " +
+      percent(share(region.more_of_second, region.places)) + ".";
   return text;
 }
 
@@ -75,13 +86,26 @@ std::string levels_linked(const FigureOutcome& figure) {
   std::string text;
   for (std::size_t i = 0; i < figure.levels.size(); ++i) {
     const LevelLinks& level = figure.levels[i];
-    const std::string letter = std::string(" (") + static_cast<char>('a' + i) + ")";
     text += (i == 0 ? "" : " ") + counted(level.points, "critical point", "critical points") + " and " +
-            counted(level.cells, "segment", "segments") + " in" + letter;
+            counted(level.cells, "segment", "segments") + " in " + panel_letter(i);
     if (i > 0)
       text += ": " + grouped(level.kept) + " of the points stayed where they were, " + grouped(level.moved) +
               " moved, " + grouped(level.fresh) + " are new";
     text += ".";
+  }
+  return text;
+}
+
+std::string types_of_ends(const FigureOutcome& figure) {
+  const core::ScalarField& field = figure.panels.front().run->made.field();
+  const core::Index highest = field.order().back();
+  const core::Index lowest = field.order().front();
+  std::string text;
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const MethodRun& run = *figure.panels[i].run;
+    text += (i == 0 ? "" : " ") + std::string("In ") + panel_letter(i) +
+            " the highest vertex of the torus is " + type_at(run, highest) + " and the lowest " +
+            type_at(run, lowest) + ", of " + counted(run.total(), "critical point", "critical points") + ".";
   }
   return text;
 }

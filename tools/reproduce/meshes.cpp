@@ -77,14 +77,18 @@ std::vector<MeshFile> find_meshes(const fs::path& data, const fs::path& samples)
   std::vector<std::string> missing, given;
   std::size_t found = 0;
   for (const ModelRecipe& model : models()) {
+    if (model.make != nullptr) {
+      files.push_back({std::string(model.name) + ".off", false, true});
+      continue;
+    }
     given.push_back(sought(model));
     if (const std::optional<fs::path> mesh = find_model(model, meshes)) {
       ++found;
-      files.push_back({*mesh, false});
+      files.push_back({*mesh, false, false});
       continue;
     }
     const fs::path sample = samples / model.sample;
-    files.push_back({sample, true});
+    files.push_back({sample, true, false});
     if (fs::is_regular_file(sample, error)) continue;
     missing.push_back(
         "the " + std::string(model.name) + " (" +

@@ -10,8 +10,9 @@
 namespace morsel::tools::reproduce {
 
 struct MeshFile {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< of a surface that is made: in the folder of results
   bool is_sample = false;
+  bool is_made = false;
 };
 
 /// For each of models() the mesh of it in `data` (none is looked for if that is empty), and the sample mesh

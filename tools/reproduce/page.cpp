@@ -43,13 +43,21 @@ std::string models_table(const Reproduction& reproduction) {
             markup_text(model->file().path.filename().string()) +
             (sample ? ": " + markup_text(model->recipe().sample_is) : std::string()) + "</td><td>" +
             grouped(model->mesh().vertex_count()) + "</td><td>" +
-            (sample ? "the sample meshes, in its place" : "the data folder") + "</td></tr>\n";
+            (sample                  ? "the sample meshes, in its place"
+             : model->file().is_made ? "made by a formula"
+                                     : "the data folder") +
+            "</td></tr>\n";
   }
   return text + "</tbody></table></div>\n";
 }
 
-std::string number_cell(std::size_t points, double seconds) {
-  return "<td>" + grouped(points) + "<small>" + seconds_text(seconds) + "</small></td>";
+std::string percentile_text(const std::optional<double>& percentile) {
+  return percentile ? core::to_decimals(*percentile, 2) : "–";
+}
+
+std::string number_cell(const TableCell& cell) {
+  return "<td>" + grouped(cell.run->total()) + "<small>" + seconds_text(cell.run->seconds) +
+         "</small><small>" + percentile_text(cell.percentile) + "</small></td>";
 }
 
 std::string table_section(const Reproduction& reproduction) {
@@ -77,8 +85,7 @@ std::string table_section(const Reproduction& reproduction) {
                                    : std::string()) +
         "</td>";
     for (std::size_t i = 0; i < table_settings().size(); ++i) {
-      const MethodRun& run = *row.cells[conventional ? 0 : i].run;
-      text += conventional && i > 0 ? "<td></td>" : number_cell(run.total(), run.seconds);
+      text += conventional && i > 0 ? "<td></td>" : number_cell(row.cells[conventional ? 0 : i]);
     }
     text += "</tr>\n";
     before = row.model;
@@ -86,9 +93,37 @@ std::string table_section(const Reproduction& reproduction) {
   return text +
          "</tbody></table></div>\n<p class=\"hint said\">σ = 8ε. Seconds of smoothing and of finding the "
          "critical points; "
-         "the paper's are those of a Pentium IV of 1.7 GHz. Figures count panels as below; the paper's table "
+         "the paper's are those of a Pentium IV of 1.7 GHz. The number below is the mean saliency "
+         "percentile of the extrema, 0.50 by chance. Figures count panels as below; the paper's table "
          "calls 3(a) "
          "and 3(c) 3(b) and 3(d). The pictures are made with the first setting.</p></section>\n";
+}
+
+std::string controls_section(const Reproduction& reproduction) {
+  std::string text =
+      "<section aria-labelledby=\"controls\"><h2 id=\"controls\">Controls</h2>\n"
+      "<p class=\"said\">Whether points are salient is measured by mesh saliency: the percentile of an "
+      "extremum is the share of all vertices that have less. The means are to be compared with those of "
+      "other ways to as many points, and with 0.50, which vertices taken at random have.</p>\n"
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-labelledby=\"controls\"><table "
+      "class=\"table\"><thead><tr><th>Model</th><th>Figure</th><th>Iterations</th><th>Control</th>"
+      "<th>Method</th><th>Points</th><th>Extrema</th><th>Percentile</th></tr></thead><tbody>\n";
+  const TableRow* before = nullptr;
+  for (const ControlOutcome& control : reproduction.controls) {
+    const bool first = control.row != before;
+    const std::string rank =
+        control.recipe->rank ? ", rank=" + std::string(to_string(*control.recipe->rank)) : std::string();
+    text += std::string("<tr") + (first ? " class=\"first\"" : "") + "><th>" +
+            (first ? markup_text(control.model->recipe().name) : std::string()) + "</th><td>" +
+            (first ? markup_text(control.row->figure) : std::string()) + "</td><td>" +
+            (first ? std::to_string(control.row->iterations) : std::string()) + "</td><td>" +
+            markup_text(control.recipe->title) + "</td><td>" +
+            breakable(control.run->plan.chain.specification + rank) + "</td><td>" +
+            grouped(control.run->total()) + "</td><td>" + grouped(control.extrema) + "</td><td>" +
+            percentile_text(control.percentile) + "</td></tr>\n";
+    before = control.row;
+  }
+  return text + "</tbody></table></div></section>\n";
 }
 
 std::string panel_markup(const PanelOutcome& panel, std::size_t number) {
@@ -104,9 +139,9 @@ std::string panel_markup(const PanelOutcome& panel, std::size_t number) {
 }
 
 std::string figure_of_page(const FigureOutcome& figure) {
-  const std::string id = "figure" + std::to_string(figure.recipe->number);
-  std::string text = "<section aria-labelledby=\"" + id + "\"><h2 id=\"" + id + "\">Figure " +
-                     std::to_string(figure.recipe->number) + ". " + markup_text(figure.recipe->title) +
+  const std::string id = figure.recipe->file_stem();
+  std::string text = "<section aria-labelledby=\"" + id + "\"><h2 id=\"" + id + "\">" +
+                     figure.recipe->name() + ". " + markup_text(figure.recipe->title) +
                      "</h2>\n<p class=\"said\"><b>In the paper:</b> " + markup_text(figure.recipe->paper) +
                      "</p>\n<p class=\"said\"><b>Here:</b> " + markup_text(figure.finding) +
                      "</p>\n<div class=\"panels\">\n";
@@ -126,16 +161,17 @@ std::string make_page(const Prepared& prepared, const Reproduction& reproduction
       "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>Salient Critical Points for Meshes, made "
       "again</title>\n"
       "<style>\n" +
-      std::string(kStyle) +
+      joined(kStyle) +
       "</style>\n</head>\n<body>\n<header><h1>Salient Critical Points for Meshes, reproduced</h1>\n"
       "<p class=\"hint\">The figures and the table of the paper, by morsel " +
       markup_text(kVersion) +
       ". Minima are blue, saddles green, maxima red; descending arcs are dark blue, ascending ones dark "
       "red.</p></header>\n"
       "<main>\n<section aria-labelledby=\"models\"><h2 id=\"models\">Models</h2>\n"
-      "<p class=\"said\">The paper's models are not public. Other meshes stand in for them, so that numbers "
+      "<p class=\"said\">The paper's scans are not public. Other meshes stand in for them, so that numbers "
       "agree in trend, not in size.</p>\n" +
-      models_table(reproduction) + "</section>\n" + table_section(reproduction);
+      models_table(reproduction) + "</section>\n" + table_section(reproduction) +
+      controls_section(reproduction);
   for (const FigureOutcome& figure : reproduction.figures) text += figure_of_page(figure);
   std::vector<std::string> command = command_words(prepared.request);
   command.insert(command.begin() + 2, prepared.request.folder.string());

@@ -2,8 +2,8 @@
 /// The page that holds a reproduction.
 
 #include <string>
-#include <string_view>
 
+#include "morsel/tools/formats/embedded_text.h"
 #include "morsel/tools/reproduce/reproduction.h"
 
 namespace morsel::tools::reproduce {
@@ -13,6 +13,6 @@ namespace morsel::tools::reproduce {
 std::string make_page(const Prepared& prepared, const Reproduction& reproduction);
 
 /// The page's style sheet, as the build embeds it (html/embed.cmake).
-extern const std::string_view kStyle;
+extern const EmbeddedText kStyle;
 
 }  // namespace morsel::tools::reproduce

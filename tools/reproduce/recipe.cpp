@@ -1,13 +1,14 @@
 #include "morsel/tools/reproduce/recipe.h"
 
 #include "morsel/tools/reproduce/findings.h"
+#include "morsel/tools/reproduce/torus.h"
 
 namespace morsel::tools::reproduce {
 namespace {
 
 using render::Show;
 
-enum ModelNumber : std::size_t { lion, squirrel, protein };
+enum ModelNumber : std::size_t { lion, squirrel, protein, torus };
 
 // In all figures: range=local,support=1, with which the numbers of the paper's table come out: a ball of
 // radius σ, and for σ_s the largest difference in it, the second of the two choices that the paper names.
@@ -30,7 +31,12 @@ std::span<const ModelRecipe> models() {
        "the molecular surface of phospholipase A2 (2bp2), 8K vertices",
        {"1bp2", "2bp2"},
        "retinal.off",
-       "the surface of a small molecule, retinal"}};
+       "the surface of a small molecule, retinal"},
+      {.name = "torus",
+       .paper = "a torus that stands on its side",
+       .make = standing_torus,
+       .view = "25/15",
+       .up = render::UpAxis::z}};
   return kModels;
 }
 
@@ -104,7 +110,7 @@ std::span<const FigureRecipe> figures() {
          .arcs = true,
          .scale = "smoothed",
          .region = Region::close_up}},
-       std::array<std::size_t, 2>{1, 2},
+       std::array<std::size_t, 3>{0, 1, 2},
        {},
        {},
        region_compared},
@@ -131,8 +137,32 @@ std::span<const FigureRecipe> figures() {
        {},
        "salient:range=local,support=1",
        "1,5,10",
-       levels_linked}};
+       levels_linked},
+      {.number = 0,
+       .model = torus,
+       .title = "The absolute difference of mesh saliency",
+       .paper =
+           "The highest and the lowest vertex of the torus have the same saliency by the absolute difference "
+           "of equation (2): the lowest is taken for a maximum.",
+       .panels = {{.title = "height", .method = "conventional", .paper = "4 critical points"},
+                  {.title = "absolute difference, equation (2)",
+                   .method = "saliency:scales=20eps,suppression=none"},
+                  {.title = "difference with its sign, equation (4)",
+                   .method = "salient:iterations=1,range=local,support=1,sigma=20eps,classify=saliency"},
+                  {.title = "salient, 10 iterations",
+                   .method = "salient:iterations=10,range=local,support=1"}},
+       .finding = types_of_ends,
+       .section = "3.1",
+       .field = "height:axis=z"}};
   return kFigures;
+}
+
+std::string FigureRecipe::file_stem() const {
+  return number > 0 ? "figure" + std::to_string(number) : "section" + std::string(section);
+}
+
+std::string FigureRecipe::name() const {
+  return number > 0 ? "Figure " + std::to_string(number) : "Section " + std::string(section);
 }
 
 std::span<const TableRow> table_rows() {
@@ -153,6 +183,16 @@ std::span<const TableSetting> table_settings() {
        {"range=1std,support=1", "σ_s the field's standard deviation, radius σ"},
        {"range=1std,support=2", "the same with radius 2σ, the program's default"}}};
   return kSettings;
+}
+
+std::span<const ControlRecipe> controls() {
+  static constexpr std::array<ControlRecipe, 5> kControls = {
+      {{"the paper's method", "salient:iterations={n},range=local,support=1"},
+       {"without the weight of values", "salient:iterations={n},range=none,support=1"},
+       {"persistence at equal count", "tps:count={k}"},
+       {"extrema by persistence and saliency", "conventional", morse::PointRank::salience},
+       {"all critical points", "conventional"}}};
+  return kControls;
 }
 
 }  // namespace morsel::tools::reproduce

@@ -11,21 +11,27 @@
 #include <string_view>
 #include <vector>
 
+#include "morsel/core/mesh/mesh.h"
+#include "morsel/morse/chosen_points.h"
 #include "morsel/tools/render/picture.h"
 
 namespace morsel::tools::reproduce {
 
-/// The Morse function of everything in the paper.
+/// The Morse function of the paper's results.
 inline constexpr std::string_view kField = "mean-curvature";
 
-/// A model of the paper. They are not public: other meshes stand in for them.
+/// A model of the paper: a scan, which is not public, so that other meshes stand in for it, or a surface that
+/// a formula makes.
 struct ModelRecipe {
   std::string_view name;   ///< "lion": of the option, and of the file that is looked for first
   std::string_view paper;  ///< what the paper shows
   /// Other words in a file's name that identify this model.
-  std::vector<std::string_view> words;
-  std::string_view sample;     ///< file name of the sample mesh that stands in
-  std::string_view sample_is;  ///< what it shows
+  std::vector<std::string_view> words = {};
+  std::string_view sample = {};            ///< file name of the sample mesh that stands in
+  std::string_view sample_is = {};         ///< what it shows
+  core::TriangleMesh (*make)() = nullptr;  ///< of a surface that is made: written as NAME.off
+  std::string_view view = "best";
+  render::UpAxis up = render::UpAxis::y;
 };
 
 /// The region in which two panels of a figure are compared, in a panel.
@@ -48,18 +54,25 @@ struct PanelRecipe {
 struct FigureOutcome;
 
 struct FigureRecipe {
-  int number = 0;
+  int number = 0;         ///< of the paper; 0 for what a section tells without a figure
   std::size_t model = 0;  ///< in models()
   std::string_view title;
   std::string_view paper;  ///< what the paper says about it
   std::vector<PanelRecipe> panels;
-  /// Two panels (by number): their region is where the first keeps most points and the second fewest.
-  std::optional<std::array<std::size_t, 2>> compared = {};
+  /// Three panels (by number): the last two are compared where the first has most points.
+  std::optional<std::array<std::size_t, 3>> compared = {};
   /// Panels that are levels of a hierarchy: the method without its iterations, and these.
   std::string_view hierarchy_method = {};
   std::string_view hierarchy_levels = {};
   /// Makes the sentences about the figure from its numbers.
   std::string (*finding)(const FigureOutcome& figure) = nullptr;
+  std::string_view section = {};  ///< "3.1", where there is no number
+  std::string_view field = kField;
+
+  /// Of its files: "figure3", "section3.1".
+  std::string file_stem() const;
+  /// "Figure 3", "Section 3.1"
+  std::string name() const;
 };
 
 /// A row of the paper's Table 1.
@@ -77,9 +90,21 @@ struct TableSetting {
   std::string_view note;
 };
 
+/// What the paper's method is compared with on the model of a row, at as many points as it leaves.
+struct ControlRecipe {
+  std::string_view title;
+  /// In the syntax of the command line; "{n}" stands for the row's iterations, "{k}" for the number of
+  /// critical points that the first control leaves.
+  std::string_view method;
+  /// Instead of all extrema of the method's field, as many as the first control leaves, by this rank.
+  std::optional<morse::PointRank> rank = {};
+};
+
 std::span<const ModelRecipe> models();
 std::span<const FigureRecipe> figures();
 std::span<const TableRow> table_rows();
 std::span<const TableSetting> table_settings();
+/// The paper's method first; of each row of the table that iterates.
+std::span<const ControlRecipe> controls();
 
 }  // namespace morsel::tools::reproduce

@@ -40,16 +40,17 @@ struct Reproduction {
   std::vector<std::unique_ptr<Model>> models;
   std::vector<FigureOutcome> figures;
   std::vector<TableRowOutcome> table;
+  std::vector<ControlOutcome> controls;
   Timings timings;
 };
 
-/// Writes into the request's folder (result_folder.h) the figures (make_figure()), table1.csv,
-/// reproduction.json ("morsel.reproduction/1") and index.html, which holds all pictures. Everything but
-/// seconds is the same at any number of threads. Throws what meshes, methods, pictures and files throw; a
-/// folder that cannot be written to is refused before the work.
+/// Writes into the request's folder (result_folder.h) the figures (make_figure()), the surfaces that are
+/// made, table1.csv, controls.csv, reproduction.json ("morsel.reproduction/1") and index.html, which holds
+/// all pictures. Everything but seconds is the same at any number of threads. Throws what meshes, methods,
+/// pictures and files throw; a folder that cannot be written to is refused before the work.
 Reproduction run(const Prepared& prepared, const core::Progress& progress = {});
 
-/// The table as text for a terminal.
+/// The table and the controls as text for a terminal.
 std::string table_text(const Reproduction& reproduction);
 
 }  // namespace morsel::tools::reproduce

@@ -9,6 +9,7 @@
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/formats/version.h"
 #include "morsel/tools/report/outcome_sections.h"
+#include "morsel/tools/study/made_points.h"
 
 namespace morsel::tools::reproduce {
 
@@ -24,7 +25,8 @@ std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>
     TableRowOutcome outcome{&row, models[row.model].get(), {}};
     for (const TableSetting& setting : table_settings()) {
       const MethodRun& run = outcome.model->run(method_of(row, setting), progress);
-      outcome.cells.push_back({row.iterations == 0 ? nullptr : &setting, &run});
+      outcome.cells.push_back({row.iterations == 0 ? nullptr : &setting, &run,
+                               outcome.model->percentile(extrema_of(run), progress)});
       if (row.iterations == 0) break;
     }
     table.push_back(std::move(outcome));
@@ -32,10 +34,64 @@ std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>
   return table;
 }
 
+namespace {
+
+void replace_all(std::string& text, std::string_view word, const std::string& with) {
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += with.size())
+    text.replace(at, word.size(), with);
+}
+
+/// As many extrema of the run's field as wanted, by rank.
+std::vector<core::Index> ranked_extrema(const Model& model, const MethodRun& run, morse::PointRank rank,
+                                        std::size_t count, const core::Progress& progress) {
+  if (count == 0) return {};
+  PointsRequest request;
+  request.rank = rank;
+  request.spacing = core::Length::absolute(0);
+  const PointsPlan plan = prepare(request);
+  return PointMaker(plan, model.loaded()).make(run.made.for_points(), count, progress).places;
+}
+
+/// What both tables end with: version, the mesh's hash, and all resolved parameters.
+std::string origin_fields(const Model& model, const MethodRun& run) {
+  return std::string(kVersion) + "," + model.sha256() + "," + std::string(kField) + "," +
+         csv_field(json_text(to_json(run.made.input.parameters))) + "," +
+         csv_field(json_text(parameters_section(run.made.outcome.steps))) + "\r\n";
+}
+
+std::string optional_field(const std::optional<double>& value) { return value ? core::shortest(*value) : ""; }
+
+}  // namespace
+
+std::vector<ControlOutcome> make_controls(const std::vector<std::unique_ptr<Model>>& models,
+                                          const core::Progress& progress) {
+  std::vector<ControlOutcome> outcomes;
+  for (const TableRow& row : table_rows()) {
+    if (row.iterations == 0) continue;
+    Model& model = *models[row.model];
+    std::size_t points = 0;   // that the first control leaves
+    std::size_t extrema = 0;  // likewise
+    for (const ControlRecipe& control : controls()) {
+      std::string method(control.method);
+      replace_all(method, "{n}", std::to_string(row.iterations));
+      replace_all(method, "{k}", std::to_string(points));
+      const MethodRun& run = model.run(method, progress);
+      const std::vector<core::Index> chosen =
+          control.rank ? ranked_extrema(model, run, *control.rank, extrema, progress) : extrema_of(run);
+      if (&control == &controls().front()) {
+        points = run.total();
+        extrema = chosen.size();
+      }
+      outcomes.push_back({&control, &row, &model, &run, chosen.size(), model.percentile(chosen, progress)});
+    }
+  }
+  return outcomes;
+}
+
 std::string table_csv(const std::vector<TableRowOutcome>& table) {
   std::string text =
-      "model,mesh,vertices,figure,iterations,method,points,paper_points,seconds,paper_seconds,version,sha256,"
-      "field,field_parameters,method_parameters\r\n";
+      "model,mesh,vertices,figure,iterations,method,points,paper_points,seconds,paper_seconds,percentile,"
+      "version,sha256,field,field_parameters,method_parameters\r\n";
   for (const TableRowOutcome& row : table)
     for (const TableCell& cell : row.cells)
       text += std::string(row.model->recipe().name) + "," +
@@ -44,11 +100,23 @@ std::string table_csv(const std::vector<TableRowOutcome>& table) {
               std::to_string(row.recipe->iterations) + "," + csv_field(cell.run->plan.chain.specification) +
               "," + std::to_string(cell.run->total()) + "," +
               (row.recipe->paper_points ? std::to_string(*row.recipe->paper_points) : "") + "," +
-              core::shortest(cell.run->seconds) + "," +
-              (row.recipe->paper_seconds ? core::shortest(*row.recipe->paper_seconds) : "") + "," + kVersion +
-              "," + row.model->sha256() + "," + std::string(kField) + "," +
-              csv_field(json_text(to_json(cell.run->made.input.parameters))) + "," +
-              csv_field(json_text(parameters_section(cell.run->made.outcome.steps))) + "\r\n";
+              core::shortest(cell.run->seconds) + "," + optional_field(row.recipe->paper_seconds) + "," +
+              optional_field(cell.percentile) + "," + origin_fields(*row.model, *cell.run);
+  return text;
+}
+
+std::string controls_csv(const std::vector<ControlOutcome>& controls) {
+  std::string text =
+      "model,mesh,figure,iterations,control,method,rank,points,extrema,percentile,version,sha256,field,"
+      "field_parameters,method_parameters\r\n";
+  for (const ControlOutcome& control : controls)
+    text += std::string(control.model->recipe().name) + "," +
+            csv_path(control.model->file().path.filename().string()) + "," +
+            std::string(control.row->figure) + "," + std::to_string(control.row->iterations) + "," +
+            csv_field(control.recipe->title) + "," + csv_field(control.run->plan.chain.specification) + "," +
+            (control.recipe->rank ? std::string(to_string(*control.recipe->rank)) : "") + "," +
+            std::to_string(control.run->total()) + "," + std::to_string(control.extrema) + "," +
+            optional_field(control.percentile) + "," + origin_fields(*control.model, *control.run);
   return text;
 }
 
@@ -65,7 +133,15 @@ std::string table_text(const Reproduction& reproduction) {
       cells.push_back(grouped(row.cells[std::min(i, row.cells.size() - 1)].run->total()));
     rows.push_back(std::move(cells));
   }
-  return text_table(rows);
+  std::vector<std::vector<std::string>> controls = {
+      {"model", "iterations", "control", "points", "extrema", "percentile"}};
+  for (const ControlOutcome& control : reproduction.controls)
+    controls.push_back({std::string(control.model->recipe().name), std::to_string(control.row->iterations),
+                        std::string(control.recipe->title), grouped(control.run->total()),
+                        grouped(control.extrema),
+                        control.percentile ? core::to_decimals(*control.percentile, 2) : "-"});
+  return text_table(rows) + "\n" + text_table(controls) +
+         "percentile: of mesh saliency, the mean of the extrema; 0.50 by chance\n";
 }
 
 }  // namespace morsel::tools::reproduce

@@ -1,5 +1,5 @@
 #pragma once
-/// The paper's Table 1 beside the results.
+/// The paper's Table 1 beside the results, and the controls.
 
 #include <string>
 #include <vector>
@@ -12,12 +12,20 @@ namespace morsel::tools::reproduce {
 std::vector<TableRowOutcome> make_table(const std::vector<std::unique_ptr<Model>>& models,
                                         const core::Progress& progress = {});
 
+/// Runs every control on the model of each row that iterates.
+std::vector<ControlOutcome> make_controls(const std::vector<std::unique_ptr<Model>>& models,
+                                          const core::Progress& progress = {});
+
 /// The method of a row: conventional, or salient with its iterations and the setting's keys.
 std::string method_of(const TableRow& row, const TableSetting& setting);
 
 /// A line for each row and setting: model, mesh, vertices, figure, iterations, method, points, paper_points,
-/// seconds, paper_seconds (empty where the paper has no number), version, the mesh's sha256, and all resolved
-/// parameters. RFC 4180.
+/// seconds, paper_seconds (empty where the paper has no number), percentile (the mean saliency percentile of
+/// the extrema, empty without one), version, the mesh's sha256, and all resolved parameters. RFC 4180.
 std::string table_csv(const std::vector<TableRowOutcome>& table);
+
+/// A line for each control: model, mesh, figure, iterations, control, method, rank (empty: all extrema),
+/// points, extrema, percentile, version, sha256 and parameters as above. RFC 4180.
+std::string controls_csv(const std::vector<ControlOutcome>& controls);
 
 }  // namespace morsel::tools::reproduce

@@ -69,8 +69,14 @@ Descriptor open_below(int root, const fs::path& relative, Missing missing, const
     path /= part;
     Descriptor next(::openat(folder.number(), part.c_str(), kFolder));
     if (!next.is_open() && errno == ENOENT && missing == Missing::make) {
-      if (::mkdirat(folder.number(), part.c_str(), 0777) != 0 && errno != EEXIST) fail_to_write(path, errno);
+      const bool is_made = ::mkdirat(folder.number(), part.c_str(), 0777) == 0;
+      if (!is_made && errno != EEXIST) fail_to_write(path, errno);
       next = Descriptor(::openat(folder.number(), part.c_str(), kFolder));
+      if (is_made && !next.is_open()) {
+        const int error = errno;
+        ::unlinkat(folder.number(), part.c_str(), AT_REMOVEDIR);
+        errno = error;
+      }
     }
     if (!next.is_open()) {
       const int error = errno;

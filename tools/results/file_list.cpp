@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -175,22 +176,39 @@ void FileList::take_line(std::string_view line) {
     if (line != kFirstLine) refuse("it has another first line, perhaps of another version");
     return;
   }
+  const std::size_t blank = std::min(line.find(' '), line.size());
   const std::optional<std::string> entry =
-      line.size() > 1 && line.size() <= kMostInLine ? from_listed(line.substr(1)) : std::nullopt;
+      blank > 1 && line.size() <= kMostInLine ? from_listed(line.substr(1, blank - 1)) : std::nullopt;
+  const std::optional<FileIdentity> file =
+      blank < line.size() ? FileIdentity::from_text(line.substr(blank + 1)) : std::nullopt;
   std::string_view path = entry ? std::string_view(*entry) : std::string_view();
   if (path.ends_with('/')) path.remove_suffix(1);
-  if (!is_path_inside(path) || (line.front() != '+' && line.front() != '-'))
+  const bool has_sign = line.starts_with('+') || (line.starts_with('-') && !file);
+  if (!is_path_inside(path) || !has_sign || (blank < line.size() && !file))
     refuse("line " + std::to_string(lines_) + " is not that of a file in the folder");
-  if (line.front() == '+')
-    entries_.insert(*entry);
-  else
+  if (line.front() == '-')
     entries_.erase(*entry);
+  else if (std::vector<FileIdentity>& files = entries_[*entry]; file)
+    files.push_back(*file);
 }
 
-void FileList::add(const std::string& entry) {
+bool FileList::has(std::string_view entry, const FileIdentity& file) const {
+  const auto found = entries_.find(entry);
+  if (found == entries_.end()) return false;
+  const std::vector<FileIdentity>& files = found->second;
+  return files.empty() || std::any_of(files.begin(), files.end(),
+                                      [&](const FileIdentity& listed) { return listed.is_that_of(file); });
+}
+
+void FileList::add_folder(const std::string& entry) {
   if (has(entry)) return;
   append("+" + path_text(entry));
-  entries_.insert(entry);
+  entries_.try_emplace(entry);
+}
+
+void FileList::add_file(const std::string& entry, const FileIdentity& file) {
+  append("+" + path_text(entry) + " " + file.text());
+  entries_[entry].push_back(file);
 }
 
 void FileList::remove(const std::string& entry) {

@@ -4,19 +4,23 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <set>
+#include <map>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "morsel/tools/results/descriptor.h"
+#include "morsel/tools/results/file_identity.h"
 
 namespace morsel::tools {
 
-/// A file .morsel-results: a line {"schema":"morsel.results/1"}, then a line for each change: "+PATH" before
-/// a file or work folder appears, "-PATH" after it was removed. Paths are relative to the folder and written
-/// as URLs have them (%0A for a line break); those of work folders end with "/". Lines are appended only, so
-/// that each file has the same cost; an incomplete last line, left by a process that ended, is ignored.
+/// A file .morsel-results: a line {"schema":"morsel.results/1"}, then a line for each change: "+PATH
+/// IDENTITY" before a file appears, perhaps in place of an earlier one (file_identity.h), "+PATH/" before a
+/// work folder does, "-PATH" after one was removed. Paths are relative to the folder and written as URLs have
+/// them (%0A for a line break). Lines are appended only, so that each file has the same cost; an incomplete
+/// last line, left by a process that ended, is ignored. Older lists have no identities: any file of a listed
+/// name counts.
 ///
 /// The content is not trusted (see lock()). All functions but lock() and unlock() only while it is locked.
 class FileList {
@@ -38,11 +42,16 @@ class FileList {
 
   /// Whether the constructor made the file.
   bool is_new() const { return is_new_; }
-  /// Those that are listed now, in order.
-  const std::set<std::string, std::less<>>& entries() const { return entries_; }
+  /// Those that are listed now, in order, each with all its files since it was last removed: a process may
+  /// end before one appears.
+  using Entries = std::map<std::string, std::vector<FileIdentity>, std::less<>>;
+  const Entries& entries() const { return entries_; }
   bool has(std::string_view entry) const { return entries_.find(entry) != entries_.end(); }
+  /// Whether the file of that name is one that was listed.
+  bool has(std::string_view entry, const FileIdentity& file) const;
   /// Throws WriteFailed.
-  void add(const std::string& entry);
+  void add_folder(const std::string& entry);
+  void add_file(const std::string& entry, const FileIdentity& file);
   void remove(const std::string& entry);
 
  private:
@@ -58,7 +67,7 @@ class FileList {
   std::size_t lines_ = 0;
   bool is_new_ = false;
   bool has_rest_ = false;  // of a line that was cut off
-  std::set<std::string, std::less<>> entries_;
+  Entries entries_;
 };
 
 /// A path in URL encoding: bytes that are not allowed in a URL become %XX.

@@ -6,7 +6,8 @@
 
 namespace morsel::tools {
 
-/// Distinct file names for equal names: NAME, then NAME-2, and so on.
+/// Distinct file names for equal names: NAME, then NAME-2, and so on. A NAME of more than 200 bytes is cut,
+/// so that there is room for endings.
 class FileNames {
  public:
   std::string next(const std::string& name);

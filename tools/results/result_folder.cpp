@@ -149,7 +149,9 @@ void ResultFolder::remove_if_unused() noexcept {
   try {
     if (list_ && list_->is_new()) {
       list_->lock({});
-      if (!list_->entries().empty() || ::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
+      // What was made but is not listed yet would make the folder look like somebody else's.
+      if (!list_->entries().empty() || first_entry(root_.number(), path_)) return;
+      if (::unlinkat(root_.number(), FileList::kName, 0) != 0) return;
     }
     made_.remove();
   } catch (const std::exception&) {  // an empty list is harmless
@@ -179,33 +181,44 @@ Descriptor ResultFolder::parent_of(const fs::path& relative, Missing missing) co
   return open_below(root_.number(), relative.parent_path(), missing, path_);
 }
 
-void ResultFolder::refuse_foreign(const fs::path& file) const {
+std::optional<FileIdentity> ResultFolder::made_at(const fs::path& file) const {
   const fs::path place = path_ / file;
   if (taken_.contains(file_place(place)))
     throw core::WriteFailed("cannot write " + place.string() + ": it is another output of this run");
   const Descriptor folder = parent_of(file, Missing::tell);
-  struct stat status {};
-  if (!folder.is_open() ||
-      (::fstatat(folder.number(), file.filename().c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 &&
-       errno == ENOENT))
-    return;
-  if (!list_->has(file.native()) || !S_ISREG(status.st_mode))
+  if (!folder.is_open()) return std::nullopt;
+  const std::optional<FileIdentity> there = identity_of(folder.number(), file.filename());
+  if (!there && errno == ENOENT) return std::nullopt;
+  if (!there) fail_to_write(place, errno);
+  if (!there->is_regular || !list_->has(file.native(), *there))
     throw core::WriteFailed(
         "cannot write " + place.string() +
         ": something is there that morsel did not make; move it away or choose another folder");
+  return there;
 }
 
-fs::path ResultFolder::claim(const fs::path& file) {
+/// The file is about to be put in its place.
+void ResultFolder::list(const fs::path& file, const FileIdentity& made) {
   const Hold hold(*this);
-  refuse_foreign(file);
-  const Descriptor folder = parent_of(file, Missing::make);
-  list_->add(file.native());
-  return path_ / file;
+  const std::optional<FileIdentity> before = made_at(file);
+  // Of an older list: it is replaced only after the new one has been listed, and is no longer known by name.
+  if (before && list_->entries().find(file.native())->second.empty()) list_->add_file(file.native(), *before);
+  list_->add_file(file.native(), made);
+}
+
+core::FileTarget ResultFolder::claim(const fs::path& file) {
+  const Hold hold(*this);
+  made_at(file);
+  return {path_ / file, [this, file](int written) {
+            const std::optional<FileIdentity> made = identity_of(written);
+            if (!made) fail_to_write(path_ / file, errno);
+            list(file, *made);
+          }};
 }
 
 void ResultFolder::check_free(const fs::path& file) {
   const Hold hold(*this);
-  refuse_foreign(file);
+  made_at(file);
 }
 
 void ResultFolder::check_folder(const fs::path& folder) {
@@ -215,10 +228,14 @@ void ResultFolder::check_folder(const fs::path& folder) {
 
 void ResultFolder::move(const fs::path& made, const fs::path& file) {
   const Hold hold(*this);
-  const fs::path place = claim(file);
+  const fs::path place = path_ / file;
+  made_at(file);
   const Descriptor from = parent_of(made, Missing::tell);
   const Descriptor to = parent_of(file, Missing::make);
   if (!from.is_open()) fail_to_write(place, ENOENT);
+  const std::optional<FileIdentity> moved = identity_of(from.number(), made.filename());
+  if (!moved) fail_to_write(place, errno);
+  list(file, *moved);
   if (::renameat(from.number(), made.filename().c_str(), to.number(), file.filename().c_str()) != 0)
     fail_to_write(place, errno);
 }
@@ -227,10 +244,11 @@ void ResultFolder::remove(const fs::path& file) {
   const Hold hold(*this);
   if (!list_->has(file.native())) return;
   const Descriptor folder = parent_of(file, Missing::tell);
-  struct stat status {};
   const std::string name = file.filename();
-  if (folder.is_open() && ::fstatat(folder.number(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
-      S_ISREG(status.st_mode) && ::unlinkat(folder.number(), name.c_str(), 0) != 0 && errno != ENOENT)
+  const std::optional<FileIdentity> there =
+      folder.is_open() ? identity_of(folder.number(), name) : std::nullopt;
+  if (there && there->is_regular && list_->has(file.native(), *there) &&
+      ::unlinkat(folder.number(), name.c_str(), 0) != 0 && errno != ENOENT)
     throw core::WriteFailed("cannot remove " + (path_ / file).string() + ": " +
                             std::generic_category().message(errno));
   list_->remove(file.native());
@@ -245,8 +263,8 @@ std::vector<std::string> ResultFolder::files_in(const fs::path& folder) {
   const std::string prefix = folder_entry(folder);
   std::vector<std::string> files;
   for (auto at = list_->entries().lower_bound(prefix);
-       at != list_->entries().end() && at->starts_with(prefix); ++at)
-    if (!at->ends_with('/')) files.push_back(*at);
+       at != list_->entries().end() && at->first.starts_with(prefix); ++at)
+    if (!at->first.ends_with('/')) files.push_back(at->first);
   return files;
 }
 
@@ -256,7 +274,7 @@ ResultFolder::Work::Work(ResultFolder& folder, const fs::path& around) : folder_
   while (error == EEXIST) {
     relative_ = around / random_name();
     const Descriptor outer = folder_.parent_of(relative_, Missing::make);
-    folder_.list_->add(folder_entry(relative_));
+    folder_.list_->add_folder(folder_entry(relative_));
     error = ::mkdirat(outer.number(), relative_.filename().c_str(), 0777) == 0 ? 0 : errno;
     if (error != 0) folder_.list_->remove(folder_entry(relative_));
   }
@@ -269,6 +287,7 @@ ResultFolder::Work::Work(ResultFolder& folder, const fs::path& around) : folder_
 }
 
 ResultFolder::Work::~Work() {
+  folder_.remove_remade(relative_);
   constexpr int kTries = 2;  // another thread may hold descriptors for a moment
   for (int i = 0; i < kTries; ++i) {
     try {
@@ -276,6 +295,23 @@ ResultFolder::Work::~Work() {
       if (folder_.remove_listed_work(relative_.parent_path(), folder_entry(relative_))) return;
     } catch (const std::exception&) {  // the next run removes it
     }
+  }
+}
+
+/// If the user has removed the folder of results, a process that was still writing into a work folder has
+/// made it again, without a list: what the user removed is not left there.
+void ResultFolder::remove_remade(const fs::path& work) noexcept {
+  struct stat status {};
+  if (::fstat(root_.number(), &status) != 0 || status.st_nlink > 0) return;
+  try {
+    const Descriptor again(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!again.is_open()) return;
+    const fs::path around = work.parent_path();
+    const Descriptor outer = open_below(again.number(), around, Missing::tell, path_);
+    if (!outer.is_open() || !remove_tree(outer.number(), work.filename())) return;
+    ::unlinkat(again.number(), around.c_str(), AT_REMOVEDIR);  // unless something else is in it
+    ::rmdir(path_.c_str());
+  } catch (const std::exception&) {  // it is a folder of the user's now
   }
 }
 
@@ -296,8 +332,8 @@ void ResultFolder::remove_left_work(const fs::path& around) {
   const std::string prefix = folder_entry(around);
   std::vector<std::string> left;
   for (auto at = list_->entries().lower_bound(prefix);
-       at != list_->entries().end() && at->starts_with(prefix); ++at)
-    if (at->ends_with('/')) left.push_back(*at);
+       at != list_->entries().end() && at->first.starts_with(prefix); ++at)
+    if (at->first.ends_with('/')) left.push_back(at->first);
   for (const std::string& entry : left)
     if (is_abandoned(entry.substr(0, entry.size() - 1))) remove_listed_work(around, entry);
 }

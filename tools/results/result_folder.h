@@ -9,17 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/made_folders.h"
 #include "morsel/tools/results/descriptor.h"
+#include "morsel/tools/results/file_identity.h"
 #include "morsel/tools/results/file_list.h"
 #include "morsel/tools/results/file_place.h"
 
 namespace morsel::tools {
 
 /// A folder with a list of the files that were made in it (file_list.h). What is listed may be replaced and
-/// removed, and nothing else: an unlisted file in the place of a result is refused, and no symbolic link
-/// below the folder is followed. The folder itself may be reached through links. Runs may share a folder, as
-/// may objects of one run.
+/// removed, and nothing else: another file in the place of a result is refused, even if its name is listed,
+/// and no symbolic link below the folder is followed. The folder itself may be reached through links. Runs
+/// may share a folder, as may objects of one run.
 ///
 /// Paths are relative to the folder, normal and without ".."; all functions may be called from several
 /// threads at once.
@@ -46,9 +48,9 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// The path to write a file to, which is listed from now on; the folders that it is in are made. Throws
-  /// WriteFailed if an unlisted entry or a folder is in its place, or it is one of the outputs `taken`.
-  std::filesystem::path claim(const std::filesystem::path& file);
+  /// Where to write a file, while the object lives; it is listed just before it appears. Throws WriteFailed,
+  /// now and then, if an unlisted file or a folder is in its place, or it is one of the outputs `taken`.
+  core::FileTarget claim(const std::filesystem::path& file);
   /// Throws as claim(), and makes nothing.
   void check_free(const std::filesystem::path& file);
   /// Throws WriteFailed if something else than a folder, such as a link, is in its place.
@@ -100,7 +102,10 @@ class ResultFolder {
   void remove_if_unused() noexcept;
   /// The folder that a path is in. Not open if it is missing.
   Descriptor parent_of(const std::filesystem::path& relative, Missing missing) const;
-  void refuse_foreign(const std::filesystem::path& file) const;
+  /// The file in a place if the program made it, none if nothing is there. Throws as claim().
+  std::optional<FileIdentity> made_at(const std::filesystem::path& file) const;
+  void list(const std::filesystem::path& file, const FileIdentity& made);
+  void remove_remade(const std::filesystem::path& work) noexcept;
   bool is_abandoned(const std::filesystem::path& work) const;
   bool remove_listed_work(const std::filesystem::path& around, const std::string& entry);
 

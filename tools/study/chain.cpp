@@ -107,8 +107,11 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
     callback(0, outcome.field);
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
-    outcome.steps.push_back({step.name, std::move(result.parameters), std::move(result.details),
-                             std::move(result.iterations), std::move(result.warnings)});
+    outcome.steps.push_back(
+        {step.name, std::move(result.parameters), std::move(result.details), std::move(result.iterations)});
+    outcome.steps.back().end = std::move(result.end);
+    outcome.steps.back().sigma = result.sigma;
+    outcome.steps.back().warnings = std::move(result.warnings);
     if (!search) {
       outcome.field = std::move(result.field);
       continue;

@@ -24,6 +24,8 @@ struct StepOutcome {
   core::Parameters parameters;
   core::Parameters details;
   std::vector<core::IterationRecord> iterations;  ///< if they were counted
+  std::optional<core::IterationEnd> end = {};
+  std::optional<double> sigma = {};  ///< core::MethodResult's
   std::vector<std::string> warnings = {};
 };
 

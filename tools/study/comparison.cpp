@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/listed.h"
@@ -11,40 +12,6 @@
 
 namespace morsel::tools {
 namespace {
-
-std::vector<FieldFile> files_of(const NamedFunction& function, const core::Parameters& parameters) {
-  std::vector<FieldFile> files;
-  for (const auto& [key, value] : parameters)
-    if (!function.file_key.empty() && key == function.file_key)
-      files.push_back({key, std::get<std::string>(value)});
-  return files;
-}
-
-/// Says so if most critical points come from the order of vertex numbers alone; else empty.
-std::string plateau_warning(const core::ScalarField& field, const core::Progress& progress) {
-  const core::TriangleMesh& mesh = field.mesh();
-  const auto is_flat = [&](core::Index e) {
-    const auto [a, b] = mesh.edge_vertices(e);
-    return field.value(a) == field.value(b);
-  };
-  std::vector<bool> tied(mesh.vertex_count(), false);
-  bool any = false;
-  for (core::Index e = 0; e < mesh.edge_count(); ++e) {
-    if (!is_flat(e)) continue;
-    const auto [a, b] = mesh.edge_vertices(e);
-    tied[a] = tied[b] = any = true;
-  }
-  if (!any) return {};
-  const std::vector<morse::CriticalPoint> points = morse::classify(field, progress).points;
-  const auto by_number = static_cast<std::size_t>(
-      std::ranges::count_if(points, [&](const morse::CriticalPoint& point) { return tied[point.vertex]; }));
-  if (field.extent() == 0)
-    return "the field is constant: its " + std::to_string(points.size()) +
-           " critical points come from the order of vertex numbers alone";
-  if (2 * by_number <= points.size()) return {};
-  return std::to_string(by_number) + " of the field's " + std::to_string(points.size()) +
-         " critical points have a neighbour of the same value: they come from the order of vertex numbers";
-}
 
 constexpr std::string_view kCount = "count";
 
@@ -97,24 +64,74 @@ MethodChain make_row(const std::vector<core::Specification>& steps, const std::s
 /// A row's chain with the counts of earlier rows, whose critical points are `totals`.
 MethodChain counted_row(const ComparisonPlan& plan, std::size_t row, const std::vector<std::size_t>& totals) {
   const std::string& specification = plan.chains[row].specification;
-  std::vector<core::Specification> steps = core::parse_chain(specification, "--method");
+  std::vector<core::Specification> steps = core::parse_chain(specification, "the method");
   for (const RowCount& count : plan.counts[row]) set_count(steps[count.step], totals[count.row]);
   return make_row(steps, specification, plan.registry);
 }
 
-}  // namespace
-
-FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
-                            const core::Progress& progress) {
-  const Stopwatch watch;
-  core::FunctionResult result = function.function->evaluate(loaded.mesh, {&loaded.source, progress});
-  std::vector<FieldFile> files = files_of(function, result.parameters);
-  std::vector<std::string> warnings = std::move(result.warnings);
-  if (std::string text = plateau_warning(result.field, progress.unreported()); !text.empty())
-    warnings.push_back(std::move(text));
-  return {function.name,   std::move(result.field), std::move(result.parameters),
-          watch.seconds(), std::move(files),        std::move(warnings)};
+/// For each critical point of a row, the vertex to report it at.
+std::vector<core::Index> places_of(const morse::CriticalPoints& points,
+                                   const std::vector<core::Index>& origins, bool snap) {
+  std::vector<core::Index> places(origins.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = snap && origins[i] != core::kNone ? origins[i] : points.points[i].vertex;
+  return places;
 }
+
+/// Moves the row's own chosen points to where its critical points are reported.
+void move_to_places(MadePoints& made, const morse::CriticalPoints& points,
+                    const std::vector<core::Index>& places) {
+  for (std::size_t i = 0; i < made.places.size(); ++i) {
+    if (made.chosen.points[i].source != 0) continue;
+    const auto at =
+        std::ranges::lower_bound(points.points, made.places[i], {}, &morse::CriticalPoint::vertex);
+    made.places[i] = places[static_cast<std::size_t>(at - points.points.begin())];
+  }
+}
+
+/// Without the matching.
+ChosenOutcome by_vertex(MadePoints made) {
+  std::vector<std::pair<morse::CriticalPoint, core::Index>> sorted;
+  for (std::size_t i = 0; i < made.places.size(); ++i)
+    sorted.emplace_back(made.chosen.points[i].candidate.point, made.places[i]);
+  std::ranges::sort(sorted, {}, [](const auto& entry) { return entry.first.vertex; });
+  std::vector<morse::CriticalPoint> points;
+  ChosenOutcome chosen;
+  for (const auto& [point, place] : sorted) {
+    points.push_back(point);
+    chosen.places.push_back(place);
+  }
+  chosen.points = morse::counts_of(points);
+  chosen.points.points = std::move(points);
+  chosen.made = std::move(made);
+  return chosen;
+}
+
+/// Chooses points of each row.
+class RowPoints {
+ public:
+  /// Refers to the plan and the mesh.
+  RowPoints(const PointsPlan& plan, const core::LoadedMesh& loaded, double radius)
+      : maker_(plan, loaded), mesh_(loaded.mesh), radius_(radius) {}
+
+  ChosenOutcome choose(const PointsField& from, const morse::CriticalPoints& points,
+                       const std::vector<core::Index>& places, const core::Progress& progress) {
+    MadePoints made = maker_.make(from, progress);
+    move_to_places(made, points, places);
+    ChosenOutcome chosen = by_vertex(std::move(made));
+    if (!first_) first_ = chosen.points;
+    chosen.compared_to_first = match_critical_points(mesh_, *first_, chosen.points, radius_);
+    return chosen;
+  }
+
+ private:
+  PointMaker maker_;
+  const core::TriangleMesh& mesh_;
+  double radius_;
+  std::optional<morse::CriticalPoints> first_;
+};
+
+}  // namespace
 
 Measurement measure(const core::ScalarField& field, Timings& timings, const core::Progress& progress) {
   const auto timed = [&](const char* step, const auto& run) {
@@ -151,11 +168,12 @@ ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registr
   check_target(request.target);
   ComparisonPlan plan{registry.make_function(request.field), {}, request.target, request.snap, {}, registry};
   for (const std::string& method : request.methods) {
-    std::vector<core::Specification> steps = core::parse_chain(method, "--method");
+    std::vector<core::Specification> steps = core::parse_chain(method, "the method");
     plan.counts.push_back(row_counts(steps, plan.chains));
     for (const RowCount& count : plan.counts.back()) set_count(steps[count.step], 1);  // to be replaced
     plan.chains.push_back(make_row(steps, method, registry));
   }
+  if (request.points) plan.points = prepare(*request.points, registry);
   return plan;
 }
 
@@ -169,6 +187,8 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                                              radius, progress.unreported());
   std::optional<morse::CriticalPoints> first;
   std::vector<std::size_t> totals;  // of the rows so far
+  std::optional<RowPoints> row_points;
+  if (plan.points) row_points.emplace(*plan.points, loaded, radius);
   for (std::size_t row = 0; row < plan.chains.size(); ++row) {
     const MethodChain chain = counted_row(plan, row, totals);
     for (ComparisonSink* sink : sinks) sink->begin_method(chain.name);
@@ -183,14 +203,17 @@ void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
     if (!first) first = measurement.critical_points;
     totals.push_back(measurement.critical_points.total());
     Matching matching = match_critical_points(loaded.mesh, *first, measurement.critical_points, radius);
-    std::vector<core::Index> places(origins.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-      places[i] =
-          plan.snap && origins[i] != core::kNone ? origins[i] : measurement.critical_points.points[i].vertex;
-    const MethodOutcome outcome{chain.specification,    chain.name,           std::move(made.steps),
-                                std::move(made.field),  input.field.extent(), std::move(made.target),
-                                std::move(measurement), std::move(origins),   std::move(places),
-                                std::move(matching),    std::move(timings)};
+    std::vector<core::Index> places = places_of(measurement.critical_points, origins, plan.snap);
+    MethodOutcome outcome{chain.specification,    chain.name,           std::move(made.steps),
+                          std::move(made.field),  input.field.extent(), std::move(made.target),
+                          std::move(measurement), std::move(origins),   std::move(places),
+                          std::move(matching),    std::move(timings),   chain.quantity()};
+    if (row_points) {
+      const Stopwatch points_watch;
+      outcome.chosen = row_points->choose({input.name, outcome.field, outcome.steps},
+                                          outcome.measurement.critical_points, outcome.places, progress);
+      outcome.timings.emplace_back("points", points_watch.seconds());
+    }
     for (ComparisonSink* sink : sinks) sink->method(outcome);
   }
 }

@@ -1,12 +1,10 @@
 #pragma once
 /// Comparison of several methods on one field of one mesh, each measured by the same code.
 
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "morsel/core/field/method.h"
@@ -17,8 +15,11 @@
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/persistence/pairing.h"
 #include "morsel/tools/study/chain.h"
+#include "morsel/tools/study/field_outcome.h"
+#include "morsel/tools/study/made_points.h"
 #include "morsel/tools/study/matching.h"
 #include "morsel/tools/study/registry.h"
+#include "morsel/tools/study/stopwatch.h"
 
 namespace morsel::tools {
 
@@ -29,12 +30,10 @@ struct ComparisonRequest {
   /// what it is as a whole or by its methods' names: by default persistence simplification is held to the
   /// number that salient smoothing leaves.
   std::vector<std::string> methods = {"conventional", "salient", "tps:count=salient"};
-  std::optional<std::size_t> target;  ///< every method is to end with so many critical points
-  bool snap = false;                  ///< critical points are reported at their origins
+  std::optional<std::size_t> target;         ///< every method is to end with so many critical points
+  bool snap = false;                         ///< critical points are reported at their origins
+  std::optional<PointsRequest> points = {};  ///< of every row points are chosen
 };
-
-/// Seconds by step, in the order in which the steps ran.
-using Timings = std::vector<std::pair<std::string, double>>;
 
 /// Everything that is measured on one field. It never knows which method made the field.
 struct Measurement {
@@ -43,6 +42,14 @@ struct Measurement {
   mscomplex::MorseSmaleComplex complex;
   mscomplex::Segmentation segmentation;
   core::Index cells = 0;  ///< quads of the complex that have area
+};
+
+/// The points that were chosen of a method's field.
+struct ChosenOutcome {
+  MadePoints made;
+  morse::CriticalPoints points;     ///< the same, ascending by vertex
+  std::vector<core::Index> places;  ///< of `points`: as MethodOutcome's
+  Matching compared_to_first;       ///< with the points chosen of the first method's field
 };
 
 /// A method's field and its measurement.
@@ -62,27 +69,17 @@ struct MethodOutcome {
   std::vector<core::Index> places;
   Matching compared_to_first;
   Timings timings;
-};
+  std::string quantity = {};                 ///< MethodChain::quantity()
+  std::optional<ChosenOutcome> chosen = {};  ///< if points were asked for
 
-/// A file that a Morse function read, besides the mesh's.
-struct FieldFile {
-  std::string key;  ///< of the function, which names it
-  std::string path;
+  /// What tables and pictures show: the chosen points where there are such, else all critical points; and the
+  /// vertices at whose positions they are.
+  const morse::CriticalPoints& shown_points() const {
+    return chosen ? chosen->points : measurement.critical_points;
+  }
+  const std::vector<core::Index>& shown_places() const { return chosen ? chosen->places : places; }
+  const Matching& shown_matching() const { return chosen ? chosen->compared_to_first : compared_to_first; }
 };
-
-/// The field before any method.
-struct FieldOutcome {
-  std::string name;
-  core::ScalarField field;
-  core::Parameters parameters;
-  double seconds = 0;
-  std::vector<FieldFile> files = {};
-  std::vector<std::string> warnings = {};  ///< the function's, and of critical points that mean nothing
-};
-
-/// Evaluates a Morse function on a loaded mesh.
-FieldOutcome evaluate_field(const core::LoadedMesh& loaded, const NamedFunction& function,
-                            const core::Progress& progress = {});
 
 /// Critical points, diagram, complex and segments of one field; each step's seconds are appended to
 /// `timings`.
@@ -115,6 +112,7 @@ struct ComparisonPlan {
   bool snap = false;
   std::vector<std::vector<RowCount>> counts;  ///< by row
   Registry registry;                          ///< a copy of the one that it was made with
+  std::optional<PointsPlan> points = {};
 };
 
 /// Throws InvalidArgument on unknown names and keys, bad values, a target of 0, and the name of no earlier
@@ -125,16 +123,5 @@ ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registr
 /// methods and sinks throw.
 void run_comparison(const core::LoadedMesh& loaded, const ComparisonPlan& plan,
                     const std::vector<ComparisonSink*>& sinks, const core::Progress& progress = {});
-
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace morsel::tools

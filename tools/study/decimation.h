@@ -14,8 +14,8 @@ namespace morsel::tools {
 /// boundary vertices along the boundary only, and turns no triangle by more than about 78°.
 ///
 /// `source` numbers the vertices that are left as the file does. Depends on the mesh, the seed and the trial
-/// alone. O(n log n). Throws BadInput if no edge can be collapsed any more before enough vertices are
-/// removed.
+/// alone. O(n log n) as a rule, around vertices of very large degree too. Throws BadInput if no edge can be
+/// collapsed any more before enough vertices are removed.
 core::LoadedMesh decimated(const core::LoadedMesh& clean, double share, std::uint64_t seed,
                            std::uint64_t trial);
 

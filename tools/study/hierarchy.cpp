@@ -17,25 +17,24 @@ using core::InvalidArgument;
 constexpr std::int64_t kMostIterations = 1'000'000;
 constexpr std::int64_t kLargestCount = std::int64_t{1} << 40;
 
-[[noreturn]] void refuse_list(const std::string& option, const std::string& text) {
-  throw InvalidArgument(option + " is a list such as 1,5,10, not \"" + text + "\"");
+[[noreturn]] void refuse_list(const std::string& what, const std::string& text) {
+  throw InvalidArgument("the " + what + " are a list such as 1,5,10, not \"" + text + "\"");
 }
 
-[[noreturn]] void refuse_repeated(const std::string& option, const std::string& text,
-                                  const std::string& item) {
-  throw InvalidArgument(option + " " + text + " has " + item + " twice");
+[[noreturn]] void refuse_repeated(const std::string& what, const std::string& text, const std::string& item) {
+  throw InvalidArgument("the " + what + " " + text + " have " + item + " twice");
 }
 
 /// The texts that commas separate, each read by `parse`; throws if one is there twice.
 template <class Parse>
-auto parse_list(const std::string& text, const std::string& option, const Parse& parse) {
+auto parse_list(const std::string& text, const std::string& what, const Parse& parse) {
   std::vector<decltype(parse(text))> items;
   for (std::size_t first = 0; first <= text.size();) {
     const std::size_t comma = std::min(text.find(',', first), text.size());
     const std::string item = text.substr(first, comma - first);
-    if (item.empty()) refuse_list(option, text);
+    if (item.empty()) refuse_list(what, text);
     items.push_back(parse(item));
-    if (std::ranges::count(items, items.back()) > 1) refuse_repeated(option, text, item);
+    if (std::ranges::count(items, items.back()) > 1) refuse_repeated(what, text, item);
     first = comma + 1;
   }
   return items;
@@ -51,7 +50,7 @@ std::int64_t parse_whole(const std::string& text, const std::string& what, std::
 }
 
 std::vector<int> parse_iterations(const std::string& text) {
-  std::vector<int> iterations = parse_list(text, "--levels", [](const std::string& item) {
+  std::vector<int> iterations = parse_list(text, "levels", [](const std::string& item) {
     return static_cast<int>(parse_whole(item, "a level by iteration", 0, kMostIterations));
   });
   std::ranges::sort(iterations);
@@ -59,13 +58,13 @@ std::vector<int> parse_iterations(const std::string& text) {
 }
 
 std::vector<persistence::Threshold> parse_thresholds(const std::string& text) {
-  return parse_list(text, "--levels", [](const std::string& item) {
+  return parse_list(text, "levels", [](const std::string& item) {
     return persistence::parse_threshold(item, "a level by persistence");
   });
 }
 
 std::vector<std::size_t> parse_counts(const std::string& text) {
-  return parse_list(text, "--counts", [](const std::string& item) {
+  return parse_list(text, "counts", [](const std::string& item) {
     return static_cast<std::size_t>(parse_whole(item, "a count of critical cells", 1, kLargestCount));
   });
 }
@@ -99,13 +98,14 @@ HierarchyRequest with_defaults(HierarchyRequest request) {
 HierarchyPlan prepare(const HierarchyRequest& given, const Registry& registry) {
   const bool by_iteration = given.kind == HierarchyKind::iteration;
   if (by_iteration && !given.counts.empty())
-    throw InvalidArgument("--counts are levels by persistence: give them with --by persistence");
+    throw InvalidArgument("counts go with levels by persistence, not by iteration");
   if (by_iteration && given.field.target)
     throw InvalidArgument(
-        "--target ends a method at that many critical points, so that levels by iteration "
-        "would be missing: give it with --by persistence");
+        "a target ends a method at that many critical points, so that levels by iteration would be missing: "
+        "it "
+        "goes with levels by persistence");
   if (!given.levels.empty() && !given.counts.empty())
-    throw InvalidArgument("levels by persistence are given by --levels or by --counts, not by both");
+    throw InvalidArgument("levels by persistence are given as levels or as counts, not as both");
   HierarchyRequest request = with_defaults(given);
   HierarchyPlan plan{{}, request.kind, {}, {}, {}};
   if (by_iteration) {

@@ -18,14 +18,10 @@ using core::Index;
 using core::InvalidArgument;
 using core::ScalarField;
 
-bool is_iterative(const std::string& method, const Registry& registry) {
-  return std::ranges::count(registry.keys_of_method(method), "iterations") > 0;
-}
-
 std::string iterative_methods(const Registry& registry) {
   std::string names;
   for (const MethodEntry& entry : registry.methods())
-    if (is_iterative(entry.name, registry)) names += (names.empty() ? "" : ", ") + entry.name;
+    if (registry.traits_of_method(entry.name).iterates) names += (names.empty() ? "" : ", ") + entry.name;
   return names;
 }
 
@@ -104,24 +100,18 @@ class LevelCollector {
   int reached_ = -1;
 };
 
-std::string stopped_by(const StepOutcome& step) {
-  for (const auto& [name, value] : step.details)
-    if (name == "stopped_by") return std::get<std::string>(value);
-  return "";
-}
-
 }  // namespace
 
 std::string with_iterations(const std::string& method, int needed, const Registry& registry) {
-  registry.make_method(method);  // unknown names and keys are reported before all other errors
-  const std::vector<core::Specification> chain = core::parse_chain(method, "--method");
+  const bool iterates = registry.make_method(method).steps.back().method->traits().iterates;
+  const std::vector<core::Specification> chain = core::parse_chain(method, "the method");
   const core::Specification& last = chain.back();
-  if (!is_iterative(last.name, registry))
+  if (!iterates)
     throw InvalidArgument(last.name + " has no iterations that could be levels; the methods that have: " +
                           iterative_methods(registry));
   for (const auto& [key, value] : last.given) {
-    if (key != "iterations") continue;
-    if (core::parse_integer(core::unescape(value), last.name + ":iterations") < needed)
+    if (key != core::kIterationsKey) continue;
+    if (core::parse_integer(core::unescape(value), last.name + ":" + key) < needed)
       throw InvalidArgument(last.name + " is given " + value + " iterations, so that level " +
                             std::to_string(needed) + " is never reached: give it more or leave them out");
     return method;
@@ -140,10 +130,12 @@ IterationLevels iteration_levels(const MethodChain& chain, const core::LoadedMes
   };
   ChainOutcome outcome = apply_chain(chain, loaded, function, input, options, progress);
   const std::string& name = chain.steps.back().name;
-  if (!collector.is_complete())
-    throw InvalidArgument(name + " ended after " + std::to_string(collector.reached()) + " iterations (" +
-                          stopped_by(outcome.steps.back()) + "), so that level " +
+  if (!collector.is_complete()) {
+    const std::optional<core::IterationEnd>& end = outcome.steps.back().end;
+    throw InvalidArgument(name + " ended after " + std::to_string(collector.reached()) + " iterations" +
+                          (end ? " (" + end->stopped_by + ")" : "") + ", so that level " +
                           std::to_string(levels.back()) + " was not reached");
+  }
   const ScalarField& last = collector.last_field();
   if (!std::ranges::equal(outcome.field.values(), last.values()) ||
       !std::ranges::equal(outcome.field.ranks(), last.ranks()))

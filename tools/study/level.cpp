@@ -1,15 +1,16 @@
 #include "morsel/tools/study/level.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace morsel::tools {
 
 using core::Index;
 
-std::string_view to_string(CellKind kind) {
-  constexpr std::array<std::string_view, kCellKinds.size()> kNames = {"descending", "ascending",
-                                                                      "morse_smale"};
-  return kNames[static_cast<std::size_t>(kind)];
+std::string key_of(SegmentKind kind) {
+  std::string key = to_string(kind);
+  std::ranges::replace(key, '-', '_');
+  return key;
 }
 
 std::string_view to_string(PointStatus status) {
@@ -17,31 +18,31 @@ std::string_view to_string(PointStatus status) {
   return kNames[static_cast<std::size_t>(status)];
 }
 
-const mscomplex::SegmentLabels& Level::cells(CellKind kind) const {
+const mscomplex::SegmentLabels& Level::cells(SegmentKind kind) const {
   switch (kind) {
-    case CellKind::descending:
+    case SegmentKind::descending:
       return segmentation.descending;
-    case CellKind::ascending:
+    case SegmentKind::ascending:
       return segmentation.ascending;
-    case CellKind::morse_smale:
+    case SegmentKind::morse_smale:
       break;
   }
   return segmentation.morse_smale;
 }
 
-Index Level::label_count(CellKind kind) const {
+Index Level::label_count(SegmentKind kind) const {
   switch (kind) {
-    case CellKind::descending:
+    case SegmentKind::descending:
       return complex.maximum_count() + complex.cap_count();
-    case CellKind::ascending:
+    case SegmentKind::ascending:
       return complex.minimum_count();
-    case CellKind::morse_smale:
+    case SegmentKind::morse_smale:
       break;
   }
   return segmentation.morse_smale.count;
 }
 
-std::vector<Index> Level::labels(CellKind kind) const {
+std::vector<Index> Level::labels(SegmentKind kind) const {
   const mscomplex::SegmentLabels& labels = cells(kind);
   std::vector<Index> carried(label_count(kind));
   std::iota(carried.begin(), carried.end(), Index{0});

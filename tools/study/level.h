@@ -36,11 +36,10 @@ struct LevelName {
   std::string note = {};  ///< why it differs from the request; empty if it does not
 };
 
-/// The segments of a level: by maximum, by minimum, by both.
-enum class CellKind : std::uint8_t { descending, ascending, morse_smale };
-inline constexpr std::array kCellKinds = {CellKind::descending, CellKind::ascending, CellKind::morse_smale};
-/// "descending", "ascending", "morse_smale".
-std::string_view to_string(CellKind kind);
+using mscomplex::SegmentKind;
+
+/// The name of a kind of segments as a key of documents: "morse_smale", not "morse-smale".
+std::string key_of(SegmentKind kind);
 
 /// The cells of one kind, by label, with the cells of the level before (finer) and after (coarser) that they
 /// share the largest area with; of equally large ones that of smallest label. kNone where there is no such
@@ -71,15 +70,15 @@ struct Level {
   mscomplex::MorseSmaleComplex complex;
   mscomplex::Segmentation segmentation;
   core::Index quad_cells = 0;  ///< quads of the complex that have area
-  std::array<CellLinks, kCellKinds.size()> links;
+  std::array<CellLinks, mscomplex::kSegmentKinds.size()> links;
   Timings timings;
 
-  const mscomplex::SegmentLabels& cells(CellKind kind) const;
-  const CellLinks& cell_links(CellKind kind) const { return links[static_cast<std::size_t>(kind)]; }
+  const mscomplex::SegmentLabels& cells(SegmentKind kind) const;
+  const CellLinks& cell_links(SegmentKind kind) const { return links[static_cast<std::size_t>(kind)]; }
   /// Labels are below this number, which counts also those that no triangle carries; cells().count does not.
-  core::Index label_count(CellKind kind) const;
+  core::Index label_count(SegmentKind kind) const;
   /// The labels that triangles carry, ascending; as many as cells().count. O(n).
-  std::vector<core::Index> labels(CellKind kind) const;
+  std::vector<core::Index> labels(SegmentKind kind) const;
 
   PointStatus status(std::size_t point) const;
   std::size_t count(PointStatus status) const;

@@ -39,14 +39,14 @@ Level make_level(LevelSeed seed, std::size_t place, const core::Progress& progre
           std::move(timings)};
 }
 
-CellLinks unlinked(const Level& level, CellKind kind, const std::vector<double>& areas) {
+CellLinks unlinked(const Level& level, SegmentKind kind, const std::vector<double>& areas) {
   const core::Index count = level.label_count(kind);
   return {mscomplex::segment_areas(level.cells(kind).triangle, count, areas),
           std::vector<mscomplex::Overlap>(count), std::vector<mscomplex::Overlap>(count)};
 }
 
 void link(Level& finer, Level& coarser, const std::vector<double>& areas) {
-  for (const CellKind kind : kCellKinds) {
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) {
     const auto k = static_cast<std::size_t>(kind);
     const mscomplex::OverlapTable table =
         mscomplex::overlaps(finer.cells(kind).triangle, finer.label_count(kind), coarser.cells(kind).triangle,
@@ -67,7 +67,7 @@ void build_levels(std::vector<LevelSeed> seeds, const std::function<void(const L
   for (std::size_t place = 0; place < seeds.size(); ++place) {
     Level level = make_level(std::move(seeds[place]), place, progress);
     const Stopwatch watch;
-    for (const CellKind kind : kCellKinds)
+    for (const SegmentKind kind : mscomplex::kSegmentKinds)
       level.links[static_cast<std::size_t>(kind)] = unlinked(level, kind, areas);
     if (before) link(*before, level, areas);
     level.timings.emplace_back("links", watch.seconds());

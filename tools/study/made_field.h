@@ -34,6 +34,7 @@ struct MadeField {
   double method_seconds = 0;
 
   const core::ScalarField& field() const { return outcome.field; }
+  PointsField for_points() const { return {input.name, outcome.field, outcome.steps}; }
 };
 
 /// Evaluates the function and applies the chain. Throws what functions and methods throw.

@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
-#include <variant>
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/morse/functions/curvature.h"
 #include "morsel/morse/smoothing/saliency.h"
+#include "morsel/tools/study/made_field.h"
 
 namespace morsel::tools {
 namespace {
@@ -22,15 +23,13 @@ using morse::PointRank;
 /// σ of the last step of the method that has one.
 std::optional<double> sigma_of(const std::vector<StepOutcome>& steps) {
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-    for (const auto& [key, value] : step->parameters)
-      if (const double* sigma = std::get_if<double>(&value); key == "sigma" && sigma != nullptr)
-        return *sigma;
+    if (step->sigma) return step->sigma;
   return std::nullopt;
 }
 
-core::Length salience_scale(const PointsRequest& request, const MadeField& made) {
+core::Length salience_scale(const PointsRequest& request, const PointsField& from) {
   if (request.scale) return *request.scale;
-  const std::optional<double> sigma = sigma_of(made.outcome.steps);
+  const std::optional<double> sigma = sigma_of(from.steps);
   return sigma ? core::Length::absolute(*sigma) : core::Length::epsilons(8);
 }
 
@@ -47,13 +46,12 @@ std::string counted(std::size_t count, PointKind kind) {
   return core::grouped(count) + " " + (count == 1 ? one : several);
 }
 
-std::string why_fewer(const PointsRequest& request, const MadePoints& made, const MadeField& field) {
+std::string why_fewer(PointKind kind, std::size_t count, const MadePoints& made, const std::string& name) {
   const std::size_t found = made.chosen.points.size();
-  std::string text = core::grouped(found) + " of " + core::grouped(request.count) + " points: ";
+  std::string text = core::grouped(found) + " of " + core::grouped(count) + " points: ";
   for (std::size_t list = 0; list < made.candidates.size(); ++list) {
     if (list > 0) text += "; ";
-    text += (list == 0 ? field.input.name : made.fill->name) + " has " +
-            counted(made.candidates[list], request.kind) + " that " +
+    text += (list == 0 ? name : made.fill->name) + " has " + counted(made.candidates[list], kind) + " that " +
             (made.candidates[list] <= 1 ? "stands" : "stand") + " out at all";
     if (const std::size_t near = made.chosen.too_near[list]; near > 0)
       text += ", of which " + core::grouped(near) + (near == 1 ? " is" : " are") + " nearer than " +
@@ -76,8 +74,12 @@ PointsPlan prepare(const PointsRequest& request, const Registry& registry) {
     throw core::InvalidArgument("the scale of salience must be above 0, not " +
                                 core::to_string(*request.scale));
   PointsPlan plan{request, std::nullopt};
-  if (request.fill) plan.fill = registry.make_function(*request.fill);
+  if (request.fill) plan.fill = registry.make_function(*request.fill, "the Morse function that fills up");
   return plan;
+}
+
+std::optional<double> MadePoints::percentile(std::size_t i) const {
+  return has_percentiles ? std::optional(percentiles[i]) : std::nullopt;
 }
 
 std::optional<double> MadePoints::mean_percentile() const {
@@ -102,34 +104,51 @@ std::vector<double> saliency_percentiles(const core::TriangleMesh& mesh, const c
   return percentiles;
 }
 
-MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
-                       const core::Progress& progress) {
-  const PointsRequest& request = plan.request;
-  const core::TriangleMesh& mesh = loaded.mesh;
-  MadePoints result;
-  std::vector<double> weight;
-  if (request.rank == PointRank::salience) {
-    const core::Length scale = salience_scale(request, made);
-    result.scale = scale.on(mesh);
-    weight = morse::mesh_salience(mesh, scale, progress);
+const std::vector<double>& PointMaker::salience_at(core::Length scale, const core::Progress& progress) {
+  std::vector<double>& weight = weights_[scale.on(loaded_.mesh)];
+  if (weight.empty()) {
+    if (!salience_) salience_.emplace(loaded_.mesh, progress);
+    weight = salience_->at(scale, progress);
   }
-  morse::PointChooser chooser(mesh, request.count, request.spacing.on(mesh));
+  return weight;
+}
+
+MadePoints PointMaker::make(const PointsField& from, std::size_t count, const core::Progress& progress) {
+  const PointsRequest& request = plan_.request;
+  const core::TriangleMesh& mesh = loaded_.mesh;
+  MadePoints result;
+  std::span<const double> weight;
+  if (request.rank == PointRank::salience) {
+    const core::Length scale = salience_scale(request, from);
+    result.scale = scale.on(mesh);
+    weight = salience_at(scale, progress);
+  }
+  morse::PointChooser chooser(mesh, count, request.spacing.on(mesh));
   const auto add = [&](const core::ScalarField& field) {
     const auto candidates = morse::point_candidates(field, request.kind, weight, progress);
     result.candidates.push_back(candidates.size());
     chooser.add(candidates, progress);
   };
-  add(made.field());
-  if (plan.fill && chooser.missing() > 0) {
-    result.fill = evaluate_field(loaded, *plan.fill, progress);
-    add(result.fill->field);
+  add(from.field);
+  if (plan_.fill && chooser.missing() > 0) {
+    if (!fill_) fill_ = evaluate_field(loaded_, *plan_.fill, progress);
+    result.fill = fill_;
+    add(fill_->field);
   }
   result.chosen = chooser.finish();
-  if (result.chosen.points.size() < request.count) result.note = why_fewer(request, result, made);
-  const std::vector<double> percentiles = saliency_percentiles(mesh, progress);
+  if (result.chosen.points.size() < count) result.note = why_fewer(request.kind, count, result, from.name);
   for (const morse::ChosenPoint& point : result.chosen.points)
-    result.percentiles.push_back(percentiles[point.candidate.point.vertex]);
+    result.places.push_back(point.candidate.point.vertex);
+  result.has_percentiles = request.percentiles;
+  if (!request.percentiles) return result;
+  if (percentiles_.empty()) percentiles_ = saliency_percentiles(mesh, progress);
+  for (const core::Index v : result.places) result.percentiles.push_back(percentiles_[v]);
   return result;
+}
+
+MadePoints make_points(const PointsPlan& plan, const core::LoadedMesh& loaded, const MadeField& made,
+                       const core::Progress& progress) {
+  return PointMaker(plan, loaded).make(made.for_points(), progress);
 }
 
 }  // namespace morsel::tools

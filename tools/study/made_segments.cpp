@@ -1,7 +1,6 @@
 #include "morsel/tools/study/made_segments.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,8 +16,6 @@ using mscomplex::Segmenter;
 using mscomplex::SegmentKind;
 
 namespace {
-
-constexpr std::array<const char*, 3> kNames = {"descending", "ascending", "morse-smale"};  // as SegmentKind
 
 core::Index level_for(const Segmenter& segmenter, const SegmentRequest& request,
                       const core::ScalarField& field) {
@@ -53,15 +50,6 @@ std::string why_more(SegmentKind kind) {
 }
 
 }  // namespace
-
-std::string to_string(SegmentKind kind) { return kNames[static_cast<std::size_t>(kind)]; }
-
-SegmentKind parse_segment_kind(const std::string& word) {
-  const auto found = std::find(kNames.begin(), kNames.end(), word);
-  if (found == kNames.end())
-    throw core::InvalidArgument("segments are descending, ascending or morse-smale, not \"" + word + "\"");
-  return static_cast<SegmentKind>(found - kNames.begin());
-}
 
 void check(const SegmentRequest& request) {
   if (request.segments && request.persistence)

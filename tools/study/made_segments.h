@@ -21,11 +21,6 @@ struct SegmentRequest {
   std::optional<persistence::Threshold> persistence;
 };
 
-/// "descending", "ascending", "morse-smale": as in the syntax of the command line.
-std::string to_string(mscomplex::SegmentKind kind);
-/// Throws InvalidArgument for another word.
-mscomplex::SegmentKind parse_segment_kind(const std::string& word);
-
 struct MadeSegments {
   mscomplex::PersistenceHierarchy hierarchy;
   mscomplex::Segments segments = {};

@@ -1,5 +1,6 @@
 #include "morsel/tools/study/point_matching.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -131,6 +132,25 @@ class Assignment {
 
 }  // namespace
 
+std::vector<PointPair> match_in_reach(std::span<const std::vector<InReach>> reach,
+                                      std::size_t reference_count, double radius) {
+  std::vector<std::vector<Reach>> rows(reach.size());
+  for (std::size_t j = 0; j < reach.size(); ++j)
+    for (const auto& [i, distance] : reach[j]) {
+      const double share = radius > 0 ? distance / radius : 0;
+      rows[j].push_back({i, std::llround(std::ldexp(share, kRadiusBits))});
+    }
+  const Assignment assignment(rows, reference_count);
+  std::vector<PointPair> pairs;
+  for (std::size_t j = 0; j < reach.size(); ++j) {
+    const Index i = assignment.columns()[j];
+    if (i == core::kNone) continue;
+    const auto pair = std::ranges::find(reach[j], i, &InReach::reference);
+    pairs.push_back({i, j, pair->distance});
+  }
+  return pairs;
+}
+
 PointMatcher::PointMatcher(std::span<const core::Point> reference, double radius)
     : reference_(reference.begin(), reference.end()), search_(reference), radius_(radius) {
   if (!(radius >= 0))
@@ -138,22 +158,14 @@ PointMatcher::PointMatcher(std::span<const core::Point> reference, double radius
 }
 
 std::vector<PointPair> PointMatcher::match(std::span<const core::Point> other) const {
-  std::vector<std::vector<Reach>> rows(other.size());
+  std::vector<std::vector<InReach>> reach(other.size());
   std::vector<Index> near;
-  const auto distance = [&](std::size_t j, Index i) { return (reference_[i] - other[j]).norm(); };
   for (std::size_t j = 0; j < other.size(); ++j) {
     core::throw_if_stopped();
     search_.within(other[j], radius_, near);
-    for (const Index i : near) {
-      const double share = radius_ > 0 ? distance(j, i) / radius_ : 0;
-      rows[j].push_back({i, std::llround(std::ldexp(share, kRadiusBits))});
-    }
+    for (const Index i : near) reach[j].push_back({i, (reference_[i] - other[j]).norm()});
   }
-  const Assignment assignment(rows, reference_.size());
-  std::vector<PointPair> pairs;
-  for (std::size_t j = 0; j < other.size(); ++j)
-    if (const Index i = assignment.columns()[j]; i != core::kNone) pairs.push_back({i, j, distance(j, i)});
-  return pairs;
+  return match_in_reach(reach, reference_.size(), radius_);
 }
 
 }  // namespace morsel::tools

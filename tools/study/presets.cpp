@@ -20,7 +20,8 @@ constexpr std::size_t kModesPerPoint = 2;  // whose weights fall to 1e-6
 
 /// With three digits, as users would write it.
 std::string length_text(const core::Length& length) {
-  return core::to_string(core::Length{core::parse_number(core::to_digits(length.value, 3), "length"), length.unit});
+  return core::to_string(
+      core::Length{core::parse_number(core::to_digits(length.value, 3), "length"), length.unit});
 }
 
 /// The area over which heat has spread after a time: of the surface alone, whatever its triangulation.

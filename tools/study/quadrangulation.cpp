@@ -33,9 +33,13 @@ std::string plural(std::size_t count, const char* one, const char* many) {
 QuadPlan prepare(const QuadRequest& request) {
   QuadPlan plan;
   if (!request.persistence.empty())
-    plan.persistence = persistence::parse_threshold(request.persistence, "--persistence");
-  if (request.resolution < 2) throw core::InvalidArgument("--resolution must be 2 or more");
-  if (request.relaxation < 0) throw core::InvalidArgument("--relaxation must be 0 or more");
+    plan.persistence = persistence::parse_threshold(request.persistence, "the persistence");
+  if (request.resolution < 2)
+    throw core::InvalidArgument("the resolution must be 2 or more, not " +
+                                std::to_string(request.resolution));
+  if (request.relaxation < 0)
+    throw core::InvalidArgument("the relaxation must be 0 or more, not " +
+                                std::to_string(request.relaxation));
   plan.resolution = request.resolution;
   plan.relaxation = request.relaxation;
   return plan;
@@ -45,7 +49,7 @@ Quadrangulation quadrangulate(const core::ScalarField& field, const QuadPlan& pl
                               const core::Progress& progress) {
   if (!field.mesh().is_closed() && (plan.resolution % 2 != 0 || plan.resolution < 4))
     throw core::InvalidArgument(
-        "--resolution must be 4 or more and even on a surface with boundary loops, where patches have five "
+        "the resolution must be 4 or more and even on a surface with boundary loops, where patches have five "
         "sides and are cut into five at their middles");
   const Stopwatch layout_watch;
   Simplified simplified = simplify(field, plan, progress);
@@ -93,6 +97,9 @@ std::string described(const Quadrangulation& result, double diagonal) {
     text +=
         "        " + plural(result.layout.missed, "arc follows", "arcs follow") +
         " the path through the fewest triangles, as double precision does not suffice for a straight line\n";
+  if (result.layout.left > 0)
+    text += "        relaxations left a node in place " + plural(result.layout.left, "time", "times") +
+            ", as its arcs would need too many triangles\n";
   text += "quads: " + core::grouped(result.mesh.quads.size()) + " on " +
           core::grouped(result.mesh.positions.size()) + " vertices, of which " +
           core::grouped(q.extraordinary) + " extraordinary; by valence";

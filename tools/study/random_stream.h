@@ -7,7 +7,15 @@
 namespace morsel::tools {
 
 /// The use that random numbers are drawn for.
-enum class RandomUse : std::uint8_t { normal_noise, isotropic_noise, decimation, placement };
+enum class RandomUse : std::uint8_t {
+  normal_noise,
+  isotropic_noise,
+  decimation,
+  placement,
+  random_points,
+  spread_points,
+  bootstrap
+};
 
 /// A sequence of random numbers that is named by a seed, a use and a place (which trial, which vertex …), so
 /// that each place has its own numbers whatever else is drawn. SplitMix64 (Steele, Lea, Flood 2014, "Fast

@@ -20,7 +20,6 @@
 #include "morsel/morse/smoothing/gaussian.h"
 #include "morsel/morse/smoothing/saliency.h"
 #include "morsel/morse/smoothing/salient.h"
-#include "morsel/morse/smoothing/salient_method.h"
 #include "morsel/morse/smoothing/spectral.h"
 #include "morsel/persistence/cancellation.h"
 
@@ -31,30 +30,31 @@ std::vector<FunctionEntry> standard_functions() {
   return {
       FunctionEntry{"atomic-density",
                     "density of the atoms around a molecular surface (Natarajan et al. 2006)",
-                    morse::make_atomic_density, "structure"},
+                    morse::make_atomic_density},
       FunctionEntry{"curvedness", "how strongly the surface bends (Koenderink, van Doorn 1992)",
-                    morse::make_curvedness},
+                    morse::make_curvedness, "1/length"},
       FunctionEntry{"eigenfunction",
                     "eigenfunction of the Laplacian (Dong et al. 2006), the lowest by default",
                     morse::make_eigenfunction},
       FunctionEntry{"gaussian-curvature",
                     "Gaussian curvature, the angle defect (Meyer et al. 2003), or diffused",
-                    morse::make_gaussian_curvature},
+                    morse::make_gaussian_curvature, "1/length²"},
       FunctionEntry{"geodesic", "distance along the surface, from sources or on average (Crane et al. 2013)",
-                    morse::make_geodesic},
+                    morse::make_geodesic, "length"},
       FunctionEntry{"heat-kernel-signature",
                     "the heat that is left at its source after a time (Sun et al. 2009)",
-                    morse::make_heat_kernel_signature},
-      FunctionEntry{"height", "distance along an axis or a direction", morse::make_height},
-      FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature},
+                    morse::make_heat_kernel_signature, "1/length²"},
+      FunctionEntry{"height", "distance along an axis or a direction", morse::make_height, "length"},
+      FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature,
+                    "1/length"},
       FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
-                    morse::make_principal_curvature},
+                    morse::make_principal_curvature, "1/length"},
       FunctionEntry{"shape-index", "cap 1, ridge, saddle 0, rut, cup -1 (Koenderink, van Doorn 1992)",
                     morse::make_shape_index},
       FunctionEntry{"vertex-scalar", "values from a text file or from a property of the mesh's PLY file",
-                    morse::make_vertex_scalar, "file"},
+                    morse::make_vertex_scalar},
       FunctionEntry{"wave-kernel-signature", "how likely a particle of an energy is met (Aubry et al. 2011)",
-                    morse::make_wave_kernel_signature},
+                    morse::make_wave_kernel_signature, "1/length²"},
   };
 }
 
@@ -102,10 +102,9 @@ void check_new(const Entries& entries, const std::string& name, const std::strin
     throw core::InvalidArgument("there is a " + kind + " of the name " + name + " already");
 }
 
-/// Makes the entry and throws on keys that it does not declare.
+/// Makes the entry by `reader` and throws on keys that it does not declare.
 template <class Entry>
-auto make_entry(const Entry& entry, core::Specification specification) {
-  core::ParameterReader reader(std::move(specification));
+auto make_entry(const Entry& entry, core::ParameterReader& reader) {
   auto made = entry.make(reader);
   reader.finish();
   return made;
@@ -138,6 +137,10 @@ std::string describe(const Entry& entry) {
 
 }  // namespace
 
+std::string MethodChain::quantity() const {
+  return steps.empty() ? "" : steps.back().method->traits().quantity;
+}
+
 const Registry& Registry::standard() {
   static const Registry registry = [] {
     Registry made;
@@ -160,18 +163,21 @@ Registry& Registry::add(MethodEntry entry) {
   return *this;
 }
 
-NamedFunction Registry::make_function(std::string_view specification) const {
-  core::Specification parsed = core::parse_specification(specification, "--field");
+NamedFunction Registry::make_function(std::string_view specification, std::string_view what) const {
+  core::Specification parsed = core::parse_specification(specification, what);
   const FunctionEntry& entry = find_entry(functions_, parsed.name, "Morse function");
-  return {std::string(specification), entry.name, make_entry(entry, std::move(parsed)), entry.file_key};
+  core::ParameterReader reader(std::move(parsed));
+  auto function = make_entry(entry, reader);
+  return {std::string(specification), entry.name, std::move(function), reader.files(), entry.unit};
 }
 
-MethodChain Registry::make_method(std::string_view specification) const {
+MethodChain Registry::make_method(std::string_view specification, std::string_view what) const {
   MethodChain chain{std::string(specification), "", {}};
-  for (core::Specification& link : core::parse_chain(specification, "--method")) {
+  for (core::Specification& link : core::parse_chain(specification, what)) {
     const MethodEntry& entry = find_entry(methods_, link.name, "method");
     const std::string text = core::to_string(link);
-    MethodStep step{entry.name, make_entry(entry, std::move(link))};
+    core::ParameterReader reader(std::move(link));
+    MethodStep step{entry.name, make_entry(entry, reader)};
     if (step.method->traits().reevaluates_function && !chain.steps.empty())
       throw core::InvalidArgument(text +
                                   " evaluates the Morse function again and does not use the field of " +
@@ -188,6 +194,11 @@ std::vector<std::string> Registry::keys_of_function(const std::string& name) con
 
 std::vector<std::string> Registry::keys_of_method(const std::string& name) const {
   return keys_of(find_entry(methods_, name, "method"));
+}
+
+core::MethodTraits Registry::traits_of_method(const std::string& name) const {
+  core::ParameterReader reader = core::ParameterReader::for_help(name);
+  return find_entry(methods_, name, "method").make(reader)->traits();
 }
 
 std::string Registry::describe_function(const std::string& name) const {

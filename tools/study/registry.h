@@ -19,7 +19,7 @@ struct FunctionEntry {
   std::string summary;  ///< one line for help
   /// Reads the keys, each with a default, and makes the function. Throws InvalidArgument.
   std::function<std::unique_ptr<core::MorseFunction>(core::ParameterReader&)> make;
-  std::string file_key = {};  ///< the key that names a file to read, if there is one
+  std::string unit = {};  ///< of its values, in terms of the mesh's ("1/length"); empty if none or unknown
 };
 
 struct MethodEntry {
@@ -33,7 +33,8 @@ struct NamedFunction {
   std::string specification;  ///< as given
   std::string name;
   std::unique_ptr<core::MorseFunction> function;
-  std::string file_key = {};  ///< its entry's
+  std::vector<core::FileParameter> files = {};  ///< that it is going to read
+  std::string unit = {};                        ///< its entry's
 };
 
 /// One step of a chain of methods.
@@ -47,6 +48,9 @@ struct MethodChain {
   std::string specification;  ///< as given
   std::string name;           ///< "salient+tps"
   std::vector<MethodStep> steps;
+
+  /// MethodTraits::quantity of the last step.
+  std::string quantity() const;
 };
 
 /// A value: copies are independent. Looking up is thread-safe, adding is not.
@@ -63,13 +67,17 @@ class Registry {
   std::span<const MethodEntry> methods() const { return methods_; }
 
   /// Throw InvalidArgument on unknown names and keys, listing the valid ones, and on bad values. They touch
-  /// no file.
-  NamedFunction make_function(std::string_view specification) const;
-  MethodChain make_method(std::string_view specification) const;
+  /// no file. `what` names the text in errors.
+  NamedFunction make_function(std::string_view specification,
+                              std::string_view what = "the Morse function") const;
+  MethodChain make_method(std::string_view specification, std::string_view what = "the method") const;
 
   /// The keys that a Morse function or method has. Throw InvalidArgument if there is none of that name.
   std::vector<std::string> keys_of_function(const std::string& name) const;
   std::vector<std::string> keys_of_method(const std::string& name) const;
+
+  /// The traits that a method has with its defaults. Throws InvalidArgument as above.
+  core::MethodTraits traits_of_method(const std::string& name) const;
 
   /// An entry with its keys, defaults and descriptions, as help shows it. Throw InvalidArgument as above.
   std::string describe_function(const std::string& name) const;

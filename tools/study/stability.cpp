@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
-#include <exception>
 #include <numeric>
-#include <thread>
 #include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/mesh/length.h"
-#include "morsel/core/parallel/parallel.h"
 #include "morsel/core/rethrow.h"
 #include "morsel/tools/study/point_matching.h"
 #include "morsel/tools/study/random_stream.h"
+#include "morsel/tools/study/tasks.h"
 
 namespace morsel::tools {
 namespace {
@@ -86,10 +83,6 @@ double matches_by_chance(const CleanPoints& clean, const PointsByType& found, st
   return sum / kPlacements;
 }
 
-double ratio(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 1 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
 /// The trials of one run, those of all perturbations one after the other.
 class Trials {
  public:
@@ -103,29 +96,11 @@ class Trials {
         outcome.perturbations.push_back({perturbation, std::vector<Trial>(plan.trials_of(perturbation))});
   }
 
-  /// Of several errors that of the first trial is thrown: trials before a failed one are always run.
   void run(const core::Progress& progress) {
-    const std::thread::id caller = std::this_thread::get_id();
-    // A trial can be cancelled with the others, but only the caller's thread may report progress.
-    const core::Progress silent = progress.unreported();
-    std::vector<std::exception_ptr> errors(trials_.size());
-    std::atomic<std::size_t> first_error = trials_.size();
-    std::atomic<std::size_t> done = 0;
-    progress.update("trials", 0);
-    core::parallel_for(0, trials_.size(), 1, [&](std::size_t i, std::size_t) {
-      if (i > first_error) return;
-      try {
-        run_trial(trials_[i].first, trials_[i].second, silent);
-      } catch (...) {
-        errors[i] = std::current_exception();
-        for (std::size_t seen = first_error; i < seen && !first_error.compare_exchange_weak(seen, i);) {
-        }
-      }
-      const std::size_t count = ++done;
-      if (std::this_thread::get_id() == caller && first_error == trials_.size())
-        progress.update("trials", ratio(count, trials_.size()));
-    });
-    if (first_error < trials_.size()) std::rethrow_exception(errors[first_error]);
+    const auto run_one = [&](std::size_t i, const core::Progress& silent) {
+      run_trial(trials_[i].first, trials_[i].second, silent);
+    };
+    run_tasks(trials_.size(), "trials", run_one, progress);
   }
 
  private:
@@ -236,14 +211,6 @@ std::vector<CleanPoints> run_clean(const core::LoadedMesh& clean, const Stabilit
 
 std::string_view to_string(PointChoice points) { return points == PointChoice::all ? "all" : "extrema"; }
 
-double Agreement::recall() const { return ratio(matched, reference); }
-double Agreement::precision() const { return ratio(matched, found); }
-double Agreement::f_score() const { return ratio(2 * matched, reference + found); }
-std::optional<double> Agreement::drift() const {
-  if (matched == 0) return {};
-  return distances / static_cast<double>(matched);
-}
-
 Estimate PerturbationOutcome::recall() const {
   return over_trials([](const Trial& t) { return std::optional(t.agreement.recall()); });
 }
@@ -281,14 +248,14 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
                      {std::nullopt},
                      request.trials,
                      request.seed,
-                     core::parse_length(request.radius, "--radius"),
+                     core::parse_length(request.radius, "the matching radius"),
                      request.points,
                      {},
-                     registry.make_method(request.reference)};
+                     registry.make_method(request.reference, "the reference method")};
   if (!request.reference_field.empty())
-    plan.reference_function = registry.make_function(request.reference_field);
+    plan.reference_function = registry.make_function(request.reference_field, "the reference Morse function");
   if (!(plan.radius.value >= 0))
-    throw core::InvalidArgument("--radius must be 0 or more, not " + request.radius);
+    throw core::InvalidArgument("the matching radius must be 0 or more, not " + request.radius);
   if (request.target) plan.targets.push_back(request.target);
   for (const std::string& field : request.fields) plan.functions.push_back(registry.make_function(field));
   for (const std::string& method : request.methods) plan.chains.push_back(registry.make_method(method));
@@ -300,8 +267,8 @@ StabilityPlan prepare(const StabilityRequest& given, const Registry& registry) {
     plan.perturbations.push_back({PerturbationKind::subdivision, amount, NoiseKind::normal});
   for (const Perturbation& perturbation : plan.perturbations) check(perturbation);
   for (const NamedFunction& function : plan.functions)
-    if (!request.subdivide.empty() && function.name == "vertex-scalar")
-      throw core::InvalidArgument("vertex-scalar has no values for the vertices that --subdivide adds");
+    if (!request.subdivide.empty() && function.function->traits().needs_input_vertices)
+      throw core::InvalidArgument(function.name + " has no values for the vertices that subdivision adds");
   return plan;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "morsel/tools/study/agreement.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/perturbation.h"
 #include "morsel/tools/study/statistics.h"
@@ -62,24 +63,11 @@ struct StabilityPlan {
 /// no file.
 StabilityPlan prepare(const StabilityRequest& request, const Registry& registry = Registry::standard());
 
-/// The agreement of the clean surface's points (the reference) with those found on another one.
-struct Agreement {
-  std::size_t reference = 0;
-  std::size_t found = 0;
-  std::size_t matched = 0;
-  double distances = 0;  ///< of matched points, their sum
-
-  double recall() const;                ///< matched / reference: the repeatability
-  double precision() const;             ///< matched / found
-  double f_score() const;               ///< 2 matched / (reference + found): the harmonic mean of both
-  std::optional<double> drift() const;  ///< the mean distance of matched points, in the mesh's unit
-};
-
 /// One perturbed surface.
 struct Trial {
   morse::CriticalPoints points;  ///< counts only
-  Agreement agreement;
-  double chance = 0;  ///< expected F-score of as many points of the same types at random vertices
+  Agreement agreement;           ///< the clean surface's points are the reference
+  double chance = 0;             ///< expected F-score of as many points of the same types at random vertices
 };
 
 struct PerturbationOutcome {
@@ -126,9 +114,6 @@ struct StabilityResult {
   double clean_seconds = 0;
   double trial_seconds = 0;
 };
-
-/// Number of random placements whose mean is a chance level.
-inline constexpr std::size_t kPlacements = 10;
 
 /// Trials that are known, and a callback for new trials: an interrupted run continues from them.
 class TrialStore {

@@ -19,7 +19,7 @@ struct FieldSummary {
   core::Parameters parameters;
   double min = 0;
   double max = 0;
-  std::vector<FieldFile> files = {};
+  std::vector<core::FileParameter> files = {};
   std::vector<std::string> warnings = {};
 };
 FieldSummary summary_of(const FieldOutcome& outcome);
@@ -34,6 +34,11 @@ struct PersistenceSummary {
   std::size_t essential_saddles = 0;
   std::optional<double> largest = {};                    ///< finite persistence; none without a finite pair
   std::array<std::size_t, kPercents.size()> above = {};  ///< pairs that exceed each of kPercents
+
+  std::size_t above_one_percent() const {
+    static_assert(kPercents[1] == 1);
+    return above[1];
+  }
 };
 PersistenceSummary summary_of(const persistence::Diagram& diagram, double extent);
 

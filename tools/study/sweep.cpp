@@ -37,20 +37,14 @@ std::vector<Members> grouped_by(const Members& members, const Text& text) {
 }
 
 core::Specification without_iterations(core::Specification step) {
-  std::erase_if(step.given, [](const auto& entry) { return entry.first == "iterations"; });
+  std::erase_if(step.given, [](const auto& entry) { return entry.first == core::kIterationsKey; });
   return step;
 }
 
 std::optional<int> iterations_of(const core::Specification& step) {
   for (const auto& [key, raw] : step.given)
-    if (key == "iterations")
-      return static_cast<int>(core::parse_integer(core::unescape(raw), step.name + ":iterations"));
-  return std::nullopt;
-}
-
-std::optional<int> iterations_run(const StepOutcome& step) {
-  for (const auto& [name, value] : step.details)
-    if (name == "iterations_run") return static_cast<int>(std::get<std::int64_t>(value));
+    if (key == core::kIterationsKey)
+      return static_cast<int>(core::parse_integer(core::unescape(raw), step.name + ":" + key));
   return std::nullopt;
 }
 
@@ -139,7 +133,7 @@ class SweepRun {
     core::MethodResult result = named(members.front(), [&] {
       return chain.steps.front().method->apply(input, method_context(loaded_, *function_, silent_));
     });
-    const StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
+    const StepOutcome outcome = outcome_of(chain.name, result);
     for (const std::size_t i : members) finish_step(i, step, outcome, watch.seconds());
     descend(result.field, members, step + 1);
   }
@@ -167,22 +161,29 @@ class SweepRun {
                             [&](int iteration) { return by_iterations.contains(iteration); }};
     core::MethodResult result =
         named(longest, [&] { return chain.steps.front().method->apply(input, context); });
-    StepOutcome outcome{chain.name, std::move(result.parameters), std::move(result.details), {}};
-    const int run = iterations_run(outcome).value_or(0);
+    StepOutcome outcome = outcome_of(chain.name, result);
+    const std::int64_t run = result.end ? result.end->iterations_run : 0;
     for (const auto& [iterations, group] : by_iterations) {
       // A method reports iteration 0 only if it is not its own input; and it may have ended by itself.
       if (!seconds.contains(iterations)) read(iterations, iterations == 0 && run > 0 ? input : result.field);
-      set(outcome.parameters, "iterations", iterations);
-      set(outcome.details, "iterations_run", std::min(iterations, run));
+      set_iterations(outcome.parameters, iterations);
+      if (outcome.end) outcome.end->iterations_run = std::min<std::int64_t>(iterations, run);
       for (const std::size_t i : group) finish_step(i, step, outcome, seconds.at(iterations));
     }
     --open_runs_;
     emit();
   }
 
-  static void set(core::Parameters& parameters, std::string_view key, int value) {
-    for (auto& [name, held] : parameters)
-      if (name == key) held = std::int64_t{value};
+  static StepOutcome outcome_of(const std::string& name, core::MethodResult& result) {
+    StepOutcome outcome{name, std::move(result.parameters), {}, {}};
+    outcome.end = result.end;
+    outcome.sigma = result.sigma;
+    return outcome;
+  }
+
+  static void set_iterations(core::Parameters& parameters, int iterations) {
+    for (auto& [key, value] : parameters)
+      if (key == core::kIterationsKey) value = std::int64_t{iterations};
   }
 
   /// Steps are finished in any order: within an open run, later steps before the run's own.
@@ -213,8 +214,7 @@ class SweepRun {
       SweepRow& row = rows_[i] = std::move(draft.row);
       row.field = summary_of(*field_);
       for (const StepOutcome& step : row.steps)
-        if (const std::optional<int> run = iterations_run(step))
-          row.iterations_run = row.iterations_run.value_or(0) + *run;
+        if (step.end) row.iterations_run = row.iterations_run.value_or(0) + step.end->iterations_run;
       row.seconds.field = field_->seconds;
       row.seconds.method = std::reduce(draft.seconds.begin(), draft.seconds.end());
       ++done_;

@@ -28,7 +28,7 @@ struct SweepSeconds {
 /// The result of a combination.
 struct SweepRow {
   FieldSummary field;              ///< before the method
-  std::vector<StepOutcome> steps;  ///< without records of their iterations
+  std::vector<StepOutcome> steps;  ///< without details and records of their iterations
   double min = 0;                  ///< of the field that the method made
   double max = 0;
   std::optional<std::int64_t> iterations_run = {};  ///< of all steps together; none if no step iterates

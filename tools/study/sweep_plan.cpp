@@ -7,6 +7,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/text/listed.h"
+#include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
 namespace {
@@ -24,8 +25,8 @@ struct Place {
 class Links {
  public:
   Links(const SweepRequest& request, const Registry& registry) {
-    links_ = {core::parse_specification(request.field, "--field")};
-    for (core::Specification& step : core::parse_chain(request.method, "--method"))
+    links_ = {core::parse_specification(request.field, "the Morse function")};
+    for (core::Specification& step : core::parse_chain(request.method, "the method"))
       links_.push_back(std::move(step));
     keys_ = {registry.keys_of_function(links_.front().name)};
     for (std::size_t i = 1; i < links_.size(); ++i) keys_.push_back(registry.keys_of_method(links_[i].name));
@@ -36,8 +37,10 @@ class Links {
     Place found = dot == std::string::npos ? place_of(key)
                                            : Place{link_of(key, key.substr(0, dot)), key.substr(dot + 1)};
     if (std::ranges::count(keys_[found.link], found.key) == 0)
-      throw refused(key, links_[found.link].name + " has no key \"" + found.key +
-                             "\"; it has: " + names_text(keys_[found.link]));
+      throw refused(
+          key, links_[found.link].name + " has no key \"" + found.key + "\"" +
+                   (keys_[found.link].empty() ? "; it has none"
+                                              : core::nearest_of(found.key, keys_[found.link], "it has")));
     for (const auto& [given, value] : links_[found.link].given)
       if (given == found.key)
         throw refused(key, "it is given as " + value + " in \"" + to_string(links_[found.link]) +
@@ -57,7 +60,7 @@ class Links {
 
  private:
   static InvalidArgument refused(const std::string& key, const std::string& why) {
-    return InvalidArgument("--vary cannot vary \"" + key + "\": " + why);
+    return InvalidArgument("the key \"" + key + "\" cannot be varied: " + why);
   }
 
   static std::string names_text(const std::vector<std::string>& names) {
@@ -84,9 +87,14 @@ class Links {
     if (ways.size() > 1)
       throw refused(key, "it could be any of " + core::listed(ways) + "; write one of these");
     std::string known;
-    for (std::size_t i = 0; i < links_.size(); ++i)
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
       known += (i == 0 ? "" : "; ") + links_[i].name + ": " + names_text(keys_[i]);
-    throw refused(key, "neither the field nor the method has it; there are " + known);
+      all.insert(all.end(), keys_[i].begin(), keys_[i].end());
+    }
+    const std::string hint = core::nearest_hint(key, all);
+    throw refused(key, "neither the field nor the method has it" +
+                           (hint.empty() ? "; there are " : hint + " There are ") + known);
   }
 
   std::size_t link_of(const std::string& key, const std::string& name) const {
@@ -107,7 +115,12 @@ class Links {
         found = i;
       }
     if (ways.size() == 1) return found;
-    if (ways.empty()) throw refused(key, "neither the field nor a step of the method is called " + name);
+    if (ways.empty()) {
+      std::vector<std::string> names;
+      for (const core::Specification& link : links_) names.push_back(link.name);
+      throw refused(key, "neither the field nor a step of the method is called " + name +
+                             core::nearest_hint(name, names));
+    }
     throw refused(key, "it could be any of " + core::listed(ways) + "; write one of these");
   }
 
@@ -120,7 +133,7 @@ class Links {
 SweepPlan prepare(const SweepRequest& request, const Registry& registry) {
   if (request.vary.empty())
     throw InvalidArgument(
-        "nothing varies: say what, as in --vary iterations=1..20 or --vary sigma=4eps,8eps,16eps");
+        "nothing varies: give a key and its values, such as iterations=1..20 or sigma=4eps,8eps,16eps");
   const Links links(request, registry);
   SweepPlan plan{{}, {}, registry};
   std::vector<Place> places;
@@ -130,12 +143,12 @@ SweepPlan prepare(const SweepRequest& request, const Registry& registry) {
     const Variation& variation = plan.variations.back();
     Place place = links.place(variation.key);
     if (std::ranges::count(places, place) > 0)
-      throw InvalidArgument("--vary varies \"" + variation.key + "\" twice: give all its values at once");
+      throw InvalidArgument("the key \"" + variation.key + "\" is varied twice: give all its values at once");
     places.push_back(std::move(place));
     count = std::min(count * variation.values.size(), kMostCombinations + 1);
   }
   if (count > kMostCombinations)
-    throw InvalidArgument("--vary makes more than " + std::to_string(kMostCombinations) +
+    throw InvalidArgument("the sweep has more than " + std::to_string(kMostCombinations) +
                           " combinations; sweep in parts");
   std::vector<std::size_t> choices(places.size(), 0);
   for (std::size_t i = 0; i < count; ++i) {

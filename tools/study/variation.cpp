@@ -60,7 +60,7 @@ class VariationReader {
 
  private:
   core::InvalidArgument refused(const std::string& why) const {
-    return core::InvalidArgument("--vary \"" + std::string(text_) + "\" " + why +
+    return core::InvalidArgument("the variation \"" + std::string(text_) + "\" " + why +
                                  "; it is written KEY=VALUE,VALUE or KEY=A..B, A..B..STEP, A..B..xFACTOR");
   }
 

@@ -10,7 +10,7 @@ namespace morsel::tools {
 
 struct Variation {
   std::string key;                  ///< as given: "sigma", "salient.sigma", "2.sigma", "field.scale"
-  std::vector<std::string> values;  ///< one or more, all different, in the syntax of --field or --method
+  std::vector<std::string> values;  ///< one or more, all different, in the syntax of specifications
 };
 
 /// The most values of one variation.

@@ -13,7 +13,8 @@ function bytesOfBase64(text) {
 async function inflate(id) {
   if (typeof DecompressionStream === 'undefined')
     throw new Error(
-        'this browser cannot unpack the page\'s data: it lacks DecompressionStream, which browsers have since 2023');
+        'this browser cannot unpack the page\'s data: it lacks DecompressionStream, ' +
+        'which browsers have since 2023');
   const holder = element(id);
   const packed = new Blob([bytesOfBase64(holder.textContent)]);
   holder.remove();
@@ -98,11 +99,20 @@ function middleRange({low, high, data}, share) {
   return [below(share * data.length), below((1 - share) * data.length)];
 }
 
+/** For each point its place in the order in which points were chosen, from 1; 0 if it was not. */
+function chosenOrder(points, mesh, chosen) {
+  const order = new Uint32Array(points.count), places = new Map();
+  chosen.points.forEach(({vertex, type}, k) => places.set(`${type} ${vertex}`, k + 1));
+  for (let i = 0; i < points.count; ++i)
+    order[i] = places.get(`${typeNames[points.type[i]]} ${mesh.inputVertex(points.vertex[i])}`) ?? 0;
+  return order;
+}
+
 /**
  * A method's arrays, and what follows from them: persistence of points and pairs, points by vertex and by
- * counterpart.
+ * counterpart, and those that were chosen, if any were.
  */
-function readMethod(buffers, meta, report) {
+function readMethod(buffers, meta, report, mesh) {
   const method = resolve(buffers, meta);
   method.report = report;
   method.values.range = middleRange(method.values, 0.03);
@@ -146,6 +156,7 @@ function readMethod(buffers, meta, report) {
   points.ranking = Array.from({length: points.count}, (_, i) => i)
                        .sort((a, b) => points.shown[b] - points.shown[a] || a - b);
   points.rankedShown = Float32Array.from(points.ranking, (i) => points.shown[i]);
+  points.chosen = report.chosen ? chosenOrder(points, mesh, report.chosen) : null;
   return method;
 }
 
@@ -155,7 +166,7 @@ async function readPage() {
   const buffers = await inflate('buffers');
   if (buffers.byteLength !== page.buffers_bytes) throw new Error('the page\'s data are not whole');
   page.mesh = readMesh(buffers, page.mesh);
-  page.methods = page.methods.map((meta, i) => readMethod(buffers, meta, page.report.methods[i]));
+  page.methods = page.methods.map((meta, i) => readMethod(buffers, meta, page.report.methods[i], page.mesh));
   return page;
 }
 

@@ -22,14 +22,16 @@ function thresholdText(page, state) {
       (extent > 0 ? ` (${Number((100 * threshold / extent).toPrecision(2))} % of the field)` : '');
 }
 
-function start(page) {
-  const state = {
+function initialState(page) {
+  const shownAtFirst = matchMedia('(max-width: 860px)').matches ? 1 : 6;
+  return {
     threshold: 0,
     types: [false, true, true, true],
+    onlyChosen: page.methods.some(({points}) => points.chosen !== null),
     surface: 'field',
     sameScale: false,
     arcs: {descending: false, ascending: false},
-    shown: page.methods.map(() => true),
+    shown: page.methods.map((_, i) => i < shownAtFirst),
     selected: null,
     linked: true,
     frameTime: false,
@@ -37,34 +39,27 @@ function start(page) {
     log: true,
     diagram: 'death',
   };
-  const narrow = matchMedia('(max-width: 860px)').matches;
-  page.methods.forEach((_, i) => {
-    state.shown[i] = i < (narrow ? 1 : 6);
-  });
+}
 
-  const name = page.report.mesh.path.split('/').pop();
-  document.title = `${name} – ${page.report.field.name} – morsel`;
+function fillTitle({report}) {
+  const {mesh, field} = report;
+  const name = mesh.path.split('/').pop();
+  document.title = `${name} – ${field.name} – morsel`;
   element('title').textContent = name;
   element('subtitle').textContent =
-      `${page.report.field.name} from ${formatNumber(page.report.field.min)} to ${
-          formatNumber(page.report.field.max)} on ` +
-      `${formatCount(page.report.mesh.vertices)} vertices and ${
-          formatCount(page.report.mesh.faces)} triangles`;
-  fillSummary(page);
-  fillDetails(page);
+      `${field.name} from ${formatNumber(field.min)} to ${formatNumber(field.max)} on ` +
+      `${formatCount(mesh.vertices)} vertices and ${formatCount(mesh.faces)} triangles`;
+}
 
-  let viewer = null;
-  const select = (selected) => {
-    state.selected = selected;
-    if (selected !== null && !state.shown[selected.method]) element(`show-${selected.method}`).click();
-    showSelection(page, state, select);
-    if (viewer) viewer.update();
-  };
-  const plots = new Plots(page, state, select);
-  const update = () => {
-    if (viewer) viewer.update();
-  };
+/** Calls change(element) on an event of the element `id`, and then after(). */
+function bind(id, event, change, after) {
+  element(id).addEventListener(event, () => {
+    change(element(id));
+    after();
+  });
+}
 
+function bindMethodChoice(page, state, update) {
   page.methods.forEach((method, i) => {
     const box = make('input', {type: 'checkbox', id: `show-${i}`});
     box.checked = state.shown[i];
@@ -74,64 +69,120 @@ function start(page) {
     });
     element('method-choice').append(make('label', {}, box, method.name));
   });
-  const bind = (id, event, change) => element(id).addEventListener(event, () => {
-    change(element(id));
-    update();
-  });
-  bind('surface', 'change', (e) => {
+}
+
+/** The controls that change what the views show, but not how they look at it. */
+function bindAppearance(state, update) {
+  const set = (id, event, change) => bind(id, event, change, update);
+  set('surface', 'change', (e) => {
     state.surface = e.value;
   });
-  bind('same-scale', 'change', (e) => {
+  set('same-scale', 'change', (e) => {
     state.sameScale = e.checked;
   });
-  bind('minima', 'change', (e) => {
-    state.types[1] = e.checked;
+  for (const [type, id] of [[1, 'minima'], [2, 'saddles'], [3, 'maxima']])
+    set(id, 'change', (e) => {
+      state.types[type] = e.checked;
+    });
+  element('only-chosen').closest('label').hidden = !state.onlyChosen;
+  element('only-chosen').checked = state.onlyChosen;
+  set('only-chosen', 'change', (e) => {
+    state.onlyChosen = e.checked;
   });
-  bind('saddles', 'change', (e) => {
-    state.types[2] = e.checked;
-  });
-  bind('maxima', 'change', (e) => {
-    state.types[3] = e.checked;
-  });
-  bind('size', 'input', (e) => {
+  set('size', 'input', (e) => {
     state.size = 10 ** (e.valueAsNumber / 20);
   });
-  bind('descending-arcs', 'change', (e) => {
+  set('descending-arcs', 'change', (e) => {
     state.arcs.descending = e.checked;
   });
-  bind('ascending-arcs', 'change', (e) => {
+  set('ascending-arcs', 'change', (e) => {
     state.arcs.ascending = e.checked;
   });
-  bind('linked', 'change', (e) => {
-    state.linked = e.checked;
-    if (viewer && e.checked) viewer.moved(viewer.views.find((view) => !view.area.hidden) ?? viewer.views[0]);
-  });
-  bind('frame-time', 'change', (e) => {
+  set('frame-time', 'change', (e) => {
     state.frameTime = e.checked;
   });
-  bind('direction', 'change', (e) => {
-    if (viewer) viewer.reset(e.value);
-  });
-  bind('reset', 'click', () => {
+}
+
+/** The controls of the cameras; viewerNow() is null while there is no viewer. */
+function bindCameras(state, viewerNow, update) {
+  bind('linked', 'change', (e) => {
+    state.linked = e.checked;
+    const viewer = viewerNow();
+    if (viewer && e.checked) viewer.moved(viewer.views.find((view) => !view.area.hidden) ?? viewer.views[0]);
+  }, update);
+  const reset = () => {
+    const viewer = viewerNow();
     if (viewer) viewer.reset(element('direction').value);
-  });
+  };
+  bind('direction', 'change', reset, update);
+  bind('reset', 'click', reset, update);
+}
+
+function bindThreshold(page, state, plots, update) {
   const thresholdOf = thresholdScale(page);
-  const readThreshold = (e) => {
+  const read = (e) => {
     state.threshold = Math.fround(thresholdOf(e.valueAsNumber));
     element('threshold-value').textContent = thresholdText(page, state);
     e.setAttribute('aria-valuetext', thresholdText(page, state));
     plots.moveThreshold(state.threshold);
   };
-  bind('threshold', 'input', readThreshold);
-  readThreshold(element('threshold'));
-  element('log').addEventListener('change', () => {
-    state.log = element('log').checked;
-    plots.redraw();
+  bind('threshold', 'input', read, update);
+  read(element('threshold'));
+}
+
+function bindPlots(state, plots) {
+  const redraw = () => plots.redraw();
+  bind('log', 'change', (e) => {
+    state.log = e.checked;
+  }, redraw);
+  bind('diagram-kind', 'change', (e) => {
+    state.diagram = e.value;
+  }, redraw);
+}
+
+/** The keys of a view: 0 resets the cameras, Escape deselects, n and p go through its points. */
+function bindKeys(viewer, view, state, select, step) {
+  view.area.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const {key} = event;
+    if (key === '0')
+      viewer.reset(element('direction').value);
+    else if (key === 'Escape')
+      select(null);
+    else if (key === 'n' || key === 'p') {
+      if (state.selected === null || state.selected.method !== view.number) {
+        const {points} = view.method, first = points.ranking.find((i) => view.isShown(state, i));
+        select(first === undefined ? null : {method: view.number, point: first});
+      } else
+        step(key === 'n' ? 1 : -1);
+    } else
+      return;
+    event.preventDefault();
   });
-  element('diagram-kind').addEventListener('change', () => {
-    state.diagram = element('diagram-kind').value;
-    plots.redraw();
-  });
+}
+
+function start(page) {
+  const state = initialState(page);
+  fillTitle(page);
+  fillSummary(page);
+  fillDetails(page);
+
+  let viewer = null;
+  const update = () => {
+    if (viewer) viewer.update();
+  };
+  const select = (selected) => {
+    state.selected = selected;
+    if (selected !== null && !state.shown[selected.method]) element(`show-${selected.method}`).click();
+    showSelection(page, state, select);
+    update();
+  };
+  const plots = new Plots(page, state, select);
+  bindMethodChoice(page, state, update);
+  bindAppearance(state, update);
+  bindCameras(state, () => viewer, update);
+  bindThreshold(page, state, plots, update);
+  bindPlots(state, plots);
   const step = (way) => select(neighborByPersistence(page, state, way));
   element('previous-point').addEventListener('click', () => step(-1));
   element('next-point').addEventListener('click', () => step(1));
@@ -140,24 +191,7 @@ function start(page) {
   try {
     viewer = new Viewer(page, state);
     viewer.onPick = select;
-    for (const view of viewer.views)
-      view.area.addEventListener('keydown', (event) => {
-        if (event.ctrlKey || event.altKey || event.metaKey) return;
-        const {key} = event;
-        if (key === '0')
-          viewer.reset(element('direction').value);
-        else if (key === 'Escape')
-          select(null);
-        else if (key === 'n' || key === 'p') {
-          if (state.selected === null || state.selected.method !== view.number) {
-            const {points} = view.method, first = points.ranking.find((i) => view.isShown(state, i));
-            select(first === undefined ? null : {method: view.number, point: first});
-          } else
-            step(key === 'n' ? 1 : -1);
-        } else
-          return;
-        event.preventDefault();
-      });
+    for (const view of viewer.views) bindKeys(viewer, view, state, select, step);
     viewer.update();
     viewer.reset(element('direction').value);
   } catch (error) {

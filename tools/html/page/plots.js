@@ -156,98 +156,100 @@ function iterationCurves(page, state) {
       });
 }
 
-/** Birth and death (or persistence) of each pair; the pointer finds the nearest, a click selects it. */
-function diagramFigure(page, state, method, i, select) {
-  const {pairs, points} = method;
-  const finite = [];
-  for (let k = 0; k < pairs.count; ++k)
-    if (Number.isFinite(pairs.death[k])) finite.push(k);
-  const rest = pairs.count - finite.length;
-  const caption = [
+/** The caption of a method's persistence diagram, with the number of its pairs. */
+function diagramCaption(method, finite) {
+  const rest = method.pairs.count - finite.length;
+  return [
     make('span', {}, method.name),
     make(
         'small', {},
         ` ${formatCount(finite.length)} pairs` +
             (rest > 0 ? `, ${formatCount(rest)} infinite ones not drawn` : ''))
   ];
-  const figure = new Figure(
-      caption,
-      `Persistence diagram of ${method.name}, ${
-          finite.length} finite pairs. Arrow keys go through them by persistence.`);
-  figure.keys.append(
-      make('span', {}, make('i', {class: 'dot minimum'}), 'minimum and saddle'),
-      make('span', {}, make('i', {class: 'dot maximum'}), 'saddle and maximum'));
-  const ofMinimum = (k) => points.type[pairs.extremum[k]] === 1;
-  const yOf = (k) => (state.diagram === 'death' ? pairs.death[k] : pairs.persistence[k]);
-  let places = [];
-  figure.draw = () => {
-    const births = finite.map((k) => pairs.birth[k]), ys = finite.map(yOf);
-    const byDeath = state.diagram === 'death';
-    const isLog = !byDeath && state.log;
-    const low = least(births, 0), high = most(births, 1);
-    const positive = ys.filter((y) => y > 0);
-    const all = {
-      low: least([...births, ...(byDeath ? ys : [])], 0),
-      high: most([...births, ...(byDeath ? ys : [])], 1)
-    };
-    figure.axes(
-        byDeath ? {...all, isLog: false} : {low, high, isLog: false},
-        byDeath   ? {...all, isLog: false} :
-            isLog ? {low: least(positive, 0.1), high: most(positive, 1) * 1.2, isLog} :
-                    {low: 0, high: most(ys, 1) * 1.05, isLog},
-        'birth', byDeath ? 'death' : 'persistence');
-    if (byDeath)
-      figure.svg.append(makeSvg('path', {
-        class: 'axis',
-        d: `M${figure.x.pixel(all.low)} ${figure.y.pixel(all.low)}L${figure.x.pixel(all.high)} ${
-            figure.y.pixel(all.high)}`
-      }));
-    places = finite.map((k) => ({k, x: figure.x.pixel(pairs.birth[k]), y: figure.y.pixel(yOf(k))}));
-    const size = finite.length > 2000 ? 3 : finite.length > 200 ? 4 : 5.5;
-    for (const isMinimum of [true, false]) {
-      let path = '';
-      const seen = new Set();
-      for (const {k, x, y} of places) {
-        if (ofMinimum(k) !== isMinimum) continue;
-        const dot = `M${x.toFixed(1)} ${y.toFixed(1)}h0`;
-        if (!seen.has(dot)) {
-          seen.add(dot);
-          path += dot;
-        }
-      }
-      figure.svg.append(makeSvg('path', {
-        d: path,
-        fill: 'none',
-        'stroke-linecap': 'round',
-        'stroke-width': size,
-        'stroke-opacity': finite.length > 200 ? 0.6 : 0.85,
-        stroke: isMinimum ? 'var(--minimum)' : 'var(--maximum)'
-      }));
-    }
-    figure.mark = makeSvg('path', {class: 'threshold'});
-    figure.svg.append(figure.mark);
-    figure.moveMark = (t) => figure.mark.setAttribute(
-        'd',
-        !(t > 0)    ? '' :
-            byDeath ? `M${figure.x.pixel(all.low)} ${figure.y.pixel(all.low + t)}L${
-                          figure.x.pixel(all.high - t)} ${figure.y.pixel(all.high)}` :
-                      `M${figure.x.from} ${figure.y.pixel(t)}H${figure.x.to}`);
-    figure.moveMark(state.threshold);
+}
+
+/** The axes of a persistence diagram; returns the range that births and deaths share. */
+function diagramAxes(figure, births, ys, byDeath, log) {
+  const isLog = !byDeath && log;
+  const low = least(births, 0), high = most(births, 1);
+  const positive = ys.filter((y) => y > 0);
+  const all = {
+    low: least([...births, ...(byDeath ? ys : [])], 0),
+    high: most([...births, ...(byDeath ? ys : [])], 1)
   };
+  figure.axes(
+      byDeath ? {...all, isLog: false} : {low, high, isLog: false},
+      byDeath   ? {...all, isLog: false} :
+          isLog ? {low: least(positive, 0.1), high: most(positive, 1) * 1.2, isLog} :
+                  {low: 0, high: most(ys, 1) * 1.05, isLog},
+      'birth', byDeath ? 'death' : 'persistence');
+  if (byDeath)
+    figure.svg.append(makeSvg('path', {
+      class: 'axis',
+      d: `M${figure.x.pixel(all.low)} ${figure.y.pixel(all.low)}L${figure.x.pixel(all.high)} ${
+          figure.y.pixel(all.high)}`
+    }));
+  return all;
+}
+
+/** A dot at each place, those of minima in one path, those of maxima in another one. */
+function diagramDots(figure, places, ofMinimum) {
+  const size = places.length > 2000 ? 3 : places.length > 200 ? 4 : 5.5;
+  for (const isMinimum of [true, false]) {
+    let path = '';
+    const seen = new Set();
+    for (const {k, x, y} of places) {
+      if (ofMinimum(k) !== isMinimum) continue;
+      const dot = `M${x.toFixed(1)} ${y.toFixed(1)}h0`;
+      if (!seen.has(dot)) {
+        seen.add(dot);
+        path += dot;
+      }
+    }
+    figure.svg.append(makeSvg('path', {
+      d: path,
+      fill: 'none',
+      'stroke-linecap': 'round',
+      'stroke-width': size,
+      'stroke-opacity': places.length > 200 ? 0.6 : 0.85,
+      stroke: isMinimum ? 'var(--minimum)' : 'var(--maximum)'
+    }));
+  }
+}
+
+/** The line at a threshold: a parallel of the diagonal among deaths, else a horizontal one. */
+function diagramMark(figure, all, byDeath) {
+  figure.mark = makeSvg('path', {class: 'threshold'});
+  figure.svg.append(figure.mark);
+  figure.moveMark = (t) => figure.mark.setAttribute(
+      'd',
+      !(t > 0)    ? '' :
+          byDeath ? `M${figure.x.pixel(all.low)} ${figure.y.pixel(all.low + t)}L${
+                        figure.x.pixel(all.high - t)} ${figure.y.pixel(all.high)}` :
+                    `M${figure.x.from} ${figure.y.pixel(t)}H${figure.x.to}`);
+}
+
+/** What the readout says about pair k. */
+function pairText(page, {pairs, points}, k, isOfMinimum) {
+  const [first, second] =
+      isOfMinimum ? [pairs.extremum[k], pairs.saddle[k]] : [pairs.saddle[k], pairs.extremum[k]];
+  const name = (p) => `${typeNames[points.type[p]]} ${page.mesh.inputVertex(points.vertex[p])}`;
+  return `${name(first)} at ${formatNumber(pairs.birth[k])}, ${name(second)} at ${
+      formatNumber(pairs.death[k])}: persistence ${formatNumber(pairs.persistence[k])}`;
+}
+
+/** Lets the pointer find the nearest of the places, arrow keys go through them; choose(k) on a click. */
+function explorePlaces(figure, placesOf, textOf, choose) {
   let at = -1;
   const show = (n) => {
     at = n;
-    const {k, x, y} = places[n];
+    const {k, x, y} = placesOf()[n];
     figure.cursor.replaceChildren(makeSvg('circle', {cx: x, cy: y, r: 6}));
-    const [first, second] =
-        ofMinimum(k) ? [pairs.extremum[k], pairs.saddle[k]] : [pairs.saddle[k], pairs.extremum[k]];
-    const name = (p) => `${typeNames[points.type[p]]} ${page.mesh.inputVertex(points.vertex[p])}`;
-    figure.readout.textContent = `${name(first)} at ${formatNumber(pairs.birth[k])}, ${name(second)} at ${
-        formatNumber(pairs.death[k])}: persistence ${formatNumber(pairs.persistence[k])}`;
+    figure.readout.textContent = textOf(k);
   };
   figure.hover = (px, py) => {
     let best = -1, distance = 30 ** 2;
-    places.forEach(({x, y}, n) => {
+    placesOf().forEach(({x, y}, n) => {
       const d = (x - px) ** 2 + (y - py) ** 2;
       if (d < distance) {
         distance = d;
@@ -261,16 +263,46 @@ function diagramFigure(page, state, method, i, select) {
     at = best;
   };
   figure.step = (way) => {
-    if (places.length > 0)
-      show(Math.max(0, Math.min(places.length - 1, at < 0 ? places.length - 1 : at + way)));
+    const count = placesOf().length;
+    if (count > 0) show(Math.max(0, Math.min(count - 1, at < 0 ? count - 1 : at + way)));
   };
-  const choose = () => {
-    if (at >= 0) select({method: i, point: pairs.extremum[places[at].k]});
+  const chooseHere = () => {
+    if (at >= 0) choose(placesOf()[at].k);
   };
-  figure.svg.addEventListener('click', choose);
+  figure.svg.addEventListener('click', chooseHere);
   figure.svg.addEventListener('keydown', (event) => {
-    if (event.key === 'Enter') choose();
+    if (event.key === 'Enter') chooseHere();
   });
+}
+
+/** Birth and death (or persistence) of each pair; the pointer finds the nearest, a click selects it. */
+function diagramFigure(page, state, method, i, select) {
+  const {pairs, points} = method;
+  const finite = [];
+  for (let k = 0; k < pairs.count; ++k)
+    if (Number.isFinite(pairs.death[k])) finite.push(k);
+  const figure = new Figure(
+      diagramCaption(method, finite),
+      `Persistence diagram of ${method.name}, ${
+          finite.length} finite pairs. Arrow keys go through them by persistence.`);
+  figure.keys.append(
+      make('span', {}, make('i', {class: 'dot minimum'}), 'minimum and saddle'),
+      make('span', {}, make('i', {class: 'dot maximum'}), 'saddle and maximum'));
+  const ofMinimum = (k) => points.type[pairs.extremum[k]] === 1;
+  let places = [];
+  figure.draw = () => {
+    const byDeath = state.diagram === 'death';
+    const births = finite.map((k) => pairs.birth[k]);
+    const ys = finite.map((k) => (byDeath ? pairs.death[k] : pairs.persistence[k]));
+    const all = diagramAxes(figure, births, ys, byDeath, state.log);
+    places = finite.map((k, n) => ({k, x: figure.x.pixel(births[n]), y: figure.y.pixel(ys[n])}));
+    diagramDots(figure, places, ofMinimum);
+    diagramMark(figure, all, byDeath);
+    figure.moveMark(state.threshold);
+  };
+  explorePlaces(
+      figure, () => places, (k) => pairText(page, method, k, ofMinimum(k)),
+      (k) => select({method: i, point: pairs.extremum[k]}));
   return figure;
 }
 

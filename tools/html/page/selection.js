@@ -26,6 +26,8 @@ function showSelection(page, state, select) {
     ['vertex', String(mesh.inputVertex(points.vertex[i]))], ['value', formatNumber(points.value[i])],
     ['persistence', formatNumber(points.persistence[i])]
   ];
+  if (points.chosen !== null)
+    entries.push(['chosen', points.chosen[i] > 0 ? `as number ${points.chosen[i]}` : 'no']);
   if (points.multiplicity[i] > 1) entries.push(['multiplicity', String(points.multiplicity[i])]);
   const partners =
       (points.partners.get(i) ?? [])
@@ -69,13 +71,17 @@ function showSelection(page, state, select) {
   if (fates.children.length > 0) box.append(make('div', {}, 'In other methods'), fates);
 }
 
+function isPointShown(points, state, i) {
+  return state.types[points.type[i]] && (!state.onlyChosen || points.chosen[i] > 0) &&
+      (state.threshold === 0 || points.shown[i] > state.threshold);
+}
+
 /** The next or the previous of the points that are shown, by falling persistence. */
 function neighborByPersistence(page, state, way) {
   const m = state.selected !== null ? state.selected.method : state.shown.findIndex((shown) => shown);
   if (m < 0) return null;
   const {points} = page.methods[m];
-  const shown = points.ranking.filter(
-      (i) => state.types[points.type[i]] && (state.threshold === 0 || points.shown[i] > state.threshold));
+  const shown = points.ranking.filter((i) => isPointShown(points, state, i));
   if (shown.length === 0) return null;
   const at = state.selected === null ? -1 : shown.indexOf(state.selected.point);
   const next = at < 0 ? (way > 0 ? 0 : shown.length - 1) : (at + way + shown.length) % shown.length;

@@ -1,17 +1,19 @@
 // Critical points: spheres drawn as single points, whose shader finds the sphere.
 
 const sphereVertexShader = `
-attribute vec4 look;  // type, 1 for the selected point, unused
+attribute vec4 look;  // type, 1 for the selected point, 1 for a chosen one, unused
 uniform float radius;
 uniform float pixels;  // the view's height
 uniform vec3 kinds;  // 1 if minima, saddles, maxima are shown
+uniform float onlyChosen;  // 1 if others than chosen points are hidden
 varying float vExtent;
 varying float vCenter;
 varying float vKind;
 varying float vRadius;
 varying float vSelected;
 void main() {
-  float visible = look.x < 0.5 ? 0.0 : look.y > 0.5 ? 1.0 : look.x < 1.5 ? kinds.x : look.x < 2.5 ? kinds.y : kinds.z;
+  float visible = look.x < 0.5 ? 0.0 : look.y > 0.5 ? 1.0 : look.z < onlyChosen ? 0.0
+                : look.x < 1.5 ? kinds.x : look.x < 2.5 ? kinds.y : kinds.z;
   vKind = look.x;
   vSelected = look.y;
   vRadius = radius * (vSelected > 0.5 ? 1.35 : 1.0);
@@ -45,7 +47,8 @@ void main() {
   vec3 base = vKind < 1.5 ? colors[0] : vKind < 2.5 ? colors[1] : colors[2];
   float key = max(dot(n, normalize(vec3(-0.35, 0.55, 0.85))), 0.0);
   vec3 color = base * (0.50 + 0.55 * key) + 0.35 * pow(key, 24.0);
-  color *= mix(0.55, 1.0, smoothstep(0.0, 0.42, n.z));  // a dark rim separates points from surface and each other
+  // A dark rim separates points from surface and each other.
+  color *= mix(0.55, 1.0, smoothstep(0.0, 0.42, n.z));
   gl_FragDepthEXT = depthAt(vCenter + vRadius * n.z);
   gl_FragColor = vec4(color, 1.0 - smoothstep(1.0 - soft, 1.0 + soft, r));
 }`;
@@ -64,6 +67,7 @@ class Spheres {
     points.ranking.forEach((i, rank) => {
       position.set(this.centers.subarray(3 * i, 3 * i + 3), 3 * (rank + 1));
       look[4 * (rank + 1)] = points.type[i];
+      look[4 * (rank + 1) + 2] = points.chosen !== null && points.chosen[i] > 0 ? 1 : 0;
     });
     this.geometry = new THREE.BufferGeometry();
     this.position = new THREE.BufferAttribute(position, 3);
@@ -76,6 +80,7 @@ class Spheres {
         radius: {value: 0.01},
         pixels: {value: 1},
         kinds: {value: new THREE.Vector3(1, 1, 1)},
+        onlyChosen: {value: 0},
         projection: {value: this.projection},
         colors: {
           value: [

@@ -2,9 +2,10 @@
 
 function fillSummary(page) {
   const {report} = page;
+  const isChosen = report.methods.some(({chosen}) => chosen);
   const header = [
     'method', 'minima', 'saddles', '(multiplicity)', 'maxima', 'total', 'pairs', 'above 1 %', 'arcs', 'cells',
-    'kept', 'moved', 'added', 'seconds'
+    'kept', 'moved', 'added', ...(isChosen ? ['chosen', 'kept', 'moved', 'added', 'percentile'] : []), 'seconds'
   ];
   const rows = report.methods.map((method, i) => {
     const points = method.critical_points, timing = report.timings.methods[i];
@@ -19,15 +20,27 @@ function fillSummary(page) {
     ];
     return make(
         'tr', {}, make('th', {scope: 'row'}, page.methods[i].name),
-        ...numbers.map((n) => make('td', {}, formatCount(n))), make('td', {}, seconds.toFixed(2)));
+        ...numbers.map((n) => make('td', {}, formatCount(n))), ...chosenCells(method.chosen),
+        make('td', {}, seconds.toFixed(2)));
   });
   element('summary').append(
       make('thead', {}, make('tr', {}, ...header.map((name) => make('th', {scope: 'col'}, name)))),
       make('tbody', {}, ...rows));
   report.methods.forEach((method, i) => {
-    if (method.target && method.target.note)
-      element('notes').append(make('li', {}, `${page.methods[i].name}: ${method.target.note}`));
+    for (const section of [method.target, method.chosen])
+      if (section && section.note)
+        element('notes').append(make('li', {}, `${page.methods[i].name}: ${section.note}`));
   });
+}
+
+/** The points that were chosen: how many, and compared with those of the first method. */
+function chosenCells(chosen) {
+  if (!chosen) return [];
+  const {kept, moved, added} = chosen.compared_to_first, mean = chosen.mean_percentile;
+  return [
+    ...[chosen.count, kept, moved, added].map((n) => make('td', {}, formatCount(n))),
+    make('td', {}, mean === null ? '—' : mean.toFixed(2))
+  ];
 }
 
 /** A value of the report as short text. */
@@ -87,9 +100,9 @@ function fillDetails(page) {
       [['loading', report.timings.load.toFixed(3)], ['total', report.timings.total.toFixed(3)]]));
   element('details').append(columns);
   element('command').textContent = page.command;
-  element('version').textContent = `Made by ${report.tool.name} ${
-      report.tool
-          .version}. Positions are rounded to 1/65536 of the model's size here, the field's colours to 1/65536 of their range; values of critical points are exact.`;
+  element('version').textContent = `Made by ${report.tool.name} ${report.tool.version}. ` +
+      'Positions are rounded to 1/65536 of the model\'s size here, the field\'s colours to 1/65536 of ' +
+      'their range; values of critical points are exact.';
   element('copy').addEventListener('click', () => copyCommand(page.command));
 }
 

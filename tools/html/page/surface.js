@@ -61,7 +61,8 @@ varying vec3 vPosition;
 varying float vValue;
 varying vec3 vColor;
 void main() {
-  vec3 base = coloring == 0 ? texture2D(ramp, vec2((clamp(scale.x + scale.y * vValue, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5)).rgb
+  float place = clamp(scale.x + scale.y * vValue, 0.0, 1.0);
+  vec3 base = coloring == 0 ? texture2D(ramp, vec2((place * 255.0 + 0.5) / 256.0, 0.5)).rgb
             : coloring == 1 ? vColor : vec3(0.80, 0.81, 0.83);
   vec3 n = normalize(gl_FrontFacing ? vNormal : -vNormal);
   vec3 eye = normalize(-vPosition);

@@ -15,7 +15,9 @@ class View {
     this.orbit = new Orbit();
     this.camera = new THREE.PerspectiveCamera();
     // so large that they do not cover the surface, and not smaller nor larger than is pleasant
-    const room = Math.sqrt(parts.area / Math.max(1, this.method.points.count));
+    const {points} = this.method;
+    const count = points.chosen === null ? points.count : points.chosen.filter((k) => k > 0).length;
+    const room = Math.sqrt(parts.area / Math.max(1, count));
     this.radius = Math.min(0.0105, Math.max(0.0032, 0.16 * room));
 
     this.area =
@@ -31,8 +33,7 @@ class View {
   }
 
   isShown(state, i) {
-    const {points} = this.method;
-    return state.types[points.type[i]] && (state.threshold === 0 || points.shown[i] > state.threshold);
+    return isPointShown(this.method.points, state, i);
   }
 
   arcsOf(kind) {
@@ -57,11 +58,15 @@ class View {
     this.spheres.select(
         state.selected !== null && state.selected.method === this.number ? state.selected.point : -1);
     uniforms.kinds.value.set(...[1, 2, 3].map((type) => (state.types[type] ? 1 : 0)));
+    uniforms.onlyChosen.value = state.onlyChosen ? 1 : 0;
     uniforms.radius.value = this.drawnRadius = this.radius * state.size;
 
     const counts = [0, 0, 0, 0], {points} = this.method;
     const count = shownCount(points.rankedShown, state.threshold);
-    for (let rank = 0; rank < count; ++rank) ++counts[points.type[points.ranking[rank]]];
+    for (let rank = 0; rank < count; ++rank) {
+      const i = points.ranking[rank];
+      if (!state.onlyChosen || points.chosen[i] > 0) ++counts[points.type[i]];
+    }
     const texts =
         [1, 2, 3].map((type) => `${formatCount(counts[type])} ${['', 'minima', 'saddles', 'maxima'][type]}`);
     this.caption.replaceChildren(this.method.name, make('small', {}, texts.join(', ')));
