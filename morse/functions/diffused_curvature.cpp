@@ -11,7 +11,6 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/morse/functions/discrete_curvature.h"
-#include "morsel/morse/operators/fairing.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/surface_heat.h"
 #include "morsel/morse/operators/unit_size.h"
@@ -25,15 +24,26 @@ using core::TriangleMesh;
 
 constexpr double kFieldPart = 3;  // the field is diffused at the scale divided by this
 
+/// G(scale) f, with the step of its time.
+std::vector<double> diffused(const HeatStep& step, std::vector<double> f) {
+  return step.of(step.of(std::move(f)));
+}
+
 /// The surface after G(scale), about its box's centre, in the Laplacian's unit.
-std::vector<Point> after_heat(const TriangleMesh& mesh, const SurfaceLaplacian& laplacian,
-                              const HeatStep& step, const core::Progress& progress) {
+std::vector<Point> faired(const TriangleMesh& mesh, const SurfaceLaplacian& laplacian, const HeatStep& step,
+                          const core::Progress& progress) {
   const core::BoundingBox& box = mesh.bounding_box();
   const Point center = (box.min + box.max) / 2;
   std::vector<Point> positions(mesh.vertex_count());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    positions[v] = (mesh.position(static_cast<Index>(v)) - center) / laplacian.unit;
-  return diffused(std::move(positions), step, progress);
+  for (int axis = 0; axis < 3; ++axis) {
+    progress.throw_if_cancelled();
+    std::vector<double> x(positions.size());
+    for (std::size_t v = 0; v < x.size(); ++v)
+      x[v] = (mesh.position(static_cast<Index>(v)) - center)[axis] / laplacian.unit;
+    x = diffused(step, std::move(x));
+    for (std::size_t v = 0; v < x.size(); ++v) positions[v][axis] = x[v];
+  }
+  return positions;
 }
 
 std::vector<double> coordinates(std::span<const Point> points, int axis) {
@@ -58,7 +68,7 @@ core::ScalarField diffused_mean_curvature(const TriangleMesh& mesh, double scale
   const SurfaceLaplacian laplacian = surface_laplacian(sized.mesh);
   const double own_scale = std::ldexp(scale, -sized.exponent) / laplacian.unit;
   const std::size_t n = mesh.vertex_count();
-  std::vector<Point> positions = after_heat(
+  std::vector<Point> positions = faired(
       sized.mesh, laplacian, {laplacian, halving_time(own_scale), "mean curvature", progress}, progress);
   std::array<std::vector<double>, 3> bends;  // Δ x'
   for (int axis = 0; axis < 3; ++axis) bends[axis] = laplacian.of(coordinates(positions, axis));
@@ -69,7 +79,7 @@ core::ScalarField diffused_mean_curvature(const TriangleMesh& mesh, double scale
   });
   progress.throw_if_cancelled();
   const HeatStep step(laplacian, halving_time(own_scale / kFieldPart), "mean curvature", progress);
-  curvature = step.of(step.of(std::move(curvature)));
+  curvature = diffused(step, std::move(curvature));
   core::parallel_for_each(
       n, [&](std::size_t v) { curvature[v] = std::ldexp(curvature[v] / laplacian.unit, -sized.exponent); });
   progress.update("mean curvature", 1);
@@ -87,7 +97,7 @@ core::ScalarField diffused_gaussian_curvature(const TriangleMesh& mesh, double f
   std::vector<double> curvature;
   if (fairing > 0) {
     const HeatStep step(laplacian, halving_time(own(fairing)), "Gaussian curvature", progress);
-    curvature = angle_defects(sized.mesh.with_positions(after_heat(sized.mesh, laplacian, step, progress)));
+    curvature = angle_defects(sized.mesh.with_positions(faired(sized.mesh, laplacian, step, progress)));
   } else {
     curvature = angle_defects(sized.mesh);
   }

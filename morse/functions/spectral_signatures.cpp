@@ -10,7 +10,6 @@
 #include "morsel/morse/functions/eigenfunction.h"
 #include "morsel/morse/operators/edge_lengths.h"
 #include "morsel/morse/operators/eigenfunctions.h"
-#include "morsel/morse/operators/fairing.h"
 
 namespace morsel::morse {
 namespace {
@@ -50,39 +49,26 @@ std::size_t read_modes(core::ParameterReader& reader) {
       reader.count("modes", 100, 1, kMostModes, "how many of the lowest eigenfunctions are summed"));
 }
 
-enum class HeatForm : std::uint8_t { kernel, area };
-
 class HeatKernelSignature final : public core::MorseFunction {
  public:
-  HeatKernelSignature(core::Length spread, std::size_t modes, core::Length fairing, HeatForm form)
-      : spread_(spread), modes_(modes), fairing_(fairing), form_(form) {}
+  HeatKernelSignature(core::Length spread, std::size_t modes) : spread_(spread), modes_(modes) {}
 
   core::FunctionResult evaluate(const TriangleMesh& mesh,
                                 const core::FunctionContext& context) const override {
-    const double fairing = fairing_.on(mesh);
-    const TriangleMesh surface = faired(mesh, fairing, context.progress);
-    const double spread = spread_.on(surface);
+    const double spread = spread_.on(mesh);
     if (!(spread > 0))
       throw core::BadInput("time = " + core::to_string(spread_) + " comes to " + core::shortest(spread) +
                            " on this mesh, whose vertices all coincide");
-    const Signature signature = heat_kernel_signature(surface, spread, modes_, context.progress);
-    std::vector<double> values(signature.field.values().begin(), signature.field.values().end());
-    core::Parameters parameters = {{"time", spread},
-                                   {"modes", static_cast<std::int64_t>(signature.modes)},
-                                   {"last_weight", signature.last}};
-    if (fairing_.value > 0) parameters.emplace_back("fairing", fairing);
-    if (form_ == HeatForm::area) {
-      for (double& value : values) value = -1 / value;
-      parameters.emplace_back("form", "area");
-    }
-    return {{mesh, std::move(values)}, std::move(parameters)};
+    Signature signature = heat_kernel_signature(mesh, spread, modes_, context.progress);
+    return {std::move(signature.field),
+            {{"time", spread},
+             {"modes", static_cast<std::int64_t>(signature.modes)},
+             {"last_weight", signature.last}}};
   }
 
  private:
   core::Length spread_;
   std::size_t modes_;
-  core::Length fairing_;
-  HeatForm form_;
 };
 
 class WaveKernelSignature final : public core::MorseFunction {
@@ -149,18 +135,9 @@ Signature wave_kernel_signature(const TriangleMesh& mesh, double energy, double 
 }
 
 std::unique_ptr<core::MorseFunction> make_heat_kernel_signature(core::ParameterReader& reader) {
-  const core::Length spread =
-      reader.length("time", core::Length::root_areas(0.1), core::kPositive,
-                    "of the heat, as the length by which it spreads in it; of the faired surface");
-  const std::size_t modes = read_modes(reader);
-  const core::Length fairing = reader.length(
-      "fairing", core::Length::absolute(0), core::kNonNegative,
-      "the surface is faired first, on a copy: waves of 2 pi times this keep half their height");
-  const std::string form = reader.choice("form", "kernel", {"kernel", "area"},
-                                         "kernel: the heat that is left; area: -1 / that, the area that it "
-                                         "covers, below 0 so that tips stay highest");
-  return std::make_unique<HeatKernelSignature>(spread, modes, fairing,
-                                               form == "area" ? HeatForm::area : HeatForm::kernel);
+  const core::Length spread = reader.length("time", core::Length::root_areas(0.1), core::kPositive,
+                                            "of the heat, as the length by which it spreads in it");
+  return std::make_unique<HeatKernelSignature>(spread, read_modes(reader));
 }
 
 std::unique_ptr<core::MorseFunction> make_wave_kernel_signature(core::ParameterReader& reader) {

@@ -45,11 +45,7 @@ Signature wave_kernel_signature(const core::TriangleMesh& mesh, double energy, d
 
 inline constexpr double kLeastWidth = 1e-6;
 
-/// Keys: time=0.1rootarea (the spread, a length), modes=100, fairing=0 (a length: the signature is that of
-/// faired(), operators/fairing.h, and shares of the area in `time` are of that surface), form=kernel|area:
-/// area is −1/k_t(v, v), unit length². 1/k_t(v, v) is the area over which the heat of v has spread, 4πt on a
-/// plane, less at tips and more between them; its sign leaves the order of values as it is. In the kernel
-/// tips are far above all else; in the area persistence weighs what lies between them, too.
+/// Keys: time=0.1rootarea (the spread, a length), modes=100.
 std::unique_ptr<core::MorseFunction> make_heat_kernel_signature(core::ParameterReader& reader);
 /// Keys: energy=0.5, width=0.07 (the paper's), modes=100.
 std::unique_ptr<core::MorseFunction> make_wave_kernel_signature(core::ParameterReader& reader);

@@ -91,12 +91,12 @@ class Results(Stability):
         few = self.stability(SMALL, "--preset", "resampled", "--trials", "1", "--decimate", "0.5", "--target",
                              "20")
         field, = few["request"]["fields"]
-        self.assertRegex(field, "^heat-kernel-signature:.*time=0.246rootarea")
+        self.assertRegex(field, "^mean-curvature:estimator=diffused,.*diffusion=0.105rootarea")
         self.assertEqual([o["method"] for o in few["outcomes"]], few["request"]["methods"] * 2)
         self.assertEqual(few["request"]["methods"][0], "conventional")
         many = self.stability(SMALL, "--target", "80", "--preset", "resampled", "--trials", "1", "--noise",
                               "0.1")
-        self.assertIn("time=0.123rootarea", many["request"]["fields"][0])
+        self.assertIn("diffusion=0.0525rootarea", many["request"]["fields"][0])
         noise = self.stability(SMALL, "--preset", "noise", "--trials", "1", "--noise", "0.1")
         self.assertEqual(noise["request"]["methods"], ["conventional", "salient", "salient:preset=robust"])
 

@@ -9,7 +9,6 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/morse/operators/eigenfunctions.h"
-#include "morsel/morse/operators/fairing.h"
 #include "support/made.h"
 #include "support/shapes.h"
 
@@ -105,32 +104,6 @@ TEST_CASE("signatures by name report what they came to") {
         std::pair<std::string, core::ParameterValue>("modes", std::int64_t{161}));  // all that it has
 }
 
-TEST_CASE("the area that heat covers is the reciprocal of what is left of it") {
-  const TriangleMesh mesh = jittered(torus(14, 9).mesh(), 0.05, 5);
-  const Given given = {{"time", "0.3rootarea"}, {"modes", "20"}};
-  const auto field_of = [&](Given more) {
-    more.insert(more.end(), given.begin(), given.end());
-    return made(morse::make_heat_kernel_signature, "heat-kernel-signature", more)->evaluate(mesh, {}).field;
-  };
-  const ScalarField kernel = field_of({});
-  const ScalarField area = field_of({{"form", "area"}});
-  for (Index v = 0; v < mesh.vertex_count(); ++v) CHECK(area.value(v) == -1 / kernel.value(v));
-}
-
-TEST_CASE("the heat kernel signature of a faired surface has its lengths and the surface's positions") {
-  const TriangleMesh mesh = jittered(sphere(3).mesh(), 0.08, 5);
-  const TriangleMesh smooth = morse::faired(mesh, 0.25);
-  const core::FunctionResult result = made(morse::make_heat_kernel_signature, "heat-kernel-signature",
-                                           {{"fairing", "0.25"}, {"time", "0.2rootarea"}, {"modes", "30"}})
-                                          ->evaluate(mesh, {});
-  const double spread = 0.2 * core::root_area(smooth);
-  CHECK(core::root_area(smooth) < 0.99 * core::root_area(mesh));
-  CHECK(result.parameters[0] == std::pair<std::string, core::ParameterValue>("time", spread));
-  CHECK(result.parameters[3] == std::pair<std::string, core::ParameterValue>("fairing", 0.25));
-  CHECK(values_of(result.field) == values_of(heat_kernel_signature(smooth, spread, 30).field));
-  CHECK(result.field.mesh().position(7) == mesh.position(7));
-}
-
 TEST_CASE("signatures refuse what they do not know") {
   const TriangleMesh mesh = octahedron().mesh();
   const TriangleMesh point = mesh.with_positions(std::vector<Point>(mesh.vertex_count(), Point(1, 2, 3)));
@@ -144,10 +117,6 @@ TEST_CASE("signatures refuse what they do not know") {
   CHECK_THROWS_AS(made(morse::make_heat_kernel_signature, "heat-kernel-signature")->evaluate(point, {}),
                   core::BadInput);
   CHECK_THROWS_AS(made(morse::make_heat_kernel_signature, "h", {{"time", "0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(made(morse::make_heat_kernel_signature, "h", {{"fairing", "-1"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(made(morse::make_heat_kernel_signature, "h", {{"form", "heat"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(made(morse::make_heat_kernel_signature, "h", {{"fairing", "9"}})->evaluate(mesh, {}),
-                  core::BadInput);
   CHECK_THROWS_AS(made(morse::make_wave_kernel_signature, "w", {{"energy", "2"}}), core::InvalidArgument);
   CHECK_THROWS_AS(made(morse::make_wave_kernel_signature, "w", {{"modes", "0"}}), core::InvalidArgument);
   CHECK(wave_kernel_signature(mesh, 0.5, morse::kLeastWidth, 5).field.min() > 0);  // between two energies

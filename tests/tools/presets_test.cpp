@@ -84,21 +84,19 @@ TEST_CASE("the diffusion of a preset follows from the wanted number of points") 
   for (const std::size_t points : {2, 10, 20, 60}) {
     const core::Length diffusion = diffusion_for(points);
     CHECK(diffusion.unit == LengthUnit::root_area);
-    // Discs of this radius, one for each point, cover a share of the surface that is always the same.
-    CHECK(M_PI * diffusion.value * diffusion.value * static_cast<double>(points) ==
-          Approx(3.8).epsilon(0.01));
+    // A square of it is always the same part of a point's share of the surface.
+    CHECK(diffusion.value * diffusion.value * static_cast<double>(points) == Approx(0.47 * 0.47));
     CHECK(diffusion_for(4 * points).value == Approx(diffusion.value / 2));
   }
   CHECK(diffusion_for(0).value == diffusion_for(1).value);
-  CHECK(diffusion_for(1'000'000).value == diffusion_for(tools::kMostPresetPoints).value);
 
   CHECK(comparison("resampled").field == comparison("resampled", tools::kPresetPoints).field);
   const tools::ComparisonRequest few = comparison("resampled", 20);
-  CHECK_THAT(few.field, Contains("time=0.246rootarea") && Contains("modes=40"));
-  CHECK_THAT(few.methods[1], Contains("time=0.0492rootarea"));
+  CHECK_THAT(few.field, Contains("scale=0.01rootarea") && Contains("diffusion=0.105rootarea"));
+  CHECK_THAT(few.methods[1], Contains("time=0.105rootarea"));
   const tools::ComparisonRequest many = comparison("resampled", 80);
-  CHECK_THAT(many.field, Contains("time=0.123rootarea") && Contains("modes=160"));
-  CHECK_THAT(many.methods[1], Contains("time=0.0246rootarea"));
+  CHECK_THAT(many.field, Contains("scale=0.01rootarea") && Contains("diffusion=0.0525rootarea"));
+  CHECK_THAT(many.methods[1], Contains("time=0.0525rootarea"));
   CHECK(stability("resampled", 80).fields.front() == many.field);
   CHECK(comparison("noise", 80).methods == comparison("noise").methods);
   for (const std::size_t extreme : {std::size_t{1}, std::size_t{1'000'000}})

@@ -12,29 +12,23 @@
 namespace morsel::tools {
 namespace {
 
-// Chosen on half of the meshes of docs/sweeps-and-stability.md.
-constexpr double kDiffusion = 1.1;  // discs of a radius of 1/√points of the root of the area
-constexpr double kSmoothing = 0.2;  // share of the diffusion that the field is smoothed by
-constexpr core::Length kFairing = core::Length::root_areas(0.02);
-constexpr std::size_t kModesPerPoint = 2;  // whose weights fall to 1e-6
+// Both chosen on half of the meshes of docs/sweeps-and-stability.md.
+constexpr double kDiffusion = 0.47;
+constexpr core::Length kScale = core::Length::root_areas(0.01);
 
 /// With three digits, as users would write it.
 std::string length_text(const core::Length& length) {
-  return core::to_string(
-      core::Length{core::parse_number(core::to_digits(length.value, 3), "length"), length.unit});
+  const double value = core::parse_number(core::to_digits(length.value, 3), "length");
+  return core::to_string(core::Length{value, length.unit});
 }
 
-/// The area over which heat has spread after a time: of the surface alone, whatever its triangulation.
+/// Lengths of the surface alone, whatever its triangulation and pose.
 Preset resampled(std::size_t points) {
-  const core::Length diffusion = diffusion_for(points);
-  const std::size_t modes = kModesPerPoint * std::min(points, kMostPresetPoints);
+  const std::string diffusion = length_text(diffusion_for(points));
   return {"resampled",
           "points that repeat where the surface has other vertices",
-          "heat-kernel-signature:form=area,fairing=" + length_text(kFairing) +
-              ",time=" + length_text(diffusion) + ",modes=" + std::to_string(std::max<std::size_t>(modes, 8)),
-          {"conventional",
-           "laplacian:scheme=implicit,weights=cotangent,iterations=1,time=" +
-               length_text(core::Length::root_areas(kSmoothing * diffusion.value)),
+          "mean-curvature:estimator=diffused,scale=" + length_text(kScale) + ",diffusion=" + diffusion,
+          {"conventional", "laplacian:scheme=implicit,weights=cotangent,iterations=1,time=" + diffusion,
            "tps:count=laplacian"}};
 }
 
@@ -66,8 +60,8 @@ std::vector<std::string> standing_alone(const std::vector<std::string>& methods)
 }  // namespace
 
 core::Length diffusion_for(std::size_t points) {
-  const auto count = static_cast<double>(std::clamp<std::size_t>(points, 1, kMostPresetPoints));
-  return core::Length::root_areas(kDiffusion / std::sqrt(count));
+  return core::Length::root_areas(kDiffusion /
+                                  std::sqrt(static_cast<double>(std::max<std::size_t>(points, 1))));
 }
 
 std::vector<Preset> presets(std::optional<std::size_t> points) {

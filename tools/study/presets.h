@@ -22,12 +22,10 @@ struct Preset {
 
 /// The number of points that `resampled` is for where none is wanted.
 inline constexpr std::size_t kPresetPoints = 20;
-/// The most that its lengths are made for; where more are wanted they are those for so many.
-inline constexpr std::size_t kMostPresetPoints = 250;
 
-/// How far heat spreads over a surface on which about `points` critical points are to be left, a share of the
-/// root of its area: 1.1/√points of it. So many discs of this radius would cover the surface nearly four
-/// times, so that a field that is diffused as far has a few times as many points, whatever its triangulation.
+/// How far `resampled` diffuses a surface on which `points` critical points are to be left: 0.47/√points of
+/// the root of its area, about half the side of a square that has a point's share of the surface. More leaves
+/// too few points on smooth surfaces, less leaves many that the choice among them is not the same again.
 core::Length diffusion_for(std::size_t points);
 
 /// paper, noise, resampled, landmarks, molecule. The lengths of `resampled` are chosen for `points`.
