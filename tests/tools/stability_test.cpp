@@ -234,13 +234,49 @@ TEST_CASE("plots show F over noise and over vertices, a panel for each count") {
   }
   const auto vertices = tools::plot::vertices_plot(plan, result, clean.mesh);
   REQUIRE(vertices);
-  const auto& line = vertices->panels.at(0).series.at(1);
+  const auto& series = vertices->panels.at(0).series;
+  REQUIRE(series.size() == 8);  // each in two parts, before and after the clean surface
+  CHECK(series[1].x == std::vector<double>{0.5});
+  CHECK(series[1].y == std::vector<double>{score(0, 2)});
   const tools::PerturbedMesh finer = tools::perturb(clean, plan.perturbations[3], 1, 0);
-  REQUIRE(line.x.size() == 3);
-  CHECK(line.x[0] == 0.5);
-  CHECK(line.x[1] == 1);
-  CHECK(line.x[2] == static_cast<double>(finer.loaded.mesh.vertex_count()) / clean.mesh.vertex_count());
-  CHECK(line.y == std::vector<double>{score(0, 2), score(0, 4), score(0, 3)});
+  const double share = static_cast<double>(finer.loaded.mesh.vertex_count()) / clean.mesh.vertex_count();
+  CHECK(series[3].x == std::vector<double>{1, share});
+  CHECK(series[3].y == std::vector<double>{score(0, 4), score(0, 3)});
+  CHECK(series[3].name == series[1].name);
+  CHECK(series[3].color == series[1].color);
+}
+
+TEST_CASE("plots of several fields have their texts in the legend or, if they are long, in notes") {
+  const core::LoadedMesh clean = bumpy();
+  const auto noise = [&](std::vector<std::string> fields) {
+    StabilityRequest asked = request({"conventional"});
+    asked.fields = std::move(fields);
+    asked.noise = {0.1};
+    asked.trials = 1;
+    const tools::StabilityPlan plan = tools::prepare(asked);
+    return tools::plot::noise_plot(plan, run_stability(clean, plan)).value();
+  };
+  const tools::plot::Plot brief = noise({"height", "height:axis=x"});
+  CHECK(brief.panels.at(0).series.at(3).name == "height:axis=x, conventional");
+  CHECK(brief.notes.size() == 1);
+  const std::string long_one = "mean-curvature:estimator=cotangent";
+  const tools::plot::Plot numbered = noise({"height", long_one});
+  CHECK(numbered.panels.at(0).series.at(3).name == "field 2, conventional");
+  CHECK(numbered.notes.back() == "field 2: " + long_one);
+}
+
+TEST_CASE("plots over a single strength of noise have marks that can be told apart") {
+  StabilityRequest asked = request(std::vector<std::string>(8, "conventional"));
+  asked.noise = {0.1};
+  asked.trials = 1;
+  const core::LoadedMesh clean = bumpy();
+  const tools::StabilityPlan plan = tools::prepare(asked);
+  const auto plot = tools::plot::noise_plot(plan, run_stability(clean, plan));
+  const auto& series = plot.value().panels.at(0).series;
+  REQUIRE(series.size() == 8);
+  CHECK(series[0].draw == tools::plot::Draw::marks);
+  CHECK(series[7].color == series[0].color);
+  CHECK(series[7].mark != series[0].mark);
 }
 
 TEST_CASE("what did not happen to the surface is not plotted, and many lines are without chance levels") {
