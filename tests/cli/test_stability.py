@@ -167,7 +167,7 @@ class Files(Stability):
         documents, tables, files, plots = [], [], [], []
         for threads in (1, 2, 5):
             document = self.stability(SMALL, *ALL, "--threads", threads, "--figures", "plots")
-            plots.append({path.name: path.read_bytes() for path in (self.folder / "plots").iterdir()})
+            plots.append({path.name: path.read_bytes() for path in made_in(self.folder / "plots")})
             del document["timings"]
             documents.append(document)
             tables.append(self.morsel("stability", SMALL, *ALL, "--threads", threads, "-o", "s.csv").stdout)

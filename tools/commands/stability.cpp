@@ -12,6 +12,7 @@
 #include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/plot/plot_files.h"
 #include "morsel/tools/plot/stability_plots.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/stability_table.h"
 #include "morsel/tools/report/stability_writer.h"
 #include "morsel/tools/report/trial_journal.h"

@@ -7,6 +7,7 @@
 
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 
@@ -115,12 +116,6 @@ Json request_section(const StabilityRequest& request, bool repair) {
                 {"repair", repair}};
   if (request.target) asked["target"] = *request.target;
   return asked;
-}
-
-std::vector<HashedFile> input_files(const StabilityRequest& request, const Registry& registry) {
-  std::vector<std::string> fields = request.fields;
-  if (!request.reference_field.empty()) fields.push_back(request.reference_field);
-  return input_files(fields, registry);
 }
 
 Json trials_key(const StabilityRequest& request, const ReportInput& input, const Registry& registry) {

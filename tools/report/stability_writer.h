@@ -3,11 +3,9 @@
 /// as CSV.
 
 #include <ostream>
-#include <vector>
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/formats/json_stream.h"
-#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/study/stability.h"
 
@@ -24,10 +22,6 @@ struct StabilityReport {
 
 /// The request with its defaults, as documents have it.
 Json request_section(const StabilityRequest& request, bool repair);
-
-/// The files that the request's Morse functions read.
-std::vector<HashedFile> input_files(const StabilityRequest& request,
-                                    const Registry& registry = Registry::standard());
 
 /// All that the trials of a run depend on besides their perturbation and number: the key of their journal.
 Json trials_key(const StabilityRequest& request, const ReportInput& input,

@@ -46,7 +46,7 @@ const Preset& find_preset(std::string_view name, const std::vector<Preset>& all)
 std::vector<std::string> standing_alone(const std::vector<std::string>& methods) {
   std::vector<std::string> alone;
   for (const std::string& method : methods) {
-    std::vector<core::Specification> steps = core::parse_chain(method, "--method");
+    std::vector<core::Specification> steps = core::parse_chain(method, "method");
     if (std::erase_if(steps, [](const core::Specification& step) { return named_row(step).has_value(); }) >
         0) {
       if (!steps.empty()) alone.push_back(core::to_string(steps));
