@@ -141,7 +141,9 @@ void add_stability(Program& program) {
   add_common_options(command, program.common);
   command.examples = {{"stability scan.off", "three methods at four strengths of noise, ten trials each"},
                       {"stability scan.off --method salient --decimate 0.5,0.25 --target 40 -o stability.csv",
-                       "40 points with half and with a quarter of the vertices"}};
+                       "40 points with half and with a quarter of the vertices"},
+                      {"stability scan.off --preset resampled --target 20 --figures plots",
+                       "the preset's field and methods, made for 20 points; plots"}};
   add_specification_notes(command);
   set_action(program, command, options, measure_stability);
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
