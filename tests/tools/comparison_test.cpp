@@ -18,7 +18,6 @@
 #include "morsel/tools/study/level_builder.h"
 #include "morsel/tools/study/made_field.h"
 #include "morsel/tools/study/persistence_levels.h"
-#include "morsel/tools/study/presets.h"
 #include "morsel/tools/study/summary.h"
 
 #include "support/fields.h"
@@ -219,19 +218,6 @@ TEST_CASE("a count is that of an earlier row, by its methods' names or by all of
   refused({"salient", "tps:count=salient,threshold=1%"}, "not both");
   CHECK_THROWS_WITH(tools::Registry::standard().make_method("tps:count=salient"),
                     Catch::Contains("in a comparison alone"));
-}
-
-TEST_CASE("presets are comparisons") {
-  for (const tools::Preset& preset : tools::presets()) {
-    INFO(preset.name);
-    tools::ComparisonRequest request;
-    tools::apply_preset(preset.name, request);
-    CHECK(request.field == preset.field);
-    CHECK(tools::prepare(request).chains.size() == preset.methods.size());
-    CHECK(rows_of(request).size() == preset.methods.size());
-  }
-  tools::ComparisonRequest request;
-  CHECK_THROWS_WITH(tools::apply_preset("papper", request), Catch::Contains("did you mean paper?"));
 }
 
 TEST_CASE("regression: points that come from vertex numbers alone were not told from others") {
