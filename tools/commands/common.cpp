@@ -27,7 +27,7 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
 }
 
 Option& add_target_option(Command& command, std::optional<std::size_t>& target) {
-  return command.number("--target", target, "End with K critical points, or the nearest smaller number")
+  return command.number("--target", target, "End with K critical points, or a smaller number and the reason")
       .between(1, std::numeric_limits<double>::infinity())
       .value("K")
       .in_detail(
