@@ -18,7 +18,7 @@ namespace {
 /// None: arcs follow angles better where the stretch is not reduced.
 constexpr int kStretchRounds = 0;
 
-/// How many triangles the first drawing may make of a surface: so many times its own, or this number.
+/// Of the first drawing: so many times the surface's own triangles, or this number.
 constexpr std::size_t kMostTimes = 16;
 constexpr std::size_t kMostTriangles = 1 << 22;
 /// How many triangles a relaxation may add if that is more than there are, and, to a star, more than twice
@@ -51,8 +51,12 @@ std::string ArcDrawing::name(Index node) const {
   return std::string(kind) + " at vertex " + std::to_string(n.vertex);
 }
 
-void ArcDrawing::draw_first() {
-  most_triangles_ = std::max(kMostTimes * mesh_.triangle_count(), kMostTriangles);
+std::size_t ArcDrawing::most_at_first(std::size_t triangles) {
+  return std::max(kMostTimes * triangles, kMostTriangles);
+}
+
+void ArcDrawing::draw_first(std::size_t most) {
+  most_triangles_ = most;
   cut_along_descents();
   put_saddles_on_edges();
   node_at_.assign(mesh_.vertex_count(), kNone);

@@ -18,9 +18,11 @@ class ArcDrawing {
   ArcDrawing(const ArcDrawing&) = delete;
   ArcDrawing& operator=(const ArcDrawing&) = delete;
 
-  /// All arcs, nodes at their critical cells. Throws BadInput where they would cut the surface into far more
-  /// triangles than it has.
-  void draw_first();
+  /// How many triangles the first drawing may make of a surface of so many: 16 times these, or 4 million.
+  static std::size_t most_at_first(std::size_t triangles);
+  /// All arcs, nodes at their critical cells. Throws BadInput where they would cut the surface into more
+  /// triangles than `most`.
+  void draw_first(std::size_t most);
   /// Moves every node into the middle of the disc of the patches around it: maxima, minima, then saddles.
   /// Leaves those whose arcs would be drawn with too many triangles; so each call at most doubles these, or
   /// adds 65,536.

@@ -19,7 +19,7 @@ QuadLayout embed_layout(const MorseSmaleComplex& complex, const LayoutOptions& o
   const int steps = options.relaxation + 1;
   progress.update("quad layout", 0);
   ArcDrawing drawing(complex);
-  drawing.draw_first();
+  drawing.draw_first(ArcDrawing::most_at_first(drawing.mesh().triangle_count()));
   for (int round = 1; round < steps; ++round) {
     progress.update("quad layout", double(round) / steps);
     drawing.relax(progress);

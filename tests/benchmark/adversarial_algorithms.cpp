@@ -1,6 +1,7 @@
 // Costly inputs for what is computed on meshes.
 
 #include <memory>
+#include <random>
 #include <utility>
 
 #include "benchmark/adversarial.h"
@@ -8,8 +9,12 @@
 #include "morsel/morse/smoothing/denoise.h"
 #include "morsel/mscomplex/cut.h"
 #include "morsel/mscomplex/quads.h"
+#include "morsel/tools/molecule/surface.h"
+#include "morsel/tools/render/glyphs.h"
+#include "morsel/tools/study/point_matching.h"
 #include "support/adversarial.h"
 #include "support/meshes.h"
+#include "support/molecules.h"
 
 namespace morsel::benchmark {
 namespace {
@@ -56,6 +61,43 @@ std::function<void()> distance_to_boundary(const TriangleMesh& mesh) {
   return [mesh, sources = std::move(sources)] { morse::HeatDistance(mesh, {}).from(sources); };
 }
 
+std::vector<core::Point> points_in_cube(std::size_t count, double side, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(0, side);
+  std::vector<core::Point> points;
+  for (std::size_t i = 0; i < count; ++i) points.emplace_back(place(random), place(random), place(random));
+  return points;
+}
+
+/// All of as many points within the radius of all others, and a chance level.
+std::function<void()> matching(std::size_t count) {
+  return [reference = points_in_cube(count, 1, 1), other = points_in_cube(count, 1, 2)] {
+    const tools::PointMatcher matcher(reference, 2);
+    matcher.match(other);
+    for (int placement = 0; placement < 10; ++placement) matcher.count(other);
+  };
+}
+
+/// Atoms in a cube that all come within the reach of one probe.
+std::function<void()> excluded_surface(std::size_t count) {
+  std::vector<core::Atom> atoms;
+  for (const core::Point& p : points_in_cube(count, 4, 3)) atoms.push_back(test::atom_at(p, 1.7));
+  tools::SurfaceOptions options;
+  options.kind = tools::SurfaceKind::ses;
+  return [atoms = std::move(atoms), options] { tools::molecular_surface(atoms, options); };
+}
+
+/// Arcs as tubes; nearly all of them meet at two poles.
+std::function<void()> drawing_arcs(const TriangleMesh& mesh) {
+  std::mt19937 random(4);
+  const ScalarField field(mesh, values(mesh, [&](const core::Point&) { return double(random()); }));
+  const auto complex = std::make_shared<mscomplex::MorseSmaleComplex>(field);
+  return [mesh, complex] {
+    tools::render::Scene scene{tools::render::make_body(mesh)};
+    tools::render::add_arcs(scene, tools::render::Rays(scene.body.mesh), *complex, 0.0012);
+  };
+}
+
 }  // namespace
 
 std::vector<Family> algorithm_families() {
@@ -69,6 +111,10 @@ std::vector<Family> algorithm_families() {
        [](const Plan&, Size n) { return denoising(test::bipyramid(static_cast<int>(n)).mesh()); }},
       {"quads at poles of large degree", 1'000,
        [](const Plan&, Size n) { return quads(test::bipyramid(static_cast<int>(n)).mesh()); }},
+      {"matching of points all in reach", 1'000, [](const Plan&, Size n) { return matching(n); }},
+      {"excluded surface of dense atoms", 500, [](const Plan&, Size n) { return excluded_surface(n); }},
+      {"arcs at poles of large degree", 1'000,
+       [](const Plan&, Size n) { return drawing_arcs(test::bipyramid(static_cast<int>(n)).mesh()); }},
       {"heat distance to many sources", 1'000,
        [](const Plan&, Size n) { return distance_to_boundary(adversarial::pierced_sheet(n)); }},
   };

@@ -182,7 +182,7 @@ class Compare(ProgramTest):
     def test_presets_set_field_and_methods_and_a_report_of_one_can_be_checked(self):
         self.morsel("compare", SAMPLES / "lion-head.off", "--preset", "resampled", "-o", "r.json")
         report = json.loads((self.folder / "r.json").read_text())
-        self.assertEqual(report["request"]["field"], "mean-curvature:estimator=diffused")
+        self.assertRegex(report["request"]["field"], "^mean-curvature:estimator=diffused,")
         conventional, laplacian, tps = report["methods"]
         self.assertEqual(tps["parameters"]["count"], laplacian["critical_points"]["total"])
         self.morsel("check", "r.json")
@@ -193,6 +193,17 @@ class Compare(ProgramTest):
             error = self.morsel("compare", SAMPLES / "lion-head.off", *arguments, code=2).stderr
             for word in naming:
                 self.assertIn(word, error)
+
+    def test_a_preset_is_made_for_the_wanted_number_of_points(self):
+        mesh = SAMPLES / "mushroom.off"
+        fields = []
+        for arguments in (("--preset", "resampled", "--target", "80"),
+                          ("--target", "80", "--preset", "resampled"), ("--preset", "resampled")):
+            self.morsel("compare", mesh, *arguments, "-o", "r.json")
+            fields.append(json.loads((self.folder / "r.json").read_text())["request"]["field"])
+        self.assertEqual(fields[0], fields[1])
+        self.assertIn("diffusion=0.0525rootarea", fields[0])
+        self.assertIn("diffusion=0.105rootarea", fields[2])
 
     def test_points_are_chosen_of_every_row(self):
         lion = SAMPLES / "lion-head.off"

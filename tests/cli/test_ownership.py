@@ -411,6 +411,7 @@ class Folders(OwnershipTest):
             "figures": ("compare", "m.off", *QUICK, "--figures", folder, *SMALL),
             "export": ("compare", "m.off", *QUICK, "--export", folder),
             "levels": ("hierarchy", "m.off", "--levels", "0", "--export", folder),
+            "stability": ("stability", "m.off", "--noise", "0.1", "--trials", "1", "--figures", folder),
             "sweep": ("sweep", "m.off", "--vary", "iterations=1..2", "--figures", folder),
             "reproduce": ("reproduce", folder, "--data", "data", "--size", "40x34", "--samples", "1")}
 
@@ -657,6 +658,7 @@ class Outputs(OwnershipTest):
             self.refused(words[0], "", *words[2:], naming=["''"])
         for arguments in (("compare", "m.off", "--figures", ""), ("compare", "m.off", "--export", ""),
                           ("compare", "m.off", "--thumbnails", ""), ("hierarchy", "m.off", "--export", ""),
+                          ("stability", "m.off", "--figures", ""),
                           ("sweep", "m.off", "--vary", "iterations=1", "--figures", ""), ("reproduce", ""),
                           ("reproduce", "out", "--data", ""), ("batch", "", "--out", "out"),
                           ("batch", "meshes", "--out", ""),

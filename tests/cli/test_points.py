@@ -87,9 +87,12 @@ class Points(ProgramTest):
 
     def test_fifty_points_of_the_default_field(self):
         """One command, whatever the mesh: the second field fills up."""
-        for mesh in ("lion-head.off", "bunny00.off", "elephant.off"):
-            document = self.document(SAMPLES / mesh, "--points", 50)
+        for name in ("lion-head", "bunny00", "elephant", "cow", "camel", "dino", "armadillo", "bull", "cactus",
+                     "homer"):
+            document = self.document(SAMPLES / f"{name}.off", "--points", 50)
             self.assertEqual((document["count"], document["note"]), (50, ""))
+            self.assertGreaterEqual(min(p["distance"] for p in document["points"]),
+                                    document["spacing"] * (1 - 1e-12))
             self.assertEqual(document["points"][0]["field"], "gaussian-curvature")
 
     def test_a_second_field_fills_up(self):

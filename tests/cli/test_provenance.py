@@ -258,7 +258,9 @@ class Provenance(ProgramTest):
         for kind in ("json", "csv"):
             files = self.written_twice("stability", self.mesh, "--noise", "0.1", "--trials", "2", "--seed",
                                        "7", "-o",
-                                       f"{{out}}/s.{kind}", expected={f"s.{kind}"})
+                                       f"{{out}}/s.{kind}", "--figures", "{out}",
+                                       expected={f"s.{kind}", "noise.png", "noise.svg"})
+            self.assertEqual(of_svg(files["noise.svg"])["request"]["seed"], 7)
             if kind == "json":
                 self.check(files, "stability", [self.mesh], [])
                 self.assertEqual(json.loads(files["s.json"].read_text())["request"]["seed"], 7)

@@ -7,7 +7,7 @@ import signal
 import unittest
 
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted, made_in
 
 STABILITY_SCHEMA = SCHEMA.parent / "stability.schema.json"
 LION = SAMPLES / "lion-head.off"
@@ -87,6 +87,19 @@ class Results(Stability):
             counts = outcome["clean"]["critical_points"]
             self.assertEqual(outcome["clean"]["points"], counts["minima"] + counts["maxima"])
 
+    def test_a_preset_sets_field_and_methods_for_the_wanted_number_of_points(self):
+        few = self.stability(SMALL, "--preset", "resampled", "--trials", "1", "--decimate", "0.5", "--target",
+                             "20")
+        field, = few["request"]["fields"]
+        self.assertRegex(field, "^mean-curvature:estimator=diffused,.*diffusion=0.105rootarea")
+        self.assertEqual([o["method"] for o in few["outcomes"]], few["request"]["methods"] * 2)
+        self.assertEqual(few["request"]["methods"][0], "conventional")
+        many = self.stability(SMALL, "--target", "80", "--preset", "resampled", "--trials", "1", "--noise",
+                              "0.1")
+        self.assertIn("diffusion=0.0525rootarea", many["request"]["fields"][0])
+        noise = self.stability(SMALL, "--preset", "noise", "--trials", "1", "--noise", "0.1")
+        self.assertEqual(noise["request"]["methods"], ["conventional", "salient", "salient:preset=robust"])
+
     def test_the_table(self):
         out = self.morsel("stability", SMALL, "--method", "conventional", "--noise", "0.1", "--trials", "2",
                           "--target", "20").stdout
@@ -151,16 +164,33 @@ class Files(Stability):
                     self.assertEqual(float(row[what + "_half_width"]), half)
 
     def test_the_same_bytes_at_any_number_of_threads_but_for_timings(self):
-        documents, tables, files = [], [], []
+        documents, tables, files, plots = [], [], [], []
         for threads in (1, 2, 5):
-            document = self.stability(SMALL, *ALL, "--threads", threads)
+            document = self.stability(SMALL, *ALL, "--threads", threads, "--figures", "plots")
+            plots.append({path.name: path.read_bytes() for path in made_in(self.folder / "plots")})
             del document["timings"]
             documents.append(document)
             tables.append(self.morsel("stability", SMALL, *ALL, "--threads", threads, "-o", "s.csv").stdout)
             files.append((self.folder / "s.csv").read_bytes())
-        for each in (documents, tables, files):
+        for each in (documents, tables, files, plots):
             self.assertEqual(each[0], each[1])
             self.assertEqual(each[0], each[2])
+
+    def test_plots(self):
+        self.morsel("stability", SMALL, *ALL, "--method", "conventional", "--method", "gaussian",
+                    "--figures", "plots")
+        self.assertEqual([path.name for path in made_in(self.folder / "plots")],
+                         [f"{over}.{kind}" for over in ("noise", "vertices") for kind in ("png", "svg")])
+        for over, unit in (("noise", "mean edge lengths"), ("vertices", "of the clean surface")):
+            drawing = (self.folder / f"plots/{over}.svg").read_text()
+            for text in (over, unit, "F-score", "gaussian", "30 points", "own count", "random vertices"):
+                self.assertIn(text, drawing)
+
+    def test_no_plot_without_a_perturbation(self):
+        self.morsel("stability", SMALL, "--method", "conventional", "--decimate", "0.8", "--trials", "1",
+                    "--figures", "plots")
+        self.assertEqual([path.name for path in made_in(self.folder / "plots")],
+                         ["vertices.png", "vertices.svg"])
 
     def test_standard_output(self):
         result = self.morsel("stability", self.file("o.off", OCTAHEDRON), "--field", "height", "--trials",
@@ -212,6 +242,9 @@ class Refused(Stability):
         self.refuse("--method", "nonsense", naming=["nonsense", "salient"])
         self.refuse("--field", "nonsense", naming=["nonsense", "height"])
         self.refuse("--reference", "nonsense", naming=["nonsense"])
+        self.refuse("--preset", "best", naming=["paper", "resampled", "best"])
+        self.refuse("--preset", "noise", "--field", "height", naming=["--preset", "--field"])
+        self.refuse("--preset", "noise", "--method", "tps", naming=["--preset", "--method"])
         self.refuse("--field", "vertex-scalar:file=v.txt", "--subdivide", "2",
                     naming=["vertex-scalar", "subdivision"])
 

@@ -82,6 +82,21 @@ TEST_CASE("cotangents of lengths are exact where triangles are needles") {
   CHECK(morse::triangle_area({1, 2, 4}) == 0);
 }
 
+TEST_CASE("eigenvalues of a sphere converge") {
+  std::vector<double> errors;
+  for (const int rounds : {2, 3, 4}) {
+    double worst = 0;
+    const std::vector<Eigenfunction> functions = morse::eigenfunctions(sphere(rounds).mesh(), 8);
+    for (int k = 0; k < 8; ++k) {
+      const double exact = k < 3 ? 2 : 6;
+      worst = std::max(worst, std::abs(functions[k].eigenvalue - exact) / exact);
+    }
+    errors.push_back(worst);
+  }
+  CHECK(errors[1] < 0.3 * errors[0]);  // by the square of the edges
+  CHECK(errors[2] < 0.3 * errors[1]);
+}
+
 TEST_CASE("eigenvalues of a sphere are l times l plus 1") {
   for (const double radius : {1.0, 2.5}) {
     Soup soup = sphere(4);

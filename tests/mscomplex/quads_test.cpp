@@ -12,6 +12,7 @@
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/operators/eigenfunctions.h"
 #include "morsel/mscomplex/hierarchy.h"
+#include "morsel/mscomplex/quads/arc_drawing.h"
 #include "morsel/mscomplex/quads/triangle_search.h"
 #include "support/fields.h"
 #include "support/meshes.h"
@@ -20,6 +21,7 @@
 using namespace morsel;
 using namespace morsel::test;
 using core::ScalarField;
+using mscomplex::ArcDrawing;
 using mscomplex::MorseSmaleComplex;
 using mscomplex::QuadLayout;
 using mscomplex::QuadMesh;
@@ -70,6 +72,15 @@ bool check_layout(const ScalarField& field, int relaxation, Index resolution) {
   CHECK(quality.extraordinary == extraordinary);
   CHECK(quality.patches.size() == complex.quad_count());
   return true;
+}
+
+/// A bipyramid whose rim goes up and down.
+TriangleMesh wavy_bipyramid(int sides) {
+  const TriangleMesh flat = bipyramid(sides).mesh();
+  std::vector<Point> positions;
+  for (Index v = 0; v < flat.vertex_count(); ++v)
+    positions.push_back(flat.position(v) + Point(0, 0, v < 2 ? 0 : v % 2 == 0 ? -0.2 : 0.2));
+  return {positions, {flat.triangles().begin(), flat.triangles().end()}};
 }
 
 /// Minima 2 and 4, maxima at the poles 0 and 1, saddles 3 and 5.
@@ -243,15 +254,29 @@ TEST_CASE("quads at vertices of a degree of five thousand take seconds, not minu
   CHECK(check_layout({mesh, values}, 2, 4));
 }
 
+TEST_CASE("a first drawing that would take too many triangles is refused, and one of just as many is not") {
+  CHECK(ArcDrawing::most_at_first(100) == 4'194'304);
+  CHECK(ArcDrawing::most_at_first(1'000'000) == 16'000'000);
+  const TriangleMesh mesh = wavy_bipyramid(80);
+  const ScalarField field = eigenfunction(mesh, 40);
+  const auto repaired = mscomplex::repair_dangling(field, MorseSmaleComplex(field));
+  const std::size_t needed = mscomplex::embed_layout(repaired.complex, {0}).surface.triangle_count();
+  REQUIRE(needed > mesh.triangle_count());
+  ArcDrawing(repaired.complex).draw_first(needed);
+  CHECK_THROWS_AS(ArcDrawing(repaired.complex).draw_first(needed - 1), core::BadInput);
+  CHECK_THROWS_WITH(
+      ArcDrawing(repaired.complex).draw_first(needed - 1),
+      Catch::Matches(
+          "the [0-9]+ arcs that meet in the (minimum|maximum) at vertex [0-9]+ would cut the surface "
+          "of 160 triangles into more than " +
+          std::to_string(needed - 1) + "; a field with fewer critical points there, .*"));
+}
+
 TEST_CASE("relaxations where many arcs meet add a bounded number of triangles") {
   Index left = 0;
   for (const int sides : {40, 80, 120}) {
     INFO(sides);
-    std::vector<Point> positions;
-    const TriangleMesh flat = bipyramid(sides).mesh();
-    for (Index v = 0; v < flat.vertex_count(); ++v)  // its rim goes up and down
-      positions.push_back(flat.position(v) + Point(0, 0, v < 2 ? 0 : v % 2 == 0 ? -0.2 : 0.2));
-    const TriangleMesh mesh(positions, {flat.triangles().begin(), flat.triangles().end()});
+    const TriangleMesh mesh = wavy_bipyramid(sides);
     const ScalarField field = eigenfunction(mesh, 40);
     const auto repaired = mscomplex::repair_dangling(field, MorseSmaleComplex(field));
     std::size_t before = 0;

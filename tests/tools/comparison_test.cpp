@@ -18,7 +18,6 @@
 #include "morsel/tools/study/level_builder.h"
 #include "morsel/tools/study/made_field.h"
 #include "morsel/tools/study/persistence_levels.h"
-#include "morsel/tools/study/presets.h"
 #include "morsel/tools/study/summary.h"
 
 #include "support/fields.h"
@@ -221,19 +220,6 @@ TEST_CASE("a count is that of an earlier row, by its methods' names or by all of
                     Catch::Contains("in a comparison alone"));
 }
 
-TEST_CASE("presets are comparisons") {
-  for (const tools::Preset& preset : tools::presets()) {
-    INFO(preset.name);
-    tools::ComparisonRequest request;
-    tools::apply_preset(preset.name, request);
-    CHECK(request.field == preset.field);
-    CHECK(tools::prepare(request).chains.size() == preset.methods.size());
-    CHECK(rows_of(request).size() == preset.methods.size());
-  }
-  tools::ComparisonRequest request;
-  CHECK_THROWS_WITH(tools::apply_preset("papper", request), Catch::Contains("did you mean paper?"));
-}
-
 TEST_CASE("regression: points that come from vertex numbers alone were not told from others") {
   const TriangleMesh mesh = sphere(2).mesh();
   const core::LoadedMesh loaded{mesh, {}};
@@ -400,26 +386,30 @@ TEST_CASE("points are chosen of every row as of its field alone, and compared am
 
 TEST_CASE("pairs above 1 % of the range are those of the summary, infinite ones included") {
   struct Last : tools::ComparisonSink {
-    void field(const tools::FieldOutcome&) override {}
+    void field(const tools::FieldOutcome& outcome) override { extent = outcome.field.extent(); }
     void method(const tools::MethodOutcome& outcome) override {
-      const double least = 0.01 * outcome.field.extent();
+      const double least = 0.01 * extent;
       for (const auto& pair : outcome.measurement.diagram.pairs) large += pair.persistence() > least ? 1 : 0;
-      summary = tools::summary_of(outcome.measurement.diagram, outcome.field.extent());
+      summary = tools::summary_of(outcome.measurement.diagram, extent);
+      own = tools::summary_of(outcome.measurement.diagram, outcome.field.extent());
     }
+    double extent = 0;  // of the input
     std::size_t large = 0;
+    tools::PersistenceSummary own;
     tools::PersistenceSummary summary;
   };
   const TriangleMesh mesh = grid(12, 12).mesh();
   Last last;
   tools::ComparisonTable table;
   tools::ComparisonRequest request;
-  request.methods = {"tps:count=9"};
+  request.methods = {"gaussian:sigma=2edges"};  // which narrows the range
   tools::run_comparison({jittered(mesh, 0.2, 5), {}}, tools::prepare(request), {&last, &table});
   CHECK(last.large > 0);
+  CHECK(last.own.above_one_percent() > last.large);
   CHECK(last.summary.above_one_percent() == last.large);
   std::istringstream lines(table.text());
   std::string line;
-  while (!line.starts_with("tps:count=9") && std::getline(lines, line)) {
+  while (!line.starts_with("gaussian:sigma=2edges") && std::getline(lines, line)) {
   }
   std::istringstream row(line);
   std::vector<std::string> cells(8);

@@ -165,13 +165,15 @@ TEST_CASE("trials are read back from their journal unchanged") {
   trial.points.saddles = 4;
   trial.points.saddle_multiplicity = 5;
   trial.points.maxima = 6;
-  trial.agreement = {10, 13, 7, 0.1 + 0.2};
+  trial.agreement = {10, 13, 7, 0.1 + 0.2, true};
   trial.chance = 1. / 3;
   const tools::Perturbation noise{tools::PerturbationKind::noise, 0.15, tools::NoiseKind::normal};
   const tools::Perturbation other{tools::PerturbationKind::noise, 0.15, tools::NoiseKind::isotropic};
   {
     Journal journal(folder / "j", 1);
-    tools::TrialJournal(journal, 2).add(noise, 2, {trial, {}});
+    tools::Trial bounded = trial;
+    bounded.agreement.is_least = false;
+    tools::TrialJournal(journal, 2).add(noise, 2, {trial, bounded});
   }
   Journal journal(folder / "j", 1);
   const tools::TrialJournal trials(journal, 2);
@@ -187,11 +189,13 @@ TEST_CASE("trials are read back from their journal unchanged") {
   CHECK(back.agreement.distances == trial.agreement.distances);
   CHECK(back.agreement.matched == 7);
   CHECK(back.chance == trial.chance);
+  CHECK(back.agreement.is_least);
+  CHECK_FALSE(found->back().agreement.is_least);
 }
 
 TEST_CASE("bug: trials in a journal were taken whatever they were") {
   const test::Scratch folder;
-  const Json right = {3, 4, 5, 6, 10, 13, 7, 0.5, 0.25};
+  const Json right = {3, 4, 5, 6, 10, 13, 7, 0.5, 0.25, 1};
   const auto count = [&](const Json& entry, std::size_t outcomes) {
     std::filesystem::remove(folder / "j");
     { Journal(folder / "j", 1).add(entry); }

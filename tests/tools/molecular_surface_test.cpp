@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stop_token>
 
 #include "morsel/core/error.h"
@@ -299,4 +300,28 @@ TEST_CASE("a surface that is being made can be stopped") {
   std::stop_source stop;
   const core::Progress progress([&](std::string_view, double) { stop.request_stop(); }, stop.get_token());
   CHECK_THROWS_AS(tools::molecular_surface(random_molecule(1, 20), {}, progress), core::Cancelled);
+}
+
+TEST_CASE(
+    "bug: the time of a solvent-excluded surface grew with the cube of the atoms in reach of one another") {
+  std::mt19937 random(9);
+  std::vector<Atom> atoms;
+  for (int i = 0; i < 4000; ++i)
+    atoms.push_back(
+        atom_at({random() % 10000 / 1000., random() % 10000 / 1000., random() % 10000 / 1000.}, 1.7));
+  const MolecularSurface surface = tools::molecular_surface(atoms, options(SurfaceKind::ses, 0.9));
+  check_promise(surface);
+  // A cube of 10 with everything within 1.7 of it, but for some room between the outermost atoms.
+  CHECK(surface.volume < 1000 + 6 * 100 * 1.7 + 30 * std::numbers::pi * 1.7 * 1.7 + 21);
+  CHECK(surface.volume > 1800);
+}
+
+TEST_CASE("atoms too many of which can be touched at once have no solvent-excluded surface") {
+  const std::vector<Atom> atoms(20'000, atom_at({1, 2, 3}, 1.7));
+  CHECK_THROWS_WITH(
+      tools::molecular_surface(atoms, options(SurfaceKind::ses, 0.9)),
+      "a probe of 1.4 Å can touch more than 33554432 pairs of these 20000 atoms, too many for a "
+      "solvent-excluded surface; a smaller probe or the kind gaussian would do, unless the atoms "
+      "lie one in another");
+  CHECK_NOTHROW(tools::molecular_surface(atoms, options(SurfaceKind::vdw, 0.9)));
 }

@@ -147,6 +147,26 @@ TEST_CASE("tubes lie on the surface: none of those that face the viewer is hidde
     }
 }
 
+TEST_CASE("arcs are not smoothed, and none is halved, at vertices of very large degree") {
+  // Both poles of a bipyramid have as many triangles as it has sides, and all of its triangles are there.
+  for (const int sides : {256, 257}) {
+    const TriangleMesh mesh = bipyramid(sides).mesh();
+    std::vector<double> values = random_values(mesh.vertex_count(), 5);
+    values[0] = values[1] = 9;
+    const mscomplex::MorseSmaleComplex complex({mesh, values});
+    REQUIRE(complex.saddle_count() > 50);
+    const auto capsules = [&](double freedom) {
+      Scene scene{make_body(mesh)};
+      add_arcs(scene, Rays(scene.body.mesh), complex, 0.0012, freedom);
+      std::vector<std::array<float, 6>> ends;
+      for (const Capsule& c : scene.capsules)
+        ends.push_back({c.a[0], c.a[1], c.a[2], c.b[0], c.b[1], c.b[2]});
+      return ends;
+    };
+    CHECK((capsules(1) == capsules(0)) == (sides > 256));
+  }
+}
+
 TEST_CASE("arcs that merge are drawn once") {
   const core::ScalarField field = bumpy_field(3);
   const mscomplex::MorseSmaleComplex complex(field);

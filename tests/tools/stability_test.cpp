@@ -7,6 +7,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/text/parameters.h"
+#include "morsel/tools/plot/stability_plots.h"
 #include "support/meshes.h"
 #include "support/shapes.h"
 
@@ -107,6 +108,17 @@ TEST_CASE("the chance level of a radius that reaches everything is that of equal
   }
 }
 
+TEST_CASE("trials whose drift may be too large are counted in a warning") {
+  StabilityRequest asked = request({"conventional"});
+  asked.noise = {0.1};
+  asked.trials = 3;
+  StabilityResult result = run(bumpy(), asked);
+  CHECK(result.warnings().empty());
+  result.outcomes[0].perturbations[0].trials[1].agreement.is_least = false;
+  REQUIRE(result.warnings().size() == 1);
+  CHECK(result.warnings()[0].find("in 1 of 3 trials") == 0);
+}
+
 TEST_CASE("the chance level of a radius of nothing is the share of vertices that are hit") {
   StabilityRequest asked = request({"conventional"});
   asked.noise = {0};
@@ -199,6 +211,97 @@ TEST_CASE("an error in a trial names it, and of several the first is reported") 
   CHECK_THAT(error, Catch::StartsWith("decimation 0.") && Catch::Contains(", trial ") &&
                         Catch::Contains("geodesic:source=0: ") && Catch::Contains("vertex 0"));
   CHECK(error_at(4) == error);
+}
+
+TEST_CASE("plots show F over noise and over vertices, a panel for each count") {
+  StabilityRequest asked = request({"conventional", "gaussian:iterations=2"});
+  asked.noise = {0.3, 0.1};
+  asked.decimate = {0.5};
+  asked.subdivide = {3, 1};
+  asked.target = 40;
+  asked.trials = 1;
+  const core::LoadedMesh clean = bumpy();
+  const tools::StabilityPlan plan = tools::prepare(asked);
+  const StabilityResult result = run_stability(clean, plan);
+  const auto score = [&](std::size_t outcome, std::size_t perturbation) {
+    return result.outcomes[outcome].perturbations[perturbation].f_score().mean;
+  };
+  const auto noise = tools::plot::noise_plot(plan, result);
+  REQUIRE(noise);
+  REQUIRE(noise->panels.size() == 2);
+  CHECK(noise->panels[1].title == "40 points");
+  for (std::size_t panel = 0; panel < 2; ++panel) {
+    const auto& series = noise->panels[panel].series;
+    REQUIRE(series.size() == 4);  // each after its chance level
+    for (std::size_t m = 0; m < 2; ++m) {
+      const auto& line = series[2 * m + 1];
+      CHECK(line.name == asked.methods[m]);
+      CHECK(line.x == std::vector<double>{0.1, 0.3});
+      CHECK(line.y == std::vector<double>{score(2 * panel + m, 1), score(2 * panel + m, 0)});
+      CHECK(series[2 * m].name.empty());
+      CHECK(series[2 * m].color == line.color);
+      CHECK(series[2 * m].y[0] == result.outcomes[2 * panel + m].perturbations[1].chance().mean);
+    }
+  }
+  const auto vertices = tools::plot::vertices_plot(plan, result, clean.mesh);
+  REQUIRE(vertices);
+  const auto& series = vertices->panels.at(0).series;
+  REQUIRE(series.size() == 8);  // each in two parts, before and after the clean surface
+  CHECK(series[1].x == std::vector<double>{0.5});
+  CHECK(series[1].y == std::vector<double>{score(0, 2)});
+  const tools::PerturbedMesh finer = tools::perturb(clean, plan.perturbations[3], 1, 0);
+  const double share = static_cast<double>(finer.loaded.mesh.vertex_count()) / clean.mesh.vertex_count();
+  CHECK(series[3].x == std::vector<double>{1, share});
+  CHECK(series[3].y == std::vector<double>{score(0, 4), score(0, 3)});
+  CHECK(series[3].name == series[1].name);
+  CHECK(series[3].color == series[1].color);
+}
+
+TEST_CASE("plots of several fields have their texts in the legend or, if they are long, in notes") {
+  const core::LoadedMesh clean = bumpy();
+  const auto noise = [&](std::vector<std::string> fields) {
+    StabilityRequest asked = request({"conventional"});
+    asked.fields = std::move(fields);
+    asked.noise = {0.1};
+    asked.trials = 1;
+    const tools::StabilityPlan plan = tools::prepare(asked);
+    return tools::plot::noise_plot(plan, run_stability(clean, plan)).value();
+  };
+  const tools::plot::Plot brief = noise({"height", "height:axis=x"});
+  CHECK(brief.panels.at(0).series.at(3).name == "height:axis=x, conventional");
+  CHECK(brief.notes.size() == 1);
+  const std::string long_one = "mean-curvature:estimator=cotangent";
+  const tools::plot::Plot numbered = noise({"height", long_one});
+  CHECK(numbered.panels.at(0).series.at(3).name == "field 2, conventional");
+  CHECK(numbered.notes.back() == "field 2: " + long_one);
+}
+
+TEST_CASE("plots over a single strength of noise have marks that can be told apart") {
+  StabilityRequest asked = request(std::vector<std::string>(8, "conventional"));
+  asked.noise = {0.1};
+  asked.trials = 1;
+  const core::LoadedMesh clean = bumpy();
+  const tools::StabilityPlan plan = tools::prepare(asked);
+  const auto plot = tools::plot::noise_plot(plan, run_stability(clean, plan));
+  const auto& series = plot.value().panels.at(0).series;
+  REQUIRE(series.size() == 8);
+  CHECK(series[0].draw == tools::plot::Draw::marks);
+  CHECK(series[7].color == series[0].color);
+  CHECK(series[7].mark != series[0].mark);
+}
+
+TEST_CASE("what did not happen to the surface is not plotted, and many lines are without chance levels") {
+  StabilityRequest asked = request(std::vector<std::string>(8, "conventional"));
+  asked.noise = {0.1};
+  asked.trials = 1;
+  const core::LoadedMesh clean = bumpy();
+  const tools::StabilityPlan plan = tools::prepare(asked);
+  const StabilityResult result = run_stability(clean, plan);
+  CHECK_FALSE(tools::plot::vertices_plot(plan, result, clean.mesh));
+  const auto noise = tools::plot::noise_plot(plan, result);
+  REQUIRE(noise);
+  CHECK(noise->panels.at(0).series.size() == 8);
+  CHECK(noise->notes.empty());
 }
 
 TEST_CASE("stability requests are checked") {

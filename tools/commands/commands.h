@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,7 +74,10 @@ void add_field_options(Command& command, std::string& mesh, FieldRequest& reques
 void add_camera_options(Command& command, render::CameraText& camera);
 /// --method, any number of times.
 void add_methods_option(Command& command, std::vector<std::string>& methods);
-/// --field, --method, --preset, --target and --snap of the commands that run several methods.
+/// --preset, which sets field and methods by a name. Where they depend on the wanted number of points it is
+/// added after --target: options are taken in the order of the table.
+void add_preset_option(Command& command, std::function<void(const std::string& name)> apply);
+/// --field, --method, --target, --preset and --snap of the commands that run several methods.
 void add_comparison_options(Command& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures, for a command that has --figures.
 void add_figure_options(Command& command, render::FigureText& figure);

@@ -1,3 +1,4 @@
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -26,7 +27,7 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
 }
 
 Option& add_target_option(Command& command, std::optional<std::size_t>& target) {
-  return command.number("--target", target, "End with K critical points, or the nearest smaller number")
+  return command.number("--target", target, "End with K critical points, or a smaller number and the reason")
       .between(1, std::numeric_limits<double>::infinity())
       .value("K")
       .in_detail(
@@ -63,9 +64,7 @@ void add_methods_option(Command& command, std::vector<std::string>& methods) {
       .in_detail("May be given several times; what is given replaces the default");
 }
 
-namespace {
-
-void add_preset_option(Command& command, ComparisonRequest& request) {
+void add_preset_option(Command& command, std::function<void(const std::string& name)> apply) {
   Option row{"--preset", "Field and methods at once"};
   row.value_name = "WHICH";
   for (const Preset& preset : presets()) {
@@ -74,19 +73,17 @@ void add_preset_option(Command& command, ComparisonRequest& request) {
     row.details +=
         (row.choices.size() == 1 ? "" : "; ") + std::string(preset.name) + ": " + std::string(preset.purpose);
   }
-  row.take = [&request](const Option&, const std::vector<std::string>& words) {
-    apply_preset(words.back(), request);
+  row.take = [apply = std::move(apply)](const Option&, const std::vector<std::string>& words) {
+    apply(words.back());
   };
   command.add(std::move(row)).excludes("--field").excludes("--method");
 }
 
-}  // namespace
-
 void add_comparison_options(Command& command, ComparisonRequest& request) {
   command.text("--field", request.field, "Morse function").is_function();
   add_methods_option(command, request.methods);
-  add_preset_option(command, request);
   add_target_option(command, request.target);
+  add_preset_option(command, [&request](const std::string& name) { apply_preset(name, request); });
   command.flag("--snap", request.snap, "Report each critical point at its origin")
       .in_detail(
           "Its position is that of the critical point of the input field that it came from, its origin");

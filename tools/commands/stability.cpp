@@ -9,9 +9,14 @@
 
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/commands/table_target.h"
+#include "morsel/tools/drawing/pictures.h"
+#include "morsel/tools/plot/plot_files.h"
+#include "morsel/tools/plot/stability_plots.h"
+#include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/stability_table.h"
 #include "morsel/tools/report/stability_writer.h"
 #include "morsel/tools/report/trial_journal.h"
+#include "morsel/tools/study/presets.h"
 
 namespace morsel::tools {
 namespace {
@@ -20,16 +25,28 @@ struct Options {
   std::string mesh;
   StabilityRequest request;
   std::string output;
+  std::string figure_folder;
 };
 
+std::vector<plot::NamedPlot> plots_of(const StabilityReport& report) {
+  std::vector<plot::NamedPlot> plots;
+  if (std::optional<plot::Plot> plot = plot::noise_plot(report.plan, report.result))
+    plots.emplace_back("noise", std::move(*plot));
+  if (std::optional<plot::Plot> plot = plot::vertices_plot(report.plan, report.result, report.loaded.mesh))
+    plots.emplace_back("vertices", std::move(*plot));
+  return plots;
+}
+
 int measure_stability(const Options& options, const Run& run) {
+  if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   const StabilityPlan prepared = prepare(options.request);
   const StabilityRequest request = with_defaults(options.request);
   RunFiles files;
   files.reads("MESH", options.mesh);
   for (const std::string& field : request.fields) files.reads_of_field(field);
   if (!request.reference_field.empty()) files.reads_of_field(request.reference_field, "--reference-field");
-  write_table(files, options.output).check();
+  write_table(files, options.output).fills("--figures", options.figure_folder).check();
+  const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, files, run);
   TableTarget target(options.output);
 
   const MeshInput input = read_input(options.mesh, run);
@@ -40,14 +57,23 @@ int measure_stability(const Options& options, const Run& run) {
   const StabilityResult result =
       run_stability(input.loaded, prepared, run.console.progress(), trials ? &*trials : nullptr);
   for (const FieldOutcome& field : result.fields) tell_warnings(field, run.console);
+  for (const std::string& warning : result.warnings()) run.console.warning(warning);
   for (std::size_t i = 0; i < result.outcomes.size() / prepared.targets.size(); ++i)  // the first target's
     tell_warnings(result.outcomes[i].clean.steps, run.console);
 
   const StabilityReport report{input.loaded, input.about, request, prepared, result};
   target.write([&](JsonSink& json) { write_stability(json, report); },
                [&](std::ostream& out) { write_stability_csv(out, report); });
+  if (figures) {
+    std::vector<HashedFile> inputs = {input.file()};
+    for (HashedFile& file : input_files(request)) inputs.push_back(std::move(file));
+    plot::write_plots(
+        *figures, plots_of(report),
+        Provenance(run.common.command, request_section(request, run.common.repair), std::move(inputs)));
+  }
   target.show(stability_table(prepared, result));
   target.tell("stability", run.console);
+  if (figures) run.console.message("plots: " + options.figure_folder);
   return kDone;
 }
 
@@ -98,6 +124,7 @@ void add_stability(Program& program) {
   add_methods_option(command, request.methods);
   add_target_option(command, request.target).shortly("End with K critical points, too").help =
       "Besides each method's own count: end with K critical points, or fewer";
+  add_preset_option(command, [&request](const std::string& name) { apply_preset(name, request); });
   command
       .path("-o,--output", options->output, "Write trials (.json) or rows (.csv) here; - is standard output")
       .value("OUT")
@@ -105,12 +132,19 @@ void add_stability(Program& program) {
       .in_detail(
           "Every trial, or a row for each method and perturbation; - is JSON. Should it be interrupted, "
           "OUT.journal holds the trials that are done, and the same command goes on from there");
+  command
+      .path("--figures", options->figure_folder,
+            "Write plots of F over noise and over vertices (.svg, .png) here")
+      .value("DIR")
+      .shapes_nothing();
   add_perturbation_options(command, request);
   add_agreement_options(command, request);
   add_common_options(command, program.common);
   command.examples = {{"stability scan.off", "three methods at four strengths of noise, ten trials each"},
                       {"stability scan.off --method salient --decimate 0.5,0.25 --target 40 -o stability.csv",
-                       "40 points with half and with a quarter of the vertices"}};
+                       "40 points with half and with a quarter of the vertices"},
+                      {"stability scan.off --preset resampled --target 20 --figures plots",
+                       "the preset's field and methods, made for 20 points; plots"}};
   add_specification_notes(command);
   set_action(program, command, options, measure_stability);
 }

@@ -1,12 +1,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 
+#include "morsel/core/error.h"
 #include "morsel/core/mesh/neighbors.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/core/parallel/stop.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/molecule/solid.h"
 
 namespace morsel::tools {
@@ -20,6 +25,15 @@ constexpr double kTurn = 2 * std::numbers::pi;
 /// A point counts as inside a ball if it is by more than this share of Å: points on several spheres are on
 /// all of them.
 constexpr double kTolerance = 1e-9;
+
+/// Neighbours of all balls together, 4 bytes each: this number, or so many for each ball. In proteins an atom
+/// has about 60 that a probe of 1.4 Å can touch together with it.
+constexpr std::size_t kMostNeighbors = std::size_t{1} << 26;
+constexpr std::size_t kMostOfEach = 256;
+
+/// Once a circle has so many covered intervals, and then twice as many, and so on, it may be covered already:
+/// where atoms are dense, a few of the nearest ones do it.
+constexpr std::size_t kFirstLook = 8;
 
 /// A piece of the circle where two spheres meet that lies in no ball.
 struct Arc {
@@ -71,15 +85,25 @@ class ExcludedSolid final : public Solid {
       centers.push_back(ball.center);
     }
     const core::PointSearch search(centers);
+    const std::size_t most = std::max(kMostNeighbors, kMostOfEach * balls_.size());
+    std::atomic<std::size_t> found = 0;
     neighbors_.resize(balls_.size());
     arcs_.resize(balls_.size());
     core::parallel_for(0, balls_.size(), 16, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) find_neighbors(static_cast<Index>(i), search);
+      for (std::size_t i = first; i < last; ++i) {
+        core::throw_if_stopped();
+        find_neighbors(static_cast<Index>(i), search);
+        if (found += neighbors_[i].size(); found > most) refuse(most);
+      }
     });
     core::parallel_for(0, balls_.size(), 16, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        for (const Index j : neighbors_[i])
+      for (std::size_t i = first; i < last; ++i) {
+        sort_neighbors(static_cast<Index>(i));
+        for (const Index j : neighbors_[i]) {
+          core::throw_if_stopped();
           if (j > i) find_arcs(static_cast<Index>(i), j);
+        }
+      }
     });
   }
 
@@ -88,12 +112,21 @@ class ExcludedSolid final : public Solid {
 
   void evaluate(std::span<const Point> places, std::span<const Index> balls,
                 std::span<double> values) const override {
-    for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      core::throw_if_stopped();
       values[k] = probe_ - distance_to_accessible(places[k], balls, probe_ + depth_);
+    }
   }
 
  private:
-  /// Of the ball's neighbours, the nearest first: these are the likeliest to cover what it does.
+  [[noreturn]] void refuse(std::size_t most) const {
+    throw core::BadInput(
+        "a probe of " + core::shortest(probe_) + " Å can touch more than " + std::to_string(most / 2) +
+        " pairs of these " + std::to_string(balls_.size()) +
+        " atoms, too many for a solvent-excluded surface; a smaller probe or the kind gaussian would do, "
+        "unless the atoms lie one in another");
+  }
+
   void find_neighbors(Index i, const core::PointSearch& search) {
     std::vector<Index>& found = neighbors_[i];
     search.within(balls_[i].center, balls_[i].radius + largest_, found);
@@ -101,8 +134,11 @@ class ExcludedSolid final : public Solid {
       return j == i ||
              square(i, j) >= (balls_[i].radius + balls_[j].radius) * (balls_[i].radius + balls_[j].radius);
     });
-    std::stable_sort(found.begin(), found.end(),
-                     [&](Index a, Index b) { return square(i, a) < square(i, b); });
+  }
+
+  /// The nearest first: these are the likeliest to cover what the ball does.
+  void sort_neighbors(Index i) {
+    std::ranges::stable_sort(neighbors_[i], {}, [&](Index j) { return square(i, j); });
   }
 
   double square(Index i, Index j) const { return (balls_[i].center - balls_[j].center).squaredNorm(); }
@@ -125,8 +161,14 @@ class ExcludedSolid final : public Solid {
     arc.y = arc.axis.cross(arc.x);
 
     Intervals covered;
-    for (const Index k : neighbors_[i])
+    std::size_t looked_at = kFirstLook;
+    for (const Index k : neighbors_[i]) {
       if (k != j && covers(balls_[k], arc, covered)) return;
+      if (covered.size() < looked_at) continue;
+      std::sort(covered.begin(), covered.end());
+      if (complement(covered).empty()) return;
+      looked_at = 2 * covered.size();
+    }
     std::sort(covered.begin(), covered.end());
     for (const auto& [first, last] : complement(covered)) {
       arc.first = first;

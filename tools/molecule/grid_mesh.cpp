@@ -71,6 +71,7 @@ void sample(const Solid& solid, std::span<const Ball> balls, const Grid& grid, o
           std::vector<Point> places(Leaf::SIZE);
           std::vector<double> results(Leaf::SIZE);
           for (std::size_t l = first; l < last; ++l) {
+            progress.throw_if_cancelled();
             Leaf& leaf = *leaves[l];
             for (openvdb::Index n = 0; n < Leaf::SIZE; ++n) {
               const openvdb::Coord at = leaf.offsetToGlobalCoord(n);

@@ -43,7 +43,8 @@ std::unique_ptr<Solid> gaussian_solid(std::vector<Ball> balls, double blobbiness
 
 /// The solvent-excluded solid (Richards 1977, Connolly 1983): what no ball of radius `probe` > 0 that stays
 /// outside all balls can touch. Its function is probe − d, with d the distance to the places where the
-/// probe's center may be: exact from −depth up, and −depth wherever it would be less.
+/// probe's center may be: exact from −depth up, and −depth wherever it would be less. Throws BadInput where
+/// more than 2²⁵ pairs of balls, and 128 for each, can be touched at once.
 std::unique_ptr<Solid> excluded_solid(std::vector<Ball> balls, double probe, double depth);
 
 }  // namespace morsel::tools

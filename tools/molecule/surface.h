@@ -60,7 +60,9 @@ struct MolecularSurface {
 /// Throws InvalidArgument if an option is out of range and as core::require_molecules() does; BadInput if
 /// there are no atoms, if the resolution is too coarse for the smallest atom (a ball must hold a grid point:
 /// √3/2 spacings ≤ r) or so fine that the grid would have more than 5 · 10⁸ points or 65,536 along one side,
-/// or if all 8 grids pinch. Time in the number of grid points near the molecule; 4 bytes each.
+/// or if all 8 grids pinch; and for ses if the probe can touch more than 2²⁵ pairs of atoms, and 128 for each
+/// atom, at once. Time in the number of grid points near the molecule, 4 bytes each, and of these pairs, 8
+/// bytes each.
 MolecularSurface molecular_surface(std::span<const core::Atom> atoms, const SurfaceOptions& options = {},
                                    const core::Progress& progress = {});
 

@@ -18,17 +18,34 @@ using core::TriangleMesh;
 const Color kDescendingColor = from_hex(0x24425f);
 const Color kAscendingColor = from_hex(0x6b2a24);
 
+/// Arcs are not smoothed at vertices with more triangles. These are slivers whose bounding boxes lie one in
+/// another, so that a ray passes a share of them, and rays for all arcs there would take quadratic time.
+constexpr int kMostTriangles = 256;
+
+/// Per vertex: whether it is a corner of a triangle at such a vertex.
+std::vector<bool> crowded_vertices(const TriangleMesh& mesh) {
+  std::vector<int> triangles(mesh.vertex_count(), 0);
+  for (const core::Triangle& t : mesh.triangles())
+    for (const Index v : t) ++triangles[v];
+  std::vector<bool> crowded(mesh.vertex_count(), false);
+  for (const core::Triangle& t : mesh.triangles())
+    if (std::ranges::any_of(t, [&](Index v) { return triangles[v] > kMostTriangles; }))
+      for (const Index v : t) crowded[v] = true;
+  return crowded;
+}
+
 /// A corner of an arc on the surface.
 struct Knot {
   Point point;
   Point normal;
-  bool fixed = false;
+  bool fixed = false;  // stays where it was made
 };
 
 /// The drawing of a complex: knots, and the steps between them, each once.
 class Net {
  public:
-  Net(const Body& body, const mscomplex::MorseSmaleComplex& complex) : body_(body), complex_(complex) {
+  Net(const Body& body, const mscomplex::MorseSmaleComplex& complex)
+      : body_(body), complex_(complex), crowded_(crowded_vertices(body.mesh)) {
     const mscomplex::DiscreteGradient& gradient = complex.gradient();
     vertex_.assign(mesh().vertex_count(), kNone);
     for (const mscomplex::CriticalCell& saddle : gradient.saddles()) {
@@ -55,7 +72,7 @@ class Net {
     return static_cast<Index>(knots.size() - 1);
   }
   Index at_vertex(Index v) {
-    if (vertex_[v] == kNone) vertex_[v] = add(mesh().position(v), body_.normals[v], false);
+    if (vertex_[v] == kNone) vertex_[v] = add(mesh().position(v), body_.normals[v], crowded_[v]);
     return vertex_[v];
   }
   void fix(Index v) {
@@ -63,12 +80,14 @@ class Net {
   }
   Index at_midpoint(Index h, bool fixed) {
     const Index a = mesh().origin(h), b = mesh().target(h);
-    return add((mesh().position(a) + mesh().position(b)) / 2, body_.normals[a] + body_.normals[b], fixed);
+    return add((mesh().position(a) + mesh().position(b)) / 2, body_.normals[a] + body_.normals[b],
+               fixed || (crowded_[a] && crowded_[b]));
   }
   Index at_barycentre(Index t) {
     const auto& [a, b, c] = mesh().triangle(t);
     return add((mesh().position(a) + mesh().position(b) + mesh().position(c)) / 3,
-               body_.normals[a] + body_.normals[b] + body_.normals[c], false);
+               body_.normals[a] + body_.normals[b] + body_.normals[c],
+               crowded_[a] && crowded_[b] && crowded_[c]);
   }
 
   void descend(const mscomplex::CriticalCell& saddle) {
@@ -132,6 +151,7 @@ class Net {
 
   const Body& body_;
   const mscomplex::MorseSmaleComplex& complex_;
+  std::vector<bool> crowded_;    // by vertex
   std::vector<Index> vertex_;    // knot of each vertex
   std::vector<Index> triangle_;  // knot of each triangle's barycentre
   std::vector<bool> way_down_;   // vertices from which the descending path is drawn
@@ -182,12 +202,12 @@ void straighten(Net& net, const Rays& rays, double freedom) {
 }
 
 /// Adds a step as capsules, halved where the straight segment leaves the surface by more than a tube can
-/// hide.
+/// hide. Between knots that have stayed it lies in a triangle.
 void add_step(Scene& scene, const Rays& rays, const Knot& a, const Knot& b, double radius, const Color& color,
               int depth) {
   const double length = (b.point - a.point).norm();
-  if (depth > 0 && length > 2 * radius) {
-    Knot middle{(a.point + b.point) / 2, a.normal + b.normal, true};
+  if (depth > 0 && length > 2 * radius && !(a.fixed && b.fixed)) {
+    Knot middle{(a.point + b.point) / 2, a.normal + b.normal};
     const double n = middle.normal.norm();
     if (n > 0) {
       middle.normal /= n;

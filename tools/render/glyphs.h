@@ -34,8 +34,9 @@ void add_points(Scene& scene, const morse::CriticalPoints& points, double radius
 /// Adds the complex's arcs, or those of one kind, as tubes along the surface: with steps that arcs share
 /// drawn once. Zigzags of edges and triangles are smoothed by averaging and projecting back to the surface;
 /// no point is moved by more than `freedom` (in the body's unit; 0: not at all) and critical points not at
-/// all: less than the radius keeps tubes on the borders of segments. `rays` are of the body alone. `complex`
-/// is one of the body's mesh, whatever its size. O(length of what is drawn).
+/// all: less than the radius keeps tubes on the borders of segments. Nothing is smoothed in triangles at a
+/// vertex with more than 256 of them. `rays` are of the body alone. `complex` is one of the body's mesh,
+/// whatever its size. O(length of what is drawn).
 void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex& complex, double radius,
               double freedom = std::numeric_limits<double>::infinity(),
               std::optional<mscomplex::ArcKind> only = {});

@@ -30,6 +30,12 @@ std::vector<HashedFile> input_files(const std::vector<std::string>& fields, cons
   return files;
 }
 
+std::vector<HashedFile> input_files(const StabilityRequest& request, const Registry& registry) {
+  std::vector<std::string> fields = request.fields;
+  if (!request.reference_field.empty()) fields.push_back(request.reference_field);
+  return input_files(fields, registry);
+}
+
 std::vector<HashedFile> hashed_files(const FieldOutcome& field) {
   std::vector<HashedFile> files;
   files.reserve(field.files.size());

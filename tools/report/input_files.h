@@ -9,6 +9,7 @@
 #include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/study/comparison.h"
 #include "morsel/tools/study/registry.h"
+#include "morsel/tools/study/stability.h"
 
 namespace morsel::tools {
 
@@ -21,6 +22,10 @@ std::vector<std::pair<std::string, std::string>> named_files(const std::string& 
 /// ones are left out: the function itself reports a more specific error. Throws InvalidArgument as
 /// make_function(), BadInput on one that cannot be read.
 std::vector<HashedFile> input_files(const std::vector<std::string>& fields,
+                                    const Registry& registry = Registry::standard());
+
+/// The files that the fields and the reference field of a stability study read; throws likewise.
+std::vector<HashedFile> input_files(const StabilityRequest& request,
                                     const Registry& registry = Registry::standard());
 
 /// The files that a field was read from. Throws BadInput on one that cannot be read any more.

@@ -21,24 +21,6 @@ Json estimate_section(const Estimate& estimate) {
           {"half_width", estimate.half_width ? Json(*estimate.half_width) : Json()}};
 }
 
-Json request_section(const StabilityRequest& request, bool repair) {
-  Json asked = {{"fields", request.fields},
-                {"methods", request.methods},
-                {"noise", request.noise},
-                {"kind", to_string(request.noise_kind)},
-                {"decimate", request.decimate},
-                {"subdivide", request.subdivide},
-                {"trials", request.trials},
-                {"seed", request.seed},
-                {"radius", request.radius},
-                {"points", to_string(request.points)},
-                {"reference_field", request.reference_field},
-                {"reference", request.reference},
-                {"repair", repair}};
-  if (request.target) asked["target"] = *request.target;
-  return asked;
-}
-
 Cell cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(nullptr); }
 
 void write_trials(JsonSink& json, const PerturbationOutcome& perturbed, double edge) {
@@ -118,16 +100,32 @@ void add(CsvLine& line, const Estimate& estimate) {
 
 }  // namespace
 
+Json request_section(const StabilityRequest& request, bool repair) {
+  Json asked = {{"fields", request.fields},
+                {"methods", request.methods},
+                {"noise", request.noise},
+                {"kind", to_string(request.noise_kind)},
+                {"decimate", request.decimate},
+                {"subdivide", request.subdivide},
+                {"trials", request.trials},
+                {"seed", request.seed},
+                {"radius", request.radius},
+                {"points", to_string(request.points)},
+                {"reference_field", request.reference_field},
+                {"reference", request.reference},
+                {"repair", repair}};
+  if (request.target) asked["target"] = *request.target;
+  return asked;
+}
+
 Json trials_key(const StabilityRequest& request, const ReportInput& input, const Registry& registry) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
-  std::vector<std::string> fields = request.fields;
-  if (!request.reference_field.empty()) fields.push_back(request.reference_field);
   return {{"schema", "morsel.stability/1"},
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},
           {"request", std::move(asked)},
-          {"files", files_section(input_files(fields, registry))}};
+          {"files", files_section(input_files(request, registry))}};
 }
 
 void write_stability(JsonSink& json, const StabilityReport& report) {
@@ -139,11 +137,14 @@ void write_stability(JsonSink& json, const StabilityReport& report) {
   json.member("request", request_section(report.request, report.input.repair));
   json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded.mesh,
                                    report.loaded.source.repairs));
-  json.member("matching", {{"radius", result.radius},
-                           {"radius_of_diagonal", result.radius / diagonal},
-                           {"mean_edge_length", result.mean_edge_length},
-                           {"confidence", kConfidence},
-                           {"placements", kPlacements}});
+  Json matching = {{"radius", result.radius},
+                   {"radius_of_diagonal", result.radius / diagonal},
+                   {"mean_edge_length", result.mean_edge_length},
+                   {"confidence", kConfidence},
+                   {"placements", kPlacements}};
+  if (const std::vector<std::string> warnings = result.warnings(); !warnings.empty())
+    matching["warnings"] = warnings;
+  json.member("matching", matching);
   json.begin_array("fields");
   for (std::size_t f = 0; f < result.fields.size(); ++f) {
     Json section = {{"specification", report.plan.functions[f].specification}};

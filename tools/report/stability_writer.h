@@ -20,6 +20,9 @@ struct StabilityReport {
   const StabilityResult& result;
 };
 
+/// The request with its defaults, as documents have it.
+Json request_section(const StabilityRequest& request, bool repair);
+
 /// All that the trials of a run depend on besides their perturbation and number: the key of their journal.
 Json trials_key(const StabilityRequest& request, const ReportInput& input,
                 const Registry& registry = Registry::standard());

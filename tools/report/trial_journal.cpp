@@ -16,15 +16,18 @@ std::string surface_name(const Perturbation& perturbation, std::size_t number) {
   return name + " " + std::to_string(number);
 }
 
+/// The last of ten numbers is 1 for a sum of distances that may not be the least; nine else.
 Json to_json(const Trial& trial) {
-  return {trial.points.minima,     trial.points.saddles,      trial.points.saddle_multiplicity,
-          trial.points.maxima,     trial.agreement.reference, trial.agreement.found,
-          trial.agreement.matched, trial.agreement.distances, trial.chance};
+  Json numbers = {trial.points.minima,     trial.points.saddles,      trial.points.saddle_multiplicity,
+                  trial.points.maxima,     trial.agreement.reference, trial.agreement.found,
+                  trial.agreement.matched, trial.agreement.distances, trial.chance};
+  if (!trial.agreement.is_least) numbers.push_back(1);
+  return numbers;
 }
 
 /// Checks that matched points do not outnumber points, and that F-scores are possible.
 Trial trial_of(const JsonView& json) {
-  const std::vector<JsonView> numbers = json.list(9, 9);
+  const std::vector<JsonView> numbers = json.list(9, 10);
   Trial trial;
   trial.points.minima = numbers[0].count(core::kNone);
   trial.points.saddles = numbers[1].count(core::kNone);
@@ -33,9 +36,11 @@ Trial trial_of(const JsonView& json) {
   if (trial.points.saddle_multiplicity < trial.points.saddles) numbers[2].refuse("is less than the saddles");
   const std::uint64_t reference = numbers[4].count(core::kNone);
   const std::uint64_t found = numbers[5].count(trial.points.total());
-  trial.agreement = {reference, found, numbers[6].count(std::min(reference, found)), numbers[7].number(0)};
+  trial.agreement = {reference, found, numbers[6].count(std::min(reference, found)), numbers[7].number(0),
+                     true};
   trial.chance = numbers[8].number(0);
   if (trial.chance > 1) numbers[8].refuse("is out of range");
+  trial.agreement.is_least = numbers.size() == 9 || numbers[9].count(1) == 0;
   return trial;
 }
 

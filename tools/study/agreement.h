@@ -20,6 +20,7 @@ struct Agreement {
   std::size_t found = 0;
   std::size_t matched = 0;
   double distances = 0;  ///< of matched points, their sum
+  bool is_least = true;  ///< no other matching of as many points has a smaller sum
 
   double recall() const { return ratio(matched, reference); }  ///< in stability: the repeatability
   double precision() const { return ratio(matched, found); }

@@ -15,18 +15,6 @@ namespace {
 
 constexpr std::string_view kCount = "count";
 
-/// What `count` of a step is, unless it is a number or the word for none.
-std::optional<std::string> named_count(const core::Specification& step) {
-  for (const auto& [key, raw] : step.given) {
-    if (key != kCount) continue;
-    const std::string text = core::unescape(raw);
-    const bool is_name =
-        !text.empty() && text != "none" && text.find_first_not_of("0123456789+-.") != std::string::npos;
-    return is_name ? std::optional(text) : std::nullopt;
-  }
-  return std::nullopt;
-}
-
 void set_count(core::Specification& step, std::size_t count) {
   for (auto& [key, raw] : step.given)
     if (key == kCount) raw = std::to_string(count);
@@ -61,7 +49,7 @@ std::vector<RowCount> row_counts(const std::vector<core::Specification>& steps,
                                  const std::vector<MethodChain>& earlier) {
   std::vector<RowCount> counts;
   for (std::size_t i = 0; i < steps.size(); ++i)
-    if (const std::optional<std::string> name = named_count(steps[i]))
+    if (const std::optional<std::string> name = named_row(steps[i]))
       counts.push_back({i, find_row(*name, steps[i].name, earlier)});
   return counts;
 }
@@ -163,6 +151,17 @@ Measurement measure(const core::ScalarField& field, Timings& timings, const core
     return mscomplex::segment(field, complex.gradient(), progress);
   });
   return {std::move(points), std::move(diagram), std::move(complex), std::move(segments), cells};
+}
+
+std::optional<std::string> named_row(const core::Specification& step) {
+  for (const auto& [key, raw] : step.given) {
+    if (key != kCount) continue;
+    const std::string text = core::unescape(raw);
+    const bool is_name =
+        !text.empty() && text != "none" && text.find_first_not_of("0123456789+-.") != std::string::npos;
+    return is_name ? std::optional(text) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 ComparisonPlan prepare(const ComparisonRequest& request, const Registry& registry) {

@@ -10,6 +10,7 @@
 
 #include "morsel/core/field/method.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/specification.h"
 #include "morsel/morse/critical_points.h"
 #include "morsel/mscomplex/complex.h"
 #include "morsel/mscomplex/segmentation.h"
@@ -103,6 +104,9 @@ struct RowCount {
   std::size_t step = 0;
   std::size_t row = 0;
 };
+
+/// The row that `count` of a method's step is of; none if it is a number, or not given.
+std::optional<std::string> named_row(const core::Specification& step);
 
 /// A checked request: its names have been looked up.
 struct ComparisonPlan {

@@ -86,16 +86,21 @@ class MeshRun {
                  spread_points(distances_, result_.wanted, RandomStream(seed, RandomUse::spread_points, {})));
     } else {
       for (std::uint64_t set = 0; set < kPlacements; ++set)
-        row.sets.push_back(
-            scorer_.score(random_points(loaded_.mesh, distances_, result_.wanted, result_.spacing,
-                                        RandomStream(seed, RandomUse::random_points, {set}))));
+        add_set(row, random_points(loaded_.mesh, distances_, result_.wanted, result_.spacing,
+                                   RandomStream(seed, RandomUse::random_points, {set})));
     }
     return row;
   }
 
   void add_points(LandmarkRow& row, const std::vector<Index>& vertices) const {
-    row.sets.push_back(scorer_.score(vertices));
+    add_set(row, vertices);
     for (const Index v : vertices) row.points.push_back(loaded_.source.numbering.input_vertex(v));
+  }
+
+  void add_set(LandmarkRow& row, std::span<const Index> vertices) const {
+    row.sets.push_back(scorer_.score(vertices));
+    if (!row.sets.back().one_to_one.is_least && row.warnings.empty())
+      row.warnings.push_back("points and marks are too many for the least sum of distances of matched ones");
   }
 
   /// Calls `work`; its errors begin with `where`.
@@ -130,8 +135,8 @@ std::string LandmarksPlan::name_of(std::size_t row) const {
   if (row >= made_rows()) return kChances[row - made_rows()] == Chance::random ? "random" : "farthest points";
   const std::string& field = functions[field_of(row)].specification;
   const std::string& method = chains[method_of(row)].specification;
-  if (chains.size() == 1 && (functions.size() > 1 || method == "conventional")) return field;
-  return functions.size() == 1 ? method : field + ", " + method;
+  if (chains.size() == 1 && method == "conventional") return field;
+  return chains.size() > 1 && functions.size() == 1 ? method : field + ", " + method;
 }
 
 LandmarksPlan prepare(const LandmarksRequest& request, const Registry& registry) {

@@ -53,10 +53,10 @@ MarkScore MarkScorer::score(std::span<const core::Index> points) const {
   score.marks_hit = static_cast<std::size_t>(std::ranges::count(is_hit, true));
   score.one_to_one.reference = marks_;
   score.one_to_one.found = points.size();
-  for (const PointPair& pair : match_in_reach(reach, marks_, radius_)) {
-    ++score.one_to_one.matched;
-    score.one_to_one.distances += pair.distance;
-  }
+  const PointMatches matches = match_in_reach(reach, marks_, radius_);
+  score.one_to_one.matched = matches.pairs.size();
+  for (const PointPair& pair : matches.pairs) score.one_to_one.distances += pair.distance;
+  score.one_to_one.is_least = matches.is_least;
   const auto detected_within = [&](double radius) {
     return static_cast<std::size_t>(
         std::ranges::count_if(detected_at, [&](double d) { return d <= radius; }));

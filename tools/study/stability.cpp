@@ -51,12 +51,19 @@ class CleanPoints {
     for (std::size_t k = 0; k < kTypes.size(); ++k) {
       agreement.reference += matchers_[k].size();
       agreement.found += found[k].size();
-      for (const PointPair& pair : matchers_[k].match(found[k])) {
-        ++agreement.matched;
-        agreement.distances += pair.distance;
-      }
+      const PointMatches matches = matchers_[k].match(found[k]);
+      agreement.matched += matches.pairs.size();
+      for (const PointPair& pair : matches.pairs) agreement.distances += pair.distance;
+      if (!matches.is_least) agreement.is_least = false;
     }
     return agreement;
+  }
+
+  /// The number of matched points alone.
+  std::size_t count(const PointsByType& found) const {
+    std::size_t matched = 0;
+    for (std::size_t k = 0; k < kTypes.size(); ++k) matched += matchers_[k].count(found[k]);
+    return matched;
   }
 
  private:
@@ -78,7 +85,7 @@ double matches_by_chance(const CleanPoints& clean, const PointsByType& found, st
         std::swap(vertices[used], vertices[used + random.below(vertices.size() - used)]);
         placed[k].push_back(places[vertices[used]]);
       }
-    sum += static_cast<double>(clean.match(placed).matched);
+    sum += static_cast<double>(clean.count(placed));
   }
   return sum / kPlacements;
 }
@@ -228,6 +235,21 @@ Estimate PerturbationOutcome::drift() const {
 }
 Estimate PerturbationOutcome::found() const {
   return over_trials([](const Trial& t) { return std::optional(static_cast<double>(t.agreement.found)); });
+}
+
+std::vector<std::string> StabilityResult::warnings() const {
+  std::size_t all = 0;
+  std::size_t bounded = 0;
+  for (const StabilityOutcome& outcome : outcomes)
+    for (const PerturbationOutcome& perturbed : outcome.perturbations)
+      for (const Trial& trial : perturbed.trials) {
+        ++all;
+        if (!trial.agreement.is_least) ++bounded;
+      }
+  if (bounded == 0) return {};
+  return {"in " + std::to_string(bounded) + " of " + std::to_string(all) +
+          " trials too many points are within the matching radius for the least sum of distances, so that "
+          "their drift may be too large; a smaller radius would help"};
 }
 
 StabilityRequest with_defaults(StabilityRequest request) {

@@ -113,6 +113,10 @@ struct StabilityResult {
   std::vector<StabilityOutcome> outcomes;  ///< by target, field and method
   double clean_seconds = 0;
   double trial_seconds = 0;
+
+  /// A sentence where trials have more points within the radius than a least sum of distances is found for
+  /// (MatchingBounds).
+  std::vector<std::string> warnings() const;
 };
 
 /// Trials that are known, and a callback for new trials: an interrupted run continues from them.

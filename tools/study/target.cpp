@@ -11,14 +11,17 @@
 namespace morsel::tools {
 namespace {
 
-/// Unfolds multiple saddles of `field` until the wanted number is reached or none is left.
+/// Unfolds multiple saddles of `field` until the wanted number is reached. A field in which they are too few
+/// stays as it is.
 void unfold(core::ScalarField& field, TargetOutcome& outcome) {
+  if (outcome.reached >= outcome.wanted) return;
+  const morse::CriticalPoints points = morse::classify(field);
+  if (points.saddle_multiplicity - points.saddles < outcome.wanted - outcome.reached) return;
   std::vector<std::pair<double, core::Index>> saddles;  // by the change they need
-  if (outcome.reached < outcome.wanted)
-    for (const morse::CriticalPoint& point : morse::classify(field).points)
-      if (point.multiplicity > 1)
-        if (const auto unfolded = morse::unfold_saddle(field, point.vertex))
-          saddles.emplace_back(unfolded->change, point.vertex);
+  for (const morse::CriticalPoint& point : points.points)
+    if (point.multiplicity > 1)
+      if (const auto unfolded = morse::unfold_saddle(field, point.vertex))
+        saddles.emplace_back(unfolded->change, point.vertex);
   std::sort(saddles.begin(), saddles.end());
   for (const auto& [change, vertex] : saddles)
     while (outcome.reached < outcome.wanted) {
