@@ -50,10 +50,10 @@ ComparisonRequest request_of(const std::optional<std::string>& field,
                              const std::optional<std::string>& preset, std::optional<std::size_t> target,
                              bool snap, const std::optional<py::dict>& points) {
   ComparisonRequest request;
+  request.target = target;  // which presets depend on
   if (preset) tools::apply_preset(*preset, request);
   if (field) request.field = *field;
   if (methods) request.methods = *methods;
-  request.target = target;
   request.snap = snap;
   if (points) request.points = points_request(*points);
   return request;

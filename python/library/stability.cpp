@@ -15,6 +15,7 @@
 #include "morsel/python/binding/request.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
+#include "morsel/tools/study/presets.h"
 #include "morsel/tools/study/stability.h"
 
 namespace morsel::python {
@@ -26,6 +27,10 @@ using tools::StabilityRequest;
 StabilityRequest request_of(const py::dict& given) {
   StabilityRequest request;
   const RequestReader reader(given);
+  reader.take("target", request.target);  // which presets depend on
+  std::optional<std::string> preset;
+  reader.take("preset", preset);
+  if (preset) tools::apply_preset(*preset, request);
   reader.take("fields", request.fields);
   reader.take("methods", request.methods);
   reader.take("noise", request.noise);
@@ -33,7 +38,6 @@ StabilityRequest request_of(const py::dict& given) {
   reader.take("subdivide", request.subdivide);
   reader.take("trials", request.trials);
   reader.take("seed", request.seed);
-  reader.take("target", request.target);
   reader.take("radius", request.radius);
   reader.take("reference_field", request.reference_field);
   reader.take("reference", request.reference);
@@ -107,6 +111,7 @@ void add_stability(py::module_& m) {
         py::list list;
         for (const tools::FieldOutcome& field : s->result.fields)
           list.append(py::make_tuple(text(field.name), texts(field.warnings)));
+        list.append(py::make_tuple("stability", texts(s->result.warnings())));
         return list;
       });
   m.def("stability", &stability);

@@ -208,7 +208,86 @@ class Stability(Sequence[Dict[str, Any]]):
 
 
 def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequence[Named] | None = None,
-              noise: Sequence[float] = (), kind: str = "normal", decimate: Sequence[float] = (),
+              preset: str | None = None, noise: Sequence[float] = (), kind: str = "normal",
+              decimate: Sequence[float] = (), subdivide: Sequence[int] = (), trials: int = 10, seed: int = 1,
+              target: int | None = None, radius: str | float | None = None, points: str = "all",
+              reference: Named = "conventional", reference_field: Named | None = None,
+              progress: Progress = None) -> Stability:
+    """How well critical points repeat on perturbed surfaces; made by stability().
+
+    A dict for each field, method, count and perturbation: field, method, target, perturbation, amount,
+    trials, clean (critical points of the clean surface), agreement (the share of them that the reference
+    has, too), and Estimates over the trials: recall (repeatability), precision, f_score, chance (the
+    F-score of as many random points), drift (mean distance of matched points), found (number of points).
+    """
+
+    def __init__(self, data: _library.Stability) -> None:
+        self._data = data
+        self._rows = [{key: Estimate(*value) if key in _ESTIMATES else value for key, value in row.items()}
+                      for row in data.rows()]
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return iter(self._rows)
+
+    def __getitem__(self, which: Any) -> Any:
+        return self._rows[which]
+
+    def __repr__(self) -> str:
+        return f"<morsel.Stability: {len(self):,} rows, seed {self.seed}>"
+
+    @property
+    def seed(self) -> int:
+        """The seed of the trials."""
+        return self._data.seed
+
+    @property
+    def radius(self) -> float:
+        """Within which points match, in the mesh's unit."""
+        return self._data.radius
+
+    def table(self) -> str:
+        """The table of `morsel stability`."""
+        from . import _documents
+
+        return _documents.stability_table(self._data)
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame with a row for each; of estimates KEY and KEY_half_width."""
+        import pandas
+
+        rows = []
+        for row in self._rows:
+            flat = {}
+            for key, value in row.items():
+                if key in _ESTIMATES:
+                    flat[key] = value.mean if value.count else float("nan")
+                    flat[key + "_half_width"] = float("nan") if value.half_width is None else value.half_width
+                else:
+                    flat[key] = value
+            rows.append(flat)
+        return pandas.DataFrame(rows)
+
+    def save(self, path: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
+        """Writes .json ("morsel.stability/1", every trial) or .csv, as `morsel stability` does. `mesh` is a
+        file that the mesh is written to first where it has none."""
+        from . import _documents
+
+        with reporting(progress) as report:
+            _documents.write_stability(self._data, path_bytes(path), mesh_file(mesh), report)
+
+    def plot(self, quantity: str = "f_score", ax: Any = None) -> Any:
+        """Draws a quantity against the amount of perturbation, a line for each method with its confidence
+        intervals. Returns matplotlib's axes."""
+        from . import _plots
+
+        return _plots.stability(self, quantity, ax)
+
+
+def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequence[Named] | None = None,
+              preset: str | None = None, noise: Sequence[float] = (), kind: str = "normal", decimate: Sequence[float] = (),
               subdivide: Sequence[int] = (), trials: int = 10, seed: int = 1, target: int | None = None,
               radius: str | float | None = None, points: str = "all", reference: Named = "conventional",
               reference_field: Named | None = None, progress: Progress = None) -> Stability:
@@ -219,6 +298,8 @@ def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequ
     mesh : Mesh, or what Mesh() takes, or a Field
     fields, methods : sequences of str or function
         By default the mean curvature; conventional, salient and tps.
+    preset : str
+        Fields and methods at once, as of compare(), for `target` points.
     noise : sequence of float
         Standard deviations of Gaussian noise, in mean edge lengths, along normals (kind "normal") or in x,
         y and z ("isotropic"). If no perturbation is given: 0.05, 0.15, 0.3, 0.5.
@@ -240,11 +321,15 @@ def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequ
 
     >>> ms.stability(mesh, noise=[0.1, 0.3], trials=5).to_pandas()
     """
+    if preset is not None and (fields is not None or methods is not None):
+        raise TypeError("a preset sets fields and methods: give it without them")
     on, values, _ = input_of(mesh, None)
+    if preset is not None and values is not None:
+        raise TypeError("a preset sets the field: give it a mesh")
     request: dict[str, Any] = {
         "noise": [float(one) for one in noise], "kind": kind, "decimate": [float(one) for one in decimate],
         "subdivide": [float(one) for one in subdivide], "trials": trials, "seed": seed, "target": target,
-        "points": points, "reference": name_of(reference)}
+        "preset": preset, "points": points, "reference": name_of(reference)}
     if radius is not None:
         request["radius"] = number_text(radius)
     if fields is not None:
