@@ -99,7 +99,7 @@ def test_python_goes_on_meanwhile(long_field):
             count[0] += 1
             time.sleep(0.005)
 
-    other = threading.Thread(target=tick)
+    other = threading.Thread(target=tick, daemon=True)
     other.start()
     seen = [0]
 

@@ -144,7 +144,13 @@ def test_stability(small):
     given = ms.stability(ms.field(small, small.vertices[:, 0]), methods=["conventional"], noise=[0.1],
                          trials=1)
     assert given[0]["recall"].mean > 0 and given[0]["recall"].half_width is None
-    for wrong in ({"kind": "other"}, {"points": "some"}, {"trials": 0}, {"noise": [-1]}, {"decimate": [2]},
+    by_preset = ms.stability(small, preset="resampled", target=8, noise=[0.1], trials=1)
+    assert by_preset[0]["field"].startswith("mean-curvature:estimator=diffused")
+    assert {row["target"] for row in by_preset} == {None, 8}
+    for wrong in ({"preset": "paper", "methods": ["tps"]}, {"trials": -1}, {"noise": ["much"]}):
+        with pytest.raises((TypeError, ValueError)):
+            ms.stability(small, **wrong)
+    for wrong in ({"preset": "none"}, {"kind": "other"}, {"points": "some"}, {"trials": 0}, {"noise": [-1]}, {"decimate": [2]},
                   {"radius": "far"}, {"subdivide": [1.5]}):
         with pytest.raises(ms.ArgumentError):
             ms.stability(small, **wrong)
