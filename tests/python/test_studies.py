@@ -150,8 +150,8 @@ def test_stability(small):
     for wrong in ({"preset": "paper", "methods": ["tps"]}, {"trials": -1}, {"noise": ["much"]}):
         with pytest.raises((TypeError, ValueError)):
             ms.stability(small, **wrong)
-    for wrong in ({"preset": "none"}, {"kind": "other"}, {"points": "some"}, {"trials": 0}, {"noise": [-1]}, {"decimate": [2]},
-                  {"radius": "far"}, {"subdivide": [1.5]}):
+    for wrong in ({"preset": "none"}, {"kind": "other"}, {"points": "some"}, {"trials": 0}, {"noise": [-1]},
+                  {"decimate": [2]}, {"radius": "far"}, {"subdivide": [1.5]}):
         with pytest.raises(ms.ArgumentError):
             ms.stability(small, **wrong)
 
