@@ -69,7 +69,9 @@ FieldHandle unmade(const FieldHandle& field) {
 
 tools::MadeField made_field(const FieldData& field) {
   const FieldStory& story = field.story;
-  return {*story.input, {*field.field, story.steps, story.reached}, story.method_seconds};
+  std::vector<tools::StepOutcome> steps = story.steps;
+  if (steps.empty()) steps.push_back({method_text(story), {}, {}, {}});  // of a request without a method
+  return {*story.input, {*field.field, std::move(steps), story.reached}, story.method_seconds};
 }
 
 Documented documented(const FieldData& field, const tools::Registry& registry) {
