@@ -42,8 +42,9 @@ def test_cells(name, tmp_path, monkeypatch):
 
 
 @pytest.mark.filterwarnings("default")
-def test_in_a_kernel(tmp_path):
+def test_in_a_kernel(tmp_path, monkeypatch):
     """By nbconvert, as in a browser: cells that show a page or a picture have these as outputs."""
+    monkeypatch.delenv("MPLBACKEND", raising=False)  # the kernel's own shows pictures
     nbformat = pytest.importorskip("nbformat")
     execute = pytest.importorskip("nbconvert.preprocessors").ExecutePreprocessor
     pytest.importorskip("ipykernel")
