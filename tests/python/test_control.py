@@ -108,7 +108,7 @@ def test_python_goes_on_meanwhile(long_field):
         return seen[0] < 10
 
     with pytest.raises(ms.Cancelled):
-        long_work(long_field, progress=report)
+        ms.salient(long_field, iterations=100000, sigma="2eps", progress=report)  # short iterations
     ticks.append(True)
     other.join()
     assert count[0] > 10
