@@ -159,7 +159,8 @@ TEST_CASE("the table, the CSV and the plots of landmarks have every row") {
   const std::string table = landmarks_table(plan, meshes, sums);
   CHECK_THAT(table, Contains("2 meshes, 5 marks; as many points as each mesh has marks (extrema by salience, "
                              "5% apart); hits within 5% along the surface; seed 1"));
-  for (const char* row : {"\nheight ", "\nmean-curvature ", "\nrandom ", "\nfarthest points "})
+  for (const char* row :
+       {"\nheight, gaussian:", "\nmean-curvature, gaussian:", "\nrandom ", "\nfarthest points "})
     CHECK_THAT(table, Contains(row));
   CHECK_THAT(table, Contains("200 resamples"));
 

@@ -169,7 +169,7 @@ TEST_CASE("rows are those of each field with each method, then chance") {
   CHECK(single.rows[0].points == result.rows[3].points);
   CHECK(single.rows[2].points == result.rows[5].points);
   CHECK(single.rows[1].sets[3].one_to_one.distances == result.rows[4].sets[3].one_to_one.distances);
-  CHECK(tools::prepare(alone).name_of(0) == "gaussian:iterations=2+tps:count=20");
+  CHECK(tools::prepare(alone).name_of(0) == "mean-curvature, gaussian:iterations=2+tps:count=20");
   CHECK(tools::prepare(LandmarksRequest()).name_of(0) == "gaussian-curvature:estimator=diffused");
 }
 

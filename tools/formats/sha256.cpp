@@ -1,12 +1,13 @@
 #include "morsel/tools/formats/sha256.h"
 
-#include <openssl/evp.h>
+// The functions of the algorithm itself, which allocate nothing: those of EVP make tables at their first use,
+// and crash where memory is short (libcrypto 3.0).
+#define OPENSSL_SUPPRESS_DEPRECATED
+#include <openssl/sha.h>
 
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <memory>
-#include <new>
 #include <vector>
 
 #include "morsel/core/io/file_bytes.h"
@@ -17,32 +18,22 @@ namespace {
 
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-  }
-  void add(std::string_view bytes) {
-    require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
-  }
+  Sha256() { SHA256_Init(&state_); }
+  void add(std::string_view bytes) { SHA256_Update(&state_, bytes.data(), bytes.size()); }
   std::string finish() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int size = 0;
-    require(EVP_DigestFinal_ex(context_.get(), digest.data(), &size) == 1);
+    std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+    SHA256_Final(digest.data(), &state_);
     std::string text;
-    for (unsigned int i = 0; i < size; ++i) {
+    for (const unsigned char byte : digest) {
       constexpr const char* kDigits = "0123456789abcdef";
-      text += kDigits[digest[i] >> 4];
-      text += kDigits[digest[i] & 15];
+      text += kDigits[byte >> 4];
+      text += kDigits[byte & 15];
     }
     return text;
   }
 
  private:
-  /// Checks a call of libcrypto, whose SHA-256 fails only if memory is short.
-  static void require(bool done) {
-    if (!done) throw std::bad_alloc();
-  }
-
-  std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context_;
+  SHA256_CTX state_{};
 };
 
 }  // namespace
