@@ -35,7 +35,6 @@ using namespace morsel::tools;
 void limit_threads(int wanted, Console& console) {
   // Never destroyed: without a limit oneTBB would make more, if only to end them.
   static std::array<core::ThreadLimit*, 2> limits{};
-  prepare_failing_dlopen();
   if (wanted > 0) limits[0] = new core::ThreadLimit(wanted);
   const int all = core::thread_count();
   const int possible = possible_threads(all);

@@ -1,12 +1,10 @@
 #include "morsel/tools/commands/threads.h"
 
-#include <dlfcn.h>
 #include <pthread.h>
 #include <semaphore.h>
 
 #include <cerrno>
 #include <cstddef>
-#include <new>
 #include <vector>
 
 namespace morsel::tools {
@@ -35,13 +33,6 @@ int possible_threads(int wanted) {
   for (std::size_t i = 0; i < made; ++i) pthread_join(threads[i], nullptr);
   sem_destroy(&end);
   return static_cast<int>(made) + 1;
-}
-
-void prepare_failing_dlopen() {
-  static_cast<void>(dlsym(RTLD_DEFAULT, "morsel_has_no_such_symbol"));
-  static_cast<void>(dlerror());
-  // Where memory is short for good, here is the place to say so.
-  ::operator delete(::operator new(64));
 }
 
 }  // namespace morsel::tools

@@ -1,5 +1,5 @@
 #pragma once
-/// Threads that can be made, and what oneTBB needs when it makes them.
+/// How many threads the system lets this process have.
 
 namespace morsel::tools {
 
@@ -7,10 +7,5 @@ namespace morsel::tools {
 /// to find it out. oneTBB, of which every thread that it takes for possible must be made, would end the
 /// process.
 int possible_threads(int wanted);
-
-/// Takes the memory that a failing dlopen() on this thread needs, once. oneTBB looks for optional libraries
-/// when it starts: where memory is short at the first that is missing, glibc 2.36 reads a wild pointer at the
-/// second. Throws std::bad_alloc.
-void prepare_failing_dlopen();
 
 }  // namespace morsel::tools
