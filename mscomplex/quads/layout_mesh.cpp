@@ -107,6 +107,10 @@ void LayoutMesh::remove_last_split() {
     of_halfedges->resize(of_halfedges->size() - 6);
 }
 
+void LayoutMesh::leave_by(Index v, Index h) {
+  if (leaving_[v] >= halfedge_count()) leaving_[v] = h;
+}
+
 void LayoutMesh::undo_split_edge(Index h) {
   const Index g = twin_[h];
   const Index n = next(h);
@@ -121,6 +125,8 @@ void LayoutMesh::undo_split_edge(Index h) {
   origin_[n] = origin_[g] = b;
   leaving_[b] = g;
   remove_last_split();
+  leave_by(origin_[next(n)], next(n));
+  leave_by(origin_[q], q);
 }
 
 void LayoutMesh::undo_split_triangle(Index t) {
@@ -135,6 +141,7 @@ void LayoutMesh::undo_split_triangle(Index t) {
   leaving_[origin_[h + 1]] = h + 1;
   leaving_[origin_[h + 2]] = h + 2;
   remove_last_split();
+  leave_by(origin_[h], h);
 }
 
 core::TriangleMesh LayoutMesh::mesh() const {

@@ -76,6 +76,8 @@ class LayoutMesh {
   }
   core::Index add_triangle(core::Index a, core::Index b, core::Index c);
   void remove_last_split();
+  /// h leaves v, where the half-edge that did is gone.
+  void leave_by(core::Index v, core::Index h);
 
   std::vector<core::Point> position_;
   std::vector<core::Index> leaving_;  // per vertex

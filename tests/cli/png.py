@@ -7,6 +7,17 @@ import zlib
 CHANNELS = {0: 1, 2: 3, 6: 4}
 
 
+def without_texts(data):
+    """The same picture without what its texts say, such as paths of the machine that drew it."""
+    kept, at = data[:8], 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind not in (b"tEXt", b"zTXt", b"iTXt"):
+            kept += data[at:at + 12 + size]
+        at += 12 + size
+    return kept
+
+
 class Png:
     """8-bit pictures without interlacing: `width`, `height`, `channels`, and pixel(x, y)."""
 

@@ -61,7 +61,8 @@ class Compare(ProgramTest):
         self.morsel("compare", SAMPLES / "lion-head.off", "--field", "mean-curvature:scale=1e6edges", code=3)
 
     def test_diffused_curvature(self):
-        report = self.report(SAMPLES / "lion-head.off", "--field", "mean-curvature:estimator=diffused,diffusion=12eps",
+        report = self.report(SAMPLES / "lion-head.off", "--field",
+                             "mean-curvature:estimator=diffused,diffusion=12eps",
                              "--method", "conventional")
         parameters = report["field"]["parameters"]
         self.assertEqual(parameters["estimator"], "diffused")

@@ -87,8 +87,8 @@ class Points(ProgramTest):
 
     def test_fifty_points_of_the_default_field(self):
         """One command, whatever the mesh: the second field fills up."""
-        for name in ("lion-head", "bunny00", "elephant", "cow", "camel", "dino", "armadillo", "bull", "cactus",
-                     "homer"):
+        for name in ("lion-head", "bunny00", "elephant", "cow", "camel", "dino", "armadillo", "bull",
+                     "cactus", "homer"):
             document = self.document(SAMPLES / f"{name}.off", "--points", 50)
             self.assertEqual((document["count"], document["note"]), (50, ""))
             self.assertGreaterEqual(min(p["distance"] for p in document["points"]),

@@ -170,8 +170,8 @@ TEST_CASE("lengths are in the unit of the mesh, in epsilon, in edges or in roots
   CHECK(Length::edges(2).on(mesh) == Approx(2 * (31 + 12 * std::sqrt(2)) / 43).epsilon(1e-14));
   std::vector<core::Point> tiny(mesh.positions().begin(), mesh.positions().end());
   for (core::Point& p : tiny) p = p * 0x1p-900;
-  CHECK(core::mean_edge_length(mesh.with_positions(std::move(tiny))) ==
-        0x1p-900 * core::mean_edge_length(mesh));
+  const TriangleMesh shrunk = mesh.with_positions(std::move(tiny));
+  CHECK(core::mean_edge_length(shrunk) == 0x1p-900 * core::mean_edge_length(mesh));
   CHECK(Length::epsilons(8).on(mesh) == Approx(8 * 0.003 * 5).epsilon(1e-15));
   for (const Length length : {Length::absolute(0.1), Length::epsilons(8), Length::epsilons(1.0 / 3),
                               Length::edges(3), Length::edges(1e-7), Length::root_areas(0.02)}) {

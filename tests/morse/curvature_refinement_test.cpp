@@ -70,7 +70,7 @@ const Quantity kShapeIndex = {"shape-index", morse::make_shape_index, shape};
 /// The root of the mean squared error, away from boundaries.
 double error_at(const Surface& surface, int level, const Quantity& quantity, const Given& given) {
   const TriangleMesh mesh = surface.make(level).mesh();
-  const core::ScalarField field = made(quantity.make, quantity.name.c_str(), given)->evaluate(mesh, {}).field;
+  const core::ScalarField field = made(quantity.make, quantity.name, given)->evaluate(mesh, {}).field;
   const double height = mesh.bounding_box().max.z() - mesh.bounding_box().min.z();
   const double bottom = mesh.bounding_box().min.z();
   double sum = 0;

@@ -7,8 +7,8 @@ find_file(MORSEL_FONT DejaVuSans.ttf
 set(MORSEL_FONT_SOURCE ${PROJECT_BINARY_DIR}/generated/font.cpp)
 if(NOT EXISTS ${MORSEL_FONT_SOURCE} OR MORSEL_FONT IS_NEWER_THAN MORSEL_FONT_SOURCE
    OR CMAKE_CURRENT_LIST_FILE IS_NEWER_THAN MORSEL_FONT_SOURCE)
-  # String literals, which compilers read a hundred times faster than lists of numbers; in pieces, as they need
-  # not take literals of more than 65,536 bytes.
+  # String literals, which compilers read a hundred times faster than lists of numbers; in pieces, as they
+  # need not take literals of more than 65,536 bytes.
   file(READ ${MORSEL_FONT} bytes HEX)
   set(digits 32768)
   set(pieces "")

@@ -28,7 +28,7 @@ class LandmarksJournal : public LandmarksStore {
 
  private:
   using Hashes = std::pair<std::string, std::string>;  // of the mesh and of its vertices
-  struct Entry {
+  struct Entry {  // NOLINT(bugprone-exception-escape): of the JSON library
     Json mesh;
     LandmarksOnMesh result;
   };

@@ -32,7 +32,8 @@ std::string plateau_warning(const core::ScalarField& field, const core::Progress
            " critical points come from the order of vertex numbers alone";
   if (2 * by_number <= points.size()) return {};
   return std::to_string(by_number) + " of the field's " + std::to_string(points.size()) +
-         " critical points have a neighbour of the same value: which vertices they are, and how many, depends on "
+         " critical points have a neighbour of the same value: which vertices they are, and how many, "
+         "depends on "
          "the order of vertex numbers";
 }
 

@@ -38,12 +38,12 @@ std::string early_end(const TargetOutcome& outcome);
 void check_target(std::optional<std::size_t> target);
 
 /// Observes the fields of a method, one by one. The method's field is the first one with the wanted number of
-/// critical points, or else the last one with more before one that has fewer; if none has as many, it is the method's last, and the
-/// note says so. The method's input is not used, whatever its number: a method that adds critical points is
-/// applied, too. Points of the field above the wanted number are cancelled in the order of persistence. Each
-/// pair removes two critical points, unless its saddle is a multiple one: if that leaves too few, multiple
-/// saddles are unfolded (morse::unfold_saddle()), those first that need the least change of value, where there
-/// are enough of them.
+/// critical points, or else the last one with more before one that has fewer; if none has as many, it is the
+/// method's last, and the note says so. The method's input is not used, whatever its number: a method that
+/// adds critical points is applied, too. Points of the field above the wanted number are cancelled in the
+/// order of persistence. Each pair removes two critical points, unless its saddle is a multiple one: if that
+/// leaves too few, multiple saddles are unfolded (morse::unfold_saddle()), those first that need the least
+/// change of value, where there are enough of them.
 class TargetSearch {
  public:
   /// `start`: the method's input. `cancels_pairs`: what cancels fewer pairs of it is the same method, so that

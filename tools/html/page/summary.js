@@ -3,9 +3,10 @@
 function fillSummary(page) {
   const {report} = page;
   const isChosen = report.methods.some(({chosen}) => chosen);
+  const ofChosen = isChosen ? ['chosen', 'kept', 'moved', 'added', 'percentile'] : [];
   const header = [
     'method', 'minima', 'saddles', '(multiplicity)', 'maxima', 'total', 'pairs', 'above 1 %', 'arcs', 'cells',
-    'kept', 'moved', 'added', ...(isChosen ? ['chosen', 'kept', 'moved', 'added', 'percentile'] : []), 'seconds'
+    'kept', 'moved', 'added', ...ofChosen, 'seconds'
   ];
   const rows = report.methods.map((method, i) => {
     const points = method.critical_points, timing = report.timings.methods[i];
