@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import html as _html
 import os
 import sys
-import tempfile
 from typing import Any, Iterator, Mapping, NamedTuple, Sequence
 
 from . import _library
@@ -134,6 +132,8 @@ class Comparison(Sequence[Row]):
 
     def html(self) -> str:
         """The interactive page, in one document that needs no network."""
+        import tempfile
+
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "comparison.html")
             self.save(path)
@@ -149,6 +149,7 @@ class Comparison(Sequence[Row]):
             shell = get_ipython()
             if shell is not None and hasattr(shell, "kernel"):
                 return Shown(self.html(), height)
+        import tempfile
         import webbrowser
 
         handle, path = tempfile.mkstemp(prefix="morsel-", suffix=".html")
@@ -159,7 +160,9 @@ class Comparison(Sequence[Row]):
         return path
 
     def _repr_html_(self) -> str:
-        return "<pre>" + _html.escape(self.table()) + "</pre>"
+        from html import escape
+
+        return "<pre>" + escape(self.table()) + "</pre>"
 
     def plot_counts(self, ax: Any = None) -> Any:
         """Draws the numbers of minima, saddles and maxima of each method in matplotlib's axes, which it
@@ -183,7 +186,9 @@ class Shown:
         self.height = height
 
     def _repr_html_(self) -> str:
-        return (f'<iframe srcdoc="{_html.escape(self.page)}" width="100%" height="{int(self.height)}" '
+        from html import escape
+
+        return (f'<iframe srcdoc="{escape(self.page)}" width="100%" height="{int(self.height)}" '
                 'style="border:0" sandbox="allow-scripts allow-downloads"></iframe>')
 
 
