@@ -66,12 +66,13 @@ template <class T>
 void copy_consecutive(const py::array& array, core::Index* numbers, const char* what) {
   const auto count = static_cast<std::size_t>(array.size());
   const auto* const data = static_cast<const T*>(array.data());
-  bool all = true;
+  // All are indices if the bits that any of them has are: one test, and a loop that compilers vectorize.
+  std::uint64_t bits = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    all &= is_index(data[i]);
+    bits |= static_cast<std::uint64_t>(data[i]);
     numbers[i] = static_cast<core::Index>(data[i]);
   }
-  if (!all) copy_indices<T>(array, numbers, what);  // which names the first
+  if (!is_index(bits)) copy_indices<T>(array, numbers, what);  // which looks at each, and names the first
 }
 
 /// Writes the whole numbers of an array of one or two dimensions, row by row.
@@ -123,10 +124,12 @@ std::vector<core::Point> points_from(const py::array& array, const char* what) {
     refuse(std::string(what) + " must have the shape (n, 3), not " + shape_text(array) +
            (array.ndim() == 2 && array.shape(0) == 3 ? "; transpose them" : ""));
   const py::array_t<double> numbers = doubles(array, what);
-  std::vector<core::Point> points(static_cast<std::size_t>(numbers.shape(0)));
-  static_assert(sizeof(core::Point) == 3 * sizeof(double));
-  if (!points.empty())
-    std::memcpy(static_cast<void*>(points.data()), numbers.data(), points.size() * sizeof(core::Point));
+  std::vector<core::Point> points;
+  const auto rows = static_cast<std::size_t>(numbers.shape(0));
+  points.reserve(rows);
+  const double* const data = numbers.data();
+  for (std::size_t i = 0; i < rows; ++i)
+    points.emplace_back(data[3 * i], data[3 * i + 1], data[3 * i + 2]);
   return points;
 }
 
