@@ -32,7 +32,10 @@ class Progress {
   /// would hide, and for other threads than the caller's.
   Progress unreported() const { return Progress({}, stop_); }
 
-  /// Throws Cancelled if a stop was requested. May be called from any thread.
+  /// Tells one computation from another. May be called from any thread, as throw_if_cancelled().
+  const std::stop_token& stop_token() const { return stop_; }
+
+  /// Throws Cancelled if a stop was requested.
   void throw_if_cancelled() const {
     if (stop_.stop_requested()) throw Cancelled();
   }

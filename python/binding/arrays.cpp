@@ -128,8 +128,7 @@ std::vector<core::Point> points_from(const py::array& array, const char* what) {
   const auto rows = static_cast<std::size_t>(numbers.shape(0));
   points.reserve(rows);
   const double* const data = numbers.data();
-  for (std::size_t i = 0; i < rows; ++i)
-    points.emplace_back(data[3 * i], data[3 * i + 1], data[3 * i + 2]);
+  for (std::size_t i = 0; i < rows; ++i) points.emplace_back(data[3 * i], data[3 * i + 1], data[3 * i + 2]);
   return points;
 }
 

@@ -16,6 +16,7 @@ namespace morsel::python {
 namespace {
 
 constexpr std::chrono::milliseconds kTick(50);
+constexpr std::chrono::seconds kPatience(5);  // with jobs, at the interpreter's end
 
 /// Ends work whose call of Python failed.
 struct PythonFailed : std::exception {
@@ -30,6 +31,7 @@ class Job {
   void call(const std::function<void()>& function);
   double seconds() const { return seconds_; }
   bool is_of(const std::stop_token& token) const { return stop_.get_token() == token; }
+  void stop() { stop_.request_stop(); }
 
  private:
   struct Call {
@@ -64,25 +66,35 @@ class Jobs {
  public:
   void add(Job& job) {
     const std::lock_guard lock(mutex_);
+    if (is_closed_) throw core::Cancelled();
     jobs_.push_back(&job);
   }
   void remove(const Job& job) {
     const std::lock_guard lock(mutex_);
     std::erase(jobs_, &job);
+    left_.notify_all();
   }
-  /// That of the calling thread: loops pass their stop token on to all threads that run them.
-  Job* current() {
-    const std::stop_token* const token = core::detail::current_stop();
-    if (token == nullptr) return nullptr;
+  /// Null if it is of no job.
+  Job* of(const core::Progress& progress) {
     const std::lock_guard lock(mutex_);
     for (Job* job : jobs_)
-      if (job->is_of(*token)) return job;
+      if (job->is_of(progress.stop_token())) return job;
     return nullptr;
+  }
+  /// Stops all jobs, refuses others, and waits for their threads, which may need the interpreter lock.
+  void close() {
+    const py::gil_scoped_release without_lock;
+    std::unique_lock lock(mutex_);
+    is_closed_ = true;
+    for (Job* job : jobs_) job->stop();
+    left_.wait_for(lock, kPatience, [&] { return jobs_.empty(); });
   }
 
  private:
   std::mutex mutex_;
+  std::condition_variable left_;
   std::vector<Job*> jobs_;
+  bool is_closed_ = false;
 };
 
 double& last_seconds() {
@@ -90,16 +102,16 @@ double& last_seconds() {
   return seconds;
 }
 
-Jobs& jobs() {
-  static Jobs all;
-  return all;
-}
+/// Never destroyed, since threads may outlive the interpreter. Set when the module is loaded.
+Jobs* all_jobs = nullptr;
+
+constexpr const char* kJobs = "_jobs";
 
 /// A job among the jobs that run.
 class Listed {
  public:
-  explicit Listed(Job& job) : job_(job) { jobs().add(job_); }
-  ~Listed() { jobs().remove(job_); }
+  explicit Listed(Job& job) : job_(job) { all_jobs->add(job_); }
+  ~Listed() { all_jobs->remove(job_); }
   Listed(const Listed&) = delete;
   Listed& operator=(const Listed&) = delete;
 
@@ -109,8 +121,8 @@ class Listed {
 
 void Job::run(const std::function<void(const core::Progress&)>& work) {
   {
+    const Listed listed(*this);  // until this thread has the lock again
     const py::gil_scoped_release without_lock;
-    const Listed listed(*this);
     std::thread worker([&] { work_on(work); });
     serve();
     worker.join();
@@ -194,7 +206,7 @@ void Job::tell_progress() {
     fraction = fraction_;
   }
   try {
-    if (report_(step, fraction).is(py::bool_(false))) throw core::Cancelled();
+    if (says_stop(report_(step, fraction))) throw core::Cancelled();
   } catch (...) {
     python_error_ = std::current_exception();
   }
@@ -228,10 +240,25 @@ void run_job(const py::object& report, const std::function<void(const core::Prog
 
 double seconds_of_last_job() { return last_seconds(); }
 
-void call_python(const std::function<void()>& call) {
-  if (Job* const job = jobs().current()) return job->call(call);
+void call_python(const core::Progress& progress, const std::function<void()>& call) {
+  if (Job* const job = all_jobs->of(progress)) return job->call(call);
   const py::gil_scoped_acquire with_lock;
   call();
+}
+
+bool says_stop(const py::object& answer) {
+  py::detail::make_caster<bool> truth;
+  return truth.load(answer, false) && !py::detail::cast_op<bool>(truth);
+}
+
+void own_jobs(py::module_& library) {
+  all_jobs = new Jobs();
+  library.attr(kJobs) = py::capsule(all_jobs, kJobs);
+  py::module_::import("atexit").attr("register")(py::cpp_function([] { all_jobs->close(); }));
+}
+
+void share_jobs(const py::module_& library) {
+  all_jobs = library.attr(kJobs).cast<py::capsule>().get_pointer<Jobs>();
 }
 
 std::shared_ptr<py::object> shared(py::object object) {

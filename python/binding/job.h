@@ -21,7 +21,8 @@ namespace py = pybind11;
 ///   False the work is stopped and Cancelled thrown;
 /// - lets Python handle signals: Ctrl-C stops the work and throws KeyboardInterrupt.
 /// It also runs what the work, on any of its threads, hands to call_python(). So all Python runs on the
-/// thread that asked for the work, and its exceptions come out of here as they are.
+/// thread that asked for the work, and its exceptions come out of here as they are. Throws Cancelled when the
+/// interpreter is about to end.
 ///
 /// The calling thread must hold the interpreter lock. Jobs may be nested, by Python that a job calls.
 void run_job(const py::object& report, const std::function<void(const core::Progress&)>& work);
@@ -38,10 +39,20 @@ auto compute(const py::object& report, const Work& work) {
   return std::move(*result);
 }
 
-/// Calls `call`, with the interpreter lock, on the thread that waits for the job of the calling thread, and
-/// waits for it; on the calling thread itself if it has no job. Where `call` throws, so does this: the work
+/// Calls `call`, with the interpreter lock, on the thread that waits for the job whose progress this is, and
+/// waits for it; on the calling thread itself if it is of no job. Where `call` throws, so does this: the work
 /// is to end, and what it threw is thrown by run_job().
-void call_python(const std::function<void()>& call);
+void call_python(const core::Progress& progress, const std::function<void()>& call);
+
+/// Whether a function of Python has answered False, numpy's included: the work is to end.
+bool says_stop(const py::object& answer);
+
+/// Each extension module has a copy of this code, but methods of users belong to `library`, and jobs of other
+/// modules call them: the list of jobs is the library's. Called when the library is loaded. At the end of the
+/// interpreter all jobs are stopped, since their threads could not come back to it.
+void own_jobs(py::module_& library);
+/// Called when another module is loaded.
+void share_jobs(const py::module_& library);
 
 /// A Python object that threads without the interpreter lock may copy and drop.
 std::shared_ptr<py::object> shared(py::object object);

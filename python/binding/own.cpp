@@ -132,9 +132,9 @@ Returned checked(const Own& own, const py::object& result, const core::TriangleM
 /// Calls it with the object that make() makes of its input.
 template <class Make>
 core::ScalarField call_own(const Own& own, const core::Parameters& values, const core::TriangleMesh& mesh,
-                           const Make& make) {
+                           const core::Progress& progress, const Make& make) {
   Returned returned;
-  call_python([&] { returned = checked(own, (*own.call)(make(), parameters(values)), mesh); });
+  call_python(progress, [&] { returned = checked(own, (*own.call)(make(), parameters(values)), mesh); });
   if (returned.field) return *returned.field;
   try {
     return {mesh, std::move(returned.values)};
@@ -154,8 +154,8 @@ class OwnFunction final : public core::MorseFunction {
   core::FunctionResult evaluate(const core::TriangleMesh& mesh,
                                 const core::FunctionContext& context) const override {
     core::Parameters parameters = resolved(values_, mesh);
-    core::ScalarField field =
-        call_own(own_, parameters, mesh, [&] { return py::cast(handle_of(mesh, context.source)); });
+    core::ScalarField field = call_own(own_, parameters, mesh, context.progress,
+                                       [&] { return py::cast(handle_of(mesh, context.source)); });
     return {std::move(field), std::move(parameters)};
   }
 
@@ -167,9 +167,10 @@ class OwnFunction final : public core::MorseFunction {
 class OwnMethod final : public core::Method {
  public:
   OwnMethod(Own own, Values values) : own_(std::move(own)), values_(std::move(values)) {}
-  core::MethodResult apply(const core::ScalarField& input, const core::MethodContext&) const override {
+  core::MethodResult apply(const core::ScalarField& input,
+                           const core::MethodContext& context) const override {
     core::Parameters parameters = resolved(values_, input.mesh());
-    core::ScalarField field = call_own(own_, parameters, input.mesh(), [&] {
+    core::ScalarField field = call_own(own_, parameters, input.mesh(), context.progress, [&] {
       return py::cast(
           given_field(handle_of(input.mesh(), nullptr), core::ScalarField(input), "values", false));
     });

@@ -44,7 +44,8 @@ void write_report(const ComparisonHandle& comparison, const std::string& path,
                   const std::optional<std::string>& mesh_file, bool items, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
     core::FileWriter file(path);  // before the mesh is written
-    const DocumentMesh mesh = document_mesh(comparison->input, {mesh_file, true}, progress);
+    const DocumentMesh mesh = document_mesh(comparison->input, {path, mesh_file, true, true},
+                                            files_of(*comparison->field), progress);
     tools::JsonStream json(file.stream());
     tools::ReportWriter writer(json, mesh.loaded, mesh.about(items), comparison->request);
     replay(*comparison, writer, progress);
@@ -70,8 +71,9 @@ tools::Provenance provenance_of(const ComparisonData& comparison, const Document
 void write_page(const ComparisonHandle& comparison, const std::string& path,
                 const std::optional<std::string>& mesh_file, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
+    const DocumentMesh mesh = document_mesh(comparison->input, {path, mesh_file, false, true},
+                                            files_of(*comparison->field), progress);
     core::FileWriter file(path);
-    const DocumentMesh mesh = document_mesh(comparison->input, {mesh_file, false}, progress);
     tools::HtmlSink page(file, mesh.loaded, mesh.about(), comparison->request,
                          comparison_command(*comparison, mesh, path), provenance_of(*comparison, mesh));
     replay(*comparison, page, progress);
@@ -84,7 +86,8 @@ void export_to(const ComparisonHandle& comparison, const std::string& folder,
                const std::optional<std::string>& mesh_file, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
     tools::ResultFolder results(folder);
-    const DocumentMesh mesh = document_mesh(comparison->input, {mesh_file, false}, progress);
+    const DocumentMesh mesh =
+        document_mesh(comparison->input, {{}, mesh_file}, files_of(*comparison->field), progress);
     tools::ExportSink sink(results, mesh.loaded, provenance_of(*comparison, mesh));
     replay(*comparison, sink, progress);
   });

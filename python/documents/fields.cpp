@@ -29,7 +29,7 @@ void write_field(const FieldHandle& field, const std::string& path, const tools:
                  const py::object& report) {
   tools::check_field_path(path);
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentField source(field, {}, registry, progress);
+    const DocumentField source(field, {path}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
     tools::write_field(path, *field->field, mesh.loaded.source.numbering, mesh.input_positions(progress),
                        source.made().input.name,
@@ -53,7 +53,7 @@ void write_segments(const SegmentsHandle& segments, const std::string& path,
   const bool is_document = core::file_extension(path) == ".json";
   if (!is_document) tools::label_files(path);  // refuses other endings
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentField source(segments->field, {mesh_file, false}, registry, progress);
+    const DocumentField source(segments->field, {path, mesh_file}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
     const tools::SegmentsRequest request{source.request(), segments->request, mesh.repair};
     if (is_document)
@@ -91,7 +91,7 @@ void write_points(const PointsHandle& points, const std::string& path,
         "points that are reported at their origins are in the files of their comparison, not in one of their "
         "own");
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentField source(points->field, {mesh_file, false}, registry, progress);
+    const DocumentField source(points->field, {path, mesh_file}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
     const tools::Json request = tools::request_section(source.request(), points->request, mesh.repair);
     if (is_document)

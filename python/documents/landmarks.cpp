@@ -196,6 +196,13 @@ void write_landmarks(const LandmarksHandle& data, const std::string& path, const
   if (!data->files)
     throw core::InvalidArgument(
         "the document of a study of landmarks names files: make it of a list of files to write it");
+  std::vector<std::string> read = paths_of(data->field_files);
+  read.push_back(data->files->list().path);
+  for (std::size_t i = 0; i < data->files->size(); ++i) {
+    read.push_back(data->files->path_of(i).string());
+    read.push_back(data->files->marks_path_of(i).string());
+  }
+  check_outputs({path}, {}, read);
   run_job(report, [&](const core::Progress&) {
     const tools::LandmarksReport document{*data->files,    data->plan,        data->meshes,
                                           data->summaries, data->field_files, data->seconds};

@@ -11,6 +11,7 @@
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/report/output_check.h"
 #include "morsel/tools/report/request_words.h"
 
 namespace morsel::python {
@@ -61,19 +62,44 @@ std::vector<core::Point> DocumentMesh::input_positions(const core::Progress& pro
   return positions;
 }
 
-DocumentMesh document_mesh(const StudyInput& input, const MeshPlace& place, const core::Progress& progress) {
+void check_outputs(const DocumentPlace& place, const std::string& mesh,
+                   const std::vector<std::string>& read) {
+  tools::RunFiles files;
+  files.reads("the mesh", mesh).writes("mesh =", place.mesh_file.value_or(""));
+  for (const std::string& file : read) files.reads("a file of the field,", file);
+  place.is_no_mesh ? files.writes_no_mesh("path =", place.path) : files.writes("path =", place.path);
+  files.check();
+}
+
+std::vector<std::string> files_of(const tools::FieldOutcome& field) {
+  std::vector<std::string> paths;
+  paths.reserve(field.files.size());
+  for (const core::FileParameter& file : field.files) paths.push_back(file.path);
+  return paths;
+}
+
+std::vector<std::string> paths_of(const std::vector<tools::HashedFile>& files) {
+  std::vector<std::string> paths;
+  paths.reserve(files.size());
+  for (const tools::HashedFile& file : files) paths.push_back(file.path);
+  return paths;
+}
+
+DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
+                           const std::vector<std::string>& read, const core::Progress& progress) {
   const MeshData& mesh = *input.mesh;
   const bool has_values = input.values != nullptr;
-  if (place.file) {
+  check_outputs(place, mesh.path, read);
+  if (place.mesh_file) {
     core::LoadedMesh loaded = has_values ? mesh_with_values(*input.values) : in_own_numbers(mesh.loaded);
-    write_mesh(*place.file, loaded, has_values, progress);
-    return {std::move(loaded), {*place.file, tools::sha256_of_file(*place.file)}, false};
+    write_mesh(*place.mesh_file, loaded, has_values, progress);
+    return {std::move(loaded), {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)}, false};
   }
   if (!mesh.path.empty() && !has_values) {
     check_unchanged(mesh);
     return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.path)}, mesh.repair};
   }
-  if (place.must_be_file)
+  if (place.mesh_must_be_file)
     throw core::InvalidArgument(
         has_values
             ? "the report's field is of given values, which are in no file: name one for mesh and values "
@@ -82,9 +108,10 @@ DocumentMesh document_mesh(const StudyInput& input, const MeshPlace& place, cons
   return {has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair};
 }
 
-DocumentField::DocumentField(const FieldHandle& field, const MeshPlace& place,
+DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
                              const tools::Registry& registry, const core::Progress& progress)
-    : mesh_(document_mesh({field->mesh, field->story.function.empty() ? field : nullptr}, place, progress)),
+    : mesh_(document_mesh({field->mesh, field->story.function.empty() ? field : nullptr}, place,
+                          files_of(*field->story.input), progress)),
       made_(documented(*field, registry)) {}
 
 tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,

@@ -16,13 +16,23 @@
 
 namespace morsel::python {
 
-/// Where the mesh of a document is.
-struct MeshPlace {
-  /// The file that it is written to first, with the values that a field was given of; none: the file that it
-  /// was read from or, where there is none, memory.
-  std::optional<std::string> file = {};
-  bool must_be_file = false;
+/// Where a document is written, and its mesh.
+struct DocumentPlace {
+  std::string path;
+  /// The file that the mesh is written to first, with the values that a field was given of; none: the file
+  /// that it was read from or, where there is none, memory.
+  std::optional<std::string> mesh_file = {};
+  bool mesh_must_be_file = false;
+  /// Its format is no mesh's: it is not written to a name like mesh.off either.
+  bool is_no_mesh = false;
 };
+
+/// Throws InvalidArgument where a file that is written is `mesh`'s, one of `read`, or another one that is
+/// written (output_check.h).
+void check_outputs(const DocumentPlace& place, const std::string& mesh, const std::vector<std::string>& read);
+/// The paths of the files that a Morse function read.
+std::vector<std::string> files_of(const tools::FieldOutcome& field);
+std::vector<std::string> paths_of(const std::vector<tools::HashedFile>& files);
 
 /// A mesh as a document names it.
 struct DocumentMesh {
@@ -36,14 +46,16 @@ struct DocumentMesh {
   std::vector<core::Point> input_positions(const core::Progress& progress) const;
 };
 
-/// Throws InvalidArgument where the mesh must be in a file and is not, BadInput where its file has changed
-/// since it was read, and what writing throws.
-DocumentMesh document_mesh(const StudyInput& input, const MeshPlace& place, const core::Progress& progress);
+/// `read`: the paths of the other files that the input was made of. Throws as check_outputs(),
+/// InvalidArgument where the mesh must be in a file and is not, BadInput where its file has changed since it
+/// was read, and what writing throws.
+DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
+                           const std::vector<std::string>& read, const core::Progress& progress);
 
 /// A field of a request, on its mesh.
 class DocumentField {
  public:
-  DocumentField(const FieldHandle& field, const MeshPlace& place, const tools::Registry& registry,
+  DocumentField(const FieldHandle& field, const DocumentPlace& place, const tools::Registry& registry,
                 const core::Progress& progress);
 
   const DocumentMesh& mesh() const { return mesh_; }

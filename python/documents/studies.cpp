@@ -35,7 +35,7 @@ void write_table(const std::string& path, const std::function<void(tools::JsonSi
 }
 
 /// The files that the fields of a sweep read.
-std::vector<tools::HashedFile> files_of(const SweepData& sweep) {
+std::vector<tools::HashedFile> read_by(const SweepData& sweep) {
   std::set<std::string> fields;
   for (const tools::Combination& combination : sweep.plan.combinations)
     fields.insert(core::to_string(combination.field));
@@ -45,9 +45,9 @@ std::vector<tools::HashedFile> files_of(const SweepData& sweep) {
 void write_sweep(const SweepHandle& sweep, const std::string& path,
                  const std::optional<std::string>& mesh_file, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentMesh mesh = document_mesh(sweep->input, {mesh_file, false}, progress);
+    const std::vector<tools::HashedFile> files = read_by(*sweep);
+    const DocumentMesh mesh = document_mesh(sweep->input, {path, mesh_file}, paths_of(files), progress);
     const tools::ReportInput about = mesh.about();
-    const std::vector<tools::HashedFile> files = files_of(*sweep);
     const tools::SweepReport document{mesh.loaded, about, sweep->request, sweep->plan, sweep->rows, files};
     write_table(
         path, [&](tools::JsonSink& json) { tools::write_sweep(json, document); },
@@ -65,7 +65,10 @@ std::string sweep_table(const SweepHandle& sweep) {
 void write_stability(const StabilityHandle& stability, const std::string& path,
                      const std::optional<std::string>& mesh_file, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentMesh mesh = document_mesh(stability->input, {mesh_file, false}, progress);
+    std::vector<std::string> read;
+    for (const tools::FieldOutcome& field : stability->result.fields)
+      for (const std::string& file : files_of(field)) read.push_back(file);
+    const DocumentMesh mesh = document_mesh(stability->input, {path, mesh_file}, read, progress);
     const tools::ReportInput about = mesh.about();
     const tools::StabilityReport document{mesh.loaded, about, stability->request, stability->plan,
                                           stability->result};
@@ -84,7 +87,7 @@ void write_hierarchy(const LevelsHandle& levels, const std::string& path,
   const tools::HierarchyPlan plan = tools::prepare(levels->request, registry);
   run_job(report, [&](const core::Progress& progress) {
     const DocumentMesh mesh = document_mesh({field->mesh, field->story.function.empty() ? field : nullptr},
-                                            {mesh_file, false}, progress);
+                                            {path, mesh_file}, files_of(*field->story.input), progress);
     const tools::ReportInput about = mesh.about(items);
     const tools::HierarchyRequest request = tools::with_defaults(levels->request);
     write_document(path, [&](tools::JsonSink& json) {

@@ -24,7 +24,7 @@ void write_cut(const CutHandle& cut, const std::string& path, const std::optiona
   const std::string extension = core::file_extension(path);
   if (extension != ".json" && extension != ".vtp") tools::check_cut_mesh_path(path);
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentField source(cut->field, {mesh_file, false}, registry, progress);
+    const DocumentField source(cut->field, {path, mesh_file}, registry, progress);
     const core::LoadedMesh& loaded = source.mesh().loaded;
     const tools::CutRequest request{source.request(), cut->shorten, source.mesh().repair};
     const tools::CutOutcome& made = cut->made;
@@ -54,7 +54,7 @@ void write_quads(const QuadsHandle& quads, const std::string& path,
   if (extension != ".json" && extension != ".obj")
     throw core::InvalidArgument("quads are written to .obj or .json, not to " + path);
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentField source(quads->field, {mesh_file, false}, registry, progress);
+    const DocumentField source(quads->field, {path, mesh_file}, registry, progress);
     const tools::QuadsRequest request{source.request(), quads->request, source.mesh().repair};
     const tools::Quadrangulation& made = quads->made;
     if (extension == ".json")

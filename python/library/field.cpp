@@ -73,12 +73,13 @@ struct Applied {
   py::object on_iteration;  // None, or called with the number and the field of each iteration
 };
 
-core::IterationCallback callback_of(const Applied& options, const MeshHandle& mesh) {
+core::IterationCallback callback_of(const Applied& options, const MeshHandle& mesh,
+                                    const core::Progress& progress) {
   if (options.on_iteration.is_none()) return {};
-  return [&options, mesh](int number, const ScalarField& field) {
+  return [&options, mesh, &progress](int number, const ScalarField& field) {
     const FieldHandle passed = given_field(mesh, field, "values", false);
     bool go_on = true;
-    call_python([&] { go_on = !options.on_iteration(number, passed).is(py::bool_(false)); });
+    call_python(progress, [&] { go_on = !says_stop(options.on_iteration(number, passed)); });
     return go_on;
   };
 }
@@ -95,11 +96,12 @@ FieldHandle apply(const FieldHandle& input, const std::string& chain, std::optio
     const bool reevaluates = steps.steps.front().method->traits().reevaluates_function;
     const core::LoadedMesh loaded = reevaluates ? mesh_with_values(*input) : input->mesh->loaded;
     const tools::Stopwatch watch;
-    tools::ChainOutcome outcome = tools::apply_chain(steps, loaded, function, *input->field,
-                                                     {.target = target,
-                                                      .count_iterations = count_iterations,
-                                                      .on_iteration = callback_of(options, input->mesh)},
-                                                     progress);
+    tools::ChainOutcome outcome =
+        tools::apply_chain(steps, loaded, function, *input->field,
+                           {.target = target,
+                            .count_iterations = count_iterations,
+                            .on_iteration = callback_of(options, input->mesh, progress)},
+                           progress);
     FieldStory story = input->story;
     story.is_request = story.is_request && !story.target;
     story.method += (story.method.empty() ? "" : "+") + chain;

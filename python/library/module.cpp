@@ -33,6 +33,7 @@ PYBIND11_MODULE(_library, m) {
   using namespace morsel::python;
   m.doc() = "The library of morsel, as morsel's Python sources use it.";
   translate_errors();
+  own_jobs(m);
   m.attr("version") = MORSEL_VERSION;
   m.attr("none") = morsel::core::kNone;
   py::class_<Threads>(m, "Threads")

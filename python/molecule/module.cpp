@@ -91,7 +91,7 @@ py::tuple molecule(const std::string& path, const std::string& kind, double reso
 
 PYBIND11_MODULE(_molecule, m) {
   using namespace morsel::python;
-  py::module_::import("morsel._library");  // which has the type of meshes
+  share_jobs(py::module_::import("morsel._library"));  // which has the type of meshes
   m.doc() = "Surfaces of molecules, as morsel's Python sources make them.";
   translate_errors();
   m.def("molecule", &molecule);

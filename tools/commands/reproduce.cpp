@@ -5,8 +5,8 @@
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
-#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/drawing/pictures.h"
+#include "morsel/tools/report/output_check.h"
 #include "morsel/tools/reproduce/reproduction.h"
 
 namespace morsel::tools {

@@ -11,8 +11,8 @@
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
-#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/report/field_document.h"
+#include "morsel/tools/report/output_check.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/report_writer.h"
 #include "morsel/tools/results/result_folder.h"

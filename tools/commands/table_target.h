@@ -8,8 +8,8 @@
 #include <string>
 
 #include "morsel/tools/commands/document_target.h"
-#include "morsel/tools/commands/output_check.h"
 #include "morsel/tools/formats/journal.h"
+#include "morsel/tools/report/output_check.h"
 
 namespace morsel::tools {
 

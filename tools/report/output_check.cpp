@@ -1,4 +1,4 @@
-#include "morsel/tools/commands/output_check.h"
+#include "morsel/tools/report/output_check.h"
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/links.h"
@@ -17,8 +17,9 @@ RunFiles& RunFiles::reads(const std::string& option, const std::filesystem::path
   return *this;
 }
 
-RunFiles& RunFiles::reads_of_field(const std::string& specification, const std::string& option) {
-  for (const auto& [key, file] : named_files(specification)) add(inputs_, option + " " + key, file);
+RunFiles& RunFiles::reads_of_field(const std::string& specification, const std::string& option,
+                                   const Registry& registry) {
+  for (const auto& [key, file] : named_files(specification, registry)) add(inputs_, option + " " + key, file);
   return *this;
 }
 

@@ -1,21 +1,23 @@
 #pragma once
-/// What a command reads and writes, and whether it may: asked before any work.
+/// What a run reads and writes, and whether it may: asked before any work.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "morsel/tools/results/file_place.h"
+#include "morsel/tools/study/registry.h"
 
 namespace morsel::tools {
 
-/// Every file and folder that the command line names, with the option that does ("-o", "MESH"). Empty paths,
-/// and "-" for a document, stand for none.
+/// Every file and folder that a run names, with the option of the command line, or the argument in Python,
+/// that does ("-o", "MESH"). Empty paths, and "-" for a document, stand for none.
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
   /// The files that keys of a Morse function, given by `option`, name.
-  RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field");
+  RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field",
+                           const Registry& registry = Registry::standard());
   RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
   RunFiles& writes(const std::string& option, const std::filesystem::path& file);
   /// A file of a format that is no mesh's: named as a mesh, it could replace one that was meant to be read.
