@@ -118,11 +118,30 @@ class Page:
         browser.events.clear()
         self.url = pathlib.Path(path).resolve().as_uri()
         self.call("Page.navigate", url=self.url)
+        self.state()
+
+    def state(self):
+        """Waits until the page has loaded: "ready" or "failed"."""
         deadline = time.monotonic() + TIMEOUT
-        while self.run("document.body ? document.body.dataset.state : undefined") in (None, "loading"):
+        while (state := self.run("document.body ? document.body.dataset.state : undefined")) in (
+                None, "loading"):
             if time.monotonic() > deadline:
                 raise BrowserError("the page does not come to an end of loading")
             time.sleep(0.05)
+        return state
+
+    def frame(self):
+        """The frame of the page that has a process of its own."""
+        deadline = time.monotonic() + TIMEOUT
+        while time.monotonic() < deadline:
+            for target in self.browser.call("Target.getTargets", filter=[{"type": "iframe"}])["targetInfos"]:
+                made = object.__new__(Page)
+                made.browser, made.target = self.browser, target["targetId"]
+                made.session = self.browser.call("Target.attachToTarget", targetId=made.target,
+                                                 flatten=True)["sessionId"]
+                return made
+            time.sleep(0.05)
+        raise BrowserError("the page has no frame in a process of its own")
 
     def call(self, method, **parameters):
         return self.browser.call(method, self.session, **parameters)

@@ -1,6 +1,7 @@
 """The page of compare --html in a real browser: it loads without messages, draws, turns,
 selects, and is accessible."""
 
+import html
 import json
 import unittest
 
@@ -284,6 +285,22 @@ class Viewer(ProgramTest):
         self.assertIn("6 vertices", page.run("document.getElementById('subtitle').textContent"))
         page.run(DRAWN)
         self.assert_quiet(page)
+
+    def test_in_a_sandboxed_frame(self):
+        """As a notebook shows it: all methods are shown, whichever is first, the layout or the scripts."""
+        self.morsel("compare", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "--method",
+                    "conventional", "--method", "salient", "--html", "page.html")
+        page = html.escape((self.folder / "page.html").read_text())
+        frame = self.file("frame.html", "<body data-state=\"ready\"><p>A notebook</p>"
+                          f'<iframe srcdoc="{page}" width="100%" height="700" style="border:0" '
+                          'sandbox="allow-scripts allow-downloads"></iframe>')
+        for _ in range(4):
+            outer = self.browser.open(frame)
+            inner = outer.frame()
+            self.assertEqual(inner.state(), "ready")
+            self.assertEqual(inner.run("morsel.state.shown"), [True, True])
+            self.assertEqual(inner.run("document.getElementById('views-box').clientWidth > 860"), True)
+            outer.close()
 
     def test_a_damaged_page_says_so(self):
         self.morsel("compare", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "--html",

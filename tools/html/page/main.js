@@ -206,12 +206,27 @@ function problem(error) {
   element('problem').textContent = `The page failed: ${error.message}.`;
 }
 
+/** Waits for the page's width: a frame in a process of its own runs scripts before it is laid out. */
+function hasWidth() {
+  return new Promise((resolve) => {
+    if (innerWidth > 0) return resolve();
+    const observer = new ResizeObserver(() => {
+      if (innerWidth === 0) return;
+      observer.disconnect();
+      resolve();
+    });
+    observer.observe(document.documentElement);
+  });
+}
+
 async function open() {
   try {
     const library = make('script');
     library.textContent = new TextDecoder().decode(await inflate('three'));
     document.head.append(library);
-    window.morsel = start(await readPage());  // for tests and debugging
+    const page = await readPage();
+    await hasWidth();
+    window.morsel = start(page);  // for tests and debugging
     document.body.dataset.state = 'ready';
   } catch (error) {
     problem(error);
