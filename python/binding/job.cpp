@@ -32,6 +32,8 @@ class Job {
   double seconds() const { return seconds_; }
   bool is_of(const std::stop_token& token) const { return stop_.get_token() == token; }
   void stop() { stop_.request_stop(); }
+  /// Makes Python code that the waiting thread runs, or the next that it does, end with SystemExit.
+  void exit_python() const { PyThreadState_SetAsyncExc(thread_, PyExc_SystemExit); }
 
  private:
   struct Call {
@@ -47,6 +49,7 @@ class Job {
   void fail();
 
   const py::object& report_;
+  const unsigned long thread_ = PyThread_get_thread_ident();
   std::stop_source stop_;
   std::mutex mutex_;
   std::condition_variable news_;      // for the thread that waits for the job
@@ -83,9 +86,13 @@ class Jobs {
   }
   /// Stops all jobs, refuses others, and waits for their threads, which may need the interpreter lock.
   void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_closed_ = true;
+      for (const Job* job : jobs_) job->exit_python();
+    }
     const py::gil_scoped_release without_lock;
     std::unique_lock lock(mutex_);
-    is_closed_ = true;
     for (Job* job : jobs_) job->stop();
     left_.wait_for(lock, kPatience, [&] { return jobs_.empty(); });
   }

@@ -8,6 +8,7 @@ import shutil
 import numpy as np
 import pytest
 from conftest import sample
+from matplotlib import pyplot
 from test_molecule import pdb
 
 import morsel as ms
@@ -18,7 +19,6 @@ SOURCES = pathlib.Path(os.environ["MORSEL_SOURCES"])
 @pytest.mark.parametrize("page", ["docs/python.md", "README.md"])
 @pytest.mark.filterwarnings("ignore::morsel.MorselWarning")
 def test_page(page, tmp_path, monkeypatch, small):
-    pytest.importorskip("matplotlib")
     monkeypatch.chdir(tmp_path)
     shutil.copy(sample("lion-head.off"), "scan.off")
     ms.read("scan.off").save("scan.ply")
@@ -31,5 +31,4 @@ def test_page(page, tmp_path, monkeypatch, small):
              "values": small.vertices[:, 2] ** 2}
     for number, block in enumerate(blocks):
         exec(compile(block, f"{page}, block {number + 1}", "exec"), names)
-    import matplotlib.pyplot
-    matplotlib.pyplot.close("all")
+    pyplot.close("all")

@@ -12,12 +12,10 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from conftest import sample
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 import morsel as ms
-
-pytest.importorskip("vtkmodules")
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkCommonDataModel import vtkPolyData  # noqa: E402
 
 PLUGIN = pathlib.Path(os.environ["MORSEL_SOURCES"]) / "python" / "paraview" / "MorselPlugin.py"
 

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
 import morsel as ms
-
-pyplot = pytest.importorskip("matplotlib.pyplot")
 
 
 @pytest.fixture(autouse=True)

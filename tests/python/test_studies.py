@@ -1,5 +1,6 @@
 """Comparisons, sweeps and stability in Python."""
 
+import json
 import math
 
 import numpy as np
@@ -63,17 +64,36 @@ def test_chosen_points_of_each_row(small, tmp_path):
     assert np.array_equal(chosen.vertex, ms.points(ms.salient(ms.mean_curvature(small)), **keys).vertex)
     assert np.isfinite(chosen.percentile).all() and set(chosen.type[~chosen.is_fill]) <= {ms.MAXIMUM}
     assert ms.compare(small, methods=["conventional"])[0].chosen is None
-    snapped = ms.compare(ms.read(sample("eight.off")), methods=["salient:iterations=9"], snap=True, points=8)
-    moved = snapped[0].critical_points
-    if (moved.origin[moved.origin >= 0] != moved.vertex[moved.origin >= 0]).any():
-        with pytest.raises(ms.ArgumentError, match="origins"):
-            snapped[0].chosen.save(tmp_path / "points.csv")
     for wrong in (0, {"count": 3, "kind": "other"}, {"count": 3, "scale": 1}):
         with pytest.raises(ms.ArgumentError):
             ms.compare(small, points=wrong)
     for wrong in (-1, 2.5, "many", {"number": 3}):
         with pytest.raises(TypeError):
             ms.compare(small, points=wrong)
+
+
+def test_points_at_their_origins(lion, tmp_path):
+    """In reports and their chosen points; the arrays of the field's critical points are the same."""
+    made = {}
+    for snap in (False, True):
+        r = made[snap] = ms.compare(lion, methods=["salient"], snap=snap, points=20)
+        r.save(tmp_path / f"{snap}.json")
+    p = made[True][0].critical_points
+    followed = p.origin >= 0
+    assert (p.origin[followed] != p.vertex[followed]).any()
+    assert np.array_equal(p.vertex, made[False][0].critical_points.vertex)
+    vertices = {}
+    for snap in made:
+        method = json.loads((tmp_path / f"{snap}.json").read_text())["methods"][0]
+        vertices[snap] = [item["vertex"] for item in method["items"]]
+    assert sorted(vertices[False]) == p.vertex.tolist()
+    # those whose origin is of another type, or taken, stay where they are
+    origins = set(p.origin[followed].tolist())
+    assert set(vertices[True]) <= origins | set(p.vertex.tolist())
+    assert len(origins.intersection(vertices[True])) > len(origins.intersection(vertices[False]))
+    made[False][0].chosen.save(tmp_path / "points.csv")
+    with pytest.raises(ms.ArgumentError, match="origins"):
+        made[True][0].chosen.save(tmp_path / "points.csv")
 
 
 def test_presets(small):
