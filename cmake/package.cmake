@@ -39,6 +39,8 @@ if(MORSEL_BUILD_PYTHON)
       "python3 (>= ${MORSEL_PYTHON_VERSION}), python3 (<< ${MORSEL_PYTHON_NEXT_VERSION}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
       "python3-matplotlib, python3-pandas, python3-networkx, python3-vtk9, jupyter-notebook")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+      ${CMAKE_CURRENT_LIST_DIR}/python/postinst ${CMAKE_CURRENT_LIST_DIR}/python/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
       "critical points of scalar fields on triangle meshes (Python)
 The package morsel for numpy: Morse functions, methods, critical points, persistence diagrams, Morse-Smale

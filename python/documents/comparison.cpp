@@ -68,14 +68,16 @@ tools::Provenance provenance_of(const ComparisonData& comparison, const Document
           {mesh.file}};
 }
 
+/// `is_kept`: whether the page names its own path, as one that `morsel compare --html` writes does.
 void write_page(const ComparisonHandle& comparison, const std::string& path,
-                const std::optional<std::string>& mesh_file, const py::object& report) {
+                const std::optional<std::string>& mesh_file, bool is_kept, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
     const DocumentMesh mesh = document_mesh(comparison->input, {path, mesh_file, false, true},
                                             files_of(*comparison->field), progress);
     core::FileWriter file(path);
     tools::HtmlSink page(file, mesh.loaded, mesh.about(), comparison->request,
-                         comparison_command(*comparison, mesh, path), provenance_of(*comparison, mesh));
+                         comparison_command(*comparison, mesh, is_kept ? path : ""),
+                         provenance_of(*comparison, mesh));
     replay(*comparison, page, progress);
     page.finish();
     file.commit();

@@ -68,6 +68,13 @@ py::list methods(const tools::Registry& registry) {
                 [&](const std::string& name) { return registry.parameters_of_method(name); });
 }
 
+/// The units of the values of Morse functions by name, in terms of the mesh's; empty if none or unknown.
+py::dict units(const tools::Registry& registry) {
+  py::dict result;
+  for (const tools::FunctionEntry& entry : registry.functions()) result[text(entry.name)] = text(entry.unit);
+  return result;
+}
+
 /// (name, purpose, field, methods) of each.
 py::list presets() {
   py::list list;
@@ -75,14 +82,6 @@ py::list presets() {
     list.append(
         py::make_tuple(text(preset.name), text(preset.purpose), text(preset.field), texts(preset.methods)));
   return list;
-}
-
-/// The steps of a chain of methods as texts.
-std::vector<std::string> step_texts(const std::string& chain) {
-  std::vector<std::string> result;
-  for (const core::Specification& step : core::parse_chain(chain, "the method"))
-    result.push_back(core::to_string(step));
-  return result;
 }
 
 }  // namespace
@@ -93,20 +92,13 @@ void add_registry(py::module_& m) {
       .def(py::init([] { return Registry::standard(); }))
       .def("functions", &functions)
       .def("methods", &methods)
+      .def("units", &units)
       .def("add_function", &add_own_function, py::arg("name"), py::arg("summary"), py::arg("parameters"),
            py::arg("call"))
       .def("add_method", &add_own_method, py::arg("name"), py::arg("summary"), py::arg("parameters"),
-           py::arg("call"))
-      .def("check_function",
-           [](const Registry& registry, const std::string& specification) {
-             return registry.make_function(specification).name;
-           })
-      .def("check_method", [](const Registry& registry, const std::string& specification) {
-        return registry.make_method(specification).name;
-      });
+           py::arg("call"));
   m.def("presets", &presets);
   m.def("escape", [](const std::string& word) { return core::escape(word); });
-  m.def("steps", &step_texts);
 }
 
 }  // namespace morsel::python

@@ -9,8 +9,9 @@ from typing import Any, Iterator, Mapping, NamedTuple, Sequence
 from . import _library
 from ._chosen import Points, choice, warn_of_fill
 from ._complex import MorseSmaleComplex, Segmentation, segmentation_of
+from ._errors import ArgumentError
 from ._field import Field, warn
-from ._made import Named, mesh_file, name_of
+from ._made import Named, ending, mesh_file, name_of
 from ._mesh import Mesh, PathLike, as_mesh, path_bytes
 from ._persistence import Diagram
 from ._points import Counts, CriticalPoints
@@ -20,7 +21,7 @@ from ._registry import registry
 class Row:
     """What one method gave; a row of a Comparison."""
 
-    __slots__ = ("_made", "specification", "name", "field", "critical_points", "persistence", "complex",
+    __slots__ = ("_made", "specification", "name", "field", "critical_points", "diagram", "complex",
                  "segmentation", "chosen")
 
     def __init__(self, made: dict[str, Any], mesh: Mesh) -> None:
@@ -32,7 +33,7 @@ class Row:
         self.field = Field._of(made["field"], mesh)
         self.critical_points = CriticalPoints(self.field, made["points"], made["origins"])
         """With their origins in the input field."""
-        self.persistence = Diagram(self.field, made["diagram"])
+        self.diagram = Diagram(self.field, made["diagram"])
         self.complex = MorseSmaleComplex(self.field, made["complex"])
         self.segmentation: Segmentation = segmentation_of(made["segmentation"])
         self.chosen = None if made["chosen"] is None else Points(self.field, made["chosen"])
@@ -116,9 +117,12 @@ class Comparison(Sequence[Row]):
         which they are written to first. Without `items` the critical points and pairs are left out. """
         from . import _documents
 
+        kind = ending(path)
+        if kind not in (".json", ".html"):
+            raise ArgumentError(f"a comparison is written to .json or .html, not to {os.fsdecode(path)}")
         with reporting(progress) as report:
-            if os.fsdecode(path).lower().endswith((".html", ".htm")):
-                _documents.write_page(self._data, path_bytes(path), mesh_file(mesh), report)
+            if kind == ".html":
+                _documents.write_page(self._data, path_bytes(path), mesh_file(mesh), True, report)
             else:
                 _documents.write_report(self._data, path_bytes(path), mesh_file(mesh), bool(items), report)
 
@@ -136,9 +140,15 @@ class Comparison(Sequence[Row]):
 
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "comparison.html")
-            self.save(path)
+            self._write_page(path)
             with open(path, encoding="utf-8") as file:
                 return file.read()
+
+    def _write_page(self, path: str) -> None:
+        """The page, which does not name the temporary file that it is in."""
+        from . import _documents
+
+        _documents.write_page(self._data, path_bytes(path), None, False, None)
 
     def show(self, height: int = 700) -> Any:
         """The interactive page: in a notebook below the cell; elsewhere in the browser, as a file that is
@@ -155,7 +165,7 @@ class Comparison(Sequence[Row]):
         handle, path = tempfile.mkstemp(prefix="morsel-", suffix=".html")
         os.close(handle)
         os.unlink(path)
-        self.save(path)
+        self._write_page(path)
         webbrowser.open("file://" + path)
         return path
 

@@ -38,7 +38,14 @@ def _sentence(text: str) -> str:
     return text[:1].upper() + text[1:] + "."
 
 
-_FUNCTION_DOC = """{summary}
+_EXAMPLES = {"atomic-density": 'surface, structure="1bp2.pdb"', "geodesic": "mesh, source=[0, 7]",
+             "vertex-scalar": 'mesh, file="values.txt"'}
+"""The arguments of Morse functions that need more than a mesh."""
+
+_DEFAULTS = ("A key may change the defaults of others, as its line says. "
+             "All that were taken: {where}.")
+
+_FUNCTION_DOC = """{summary}{unit}
 
 Parameters
 ----------
@@ -47,10 +54,12 @@ mesh : Mesh, or what Mesh() takes
 progress : bool or callable
     True shows a bar; a function is called with the step's name and the fraction done.
 
-Returns a Field, one value per vertex. The same bits as --field {name} of the program. Raises ArgumentError
+{defaults}
+
+Returns a Field, one value per vertex (n,). The same bits as --field {name} of the program. Raises ArgumentError
 for bad values, InputError where the mesh or a file does not allow it.
 
->>> f = ms.{python}(mesh)
+>>> f = ms.{python}({example})
 """
 
 _METHOD_DOC = """{summary}
@@ -69,7 +78,8 @@ progress : bool or callable
     True shows a bar; a function is called with the step's name and the fraction done.
 
 Lengths are in the mesh's unit, or texts: "8eps" (of 0.3 % of the bounding box's diagonal), "5%" of that,
-"3edges" (mean edges), "0.02rootarea". Returns a Field on the same mesh. The same bits as --method {name} of
+"3edges" (mean edges), "0.02rootarea". {defaults}
+Returns a Field on the same mesh, in the unit of f. The same bits as --method {name} of
 the program. Raises ArgumentError for bad values.
 
 >>> g = ms.{python}(f)
@@ -90,7 +100,8 @@ def _signature(first: str, kind: str, parameters: dict[str, Parameter]) -> inspe
     return inspect.Signature(rows, return_annotation="Field")
 
 
-def make_function(name: str, summary: str, rows: Rows, module: str = "morsel") -> Callable[..., Field]:
+def make_function(name: str, summary: str, rows: Rows, module: str = "morsel",
+                  unit: str = "") -> Callable[..., Field]:
     """The Python function of a Morse function."""
     parameters = parameters_of(rows)
     signature = _signature("mesh", "function", parameters)
@@ -102,7 +113,9 @@ def make_function(name: str, summary: str, rows: Rows, module: str = "morsel") -
         return evaluate(mesh, specification(name, parameters, bound), progress, 2)
 
     doc = _FUNCTION_DOC.format(summary=_sentence(summary), parameters=_described(parameters), name=name,
-                               python=python_name(name))
+                               python=python_name(name), example=_EXAMPLES.get(name, "mesh"),
+                               unit=f" Unit: {unit}, of the mesh's." if unit else "",
+                               defaults=_DEFAULTS.format(where="Field.parameters"))
     return _finished(call, name, doc, signature, parameters, module)
 
 
@@ -122,7 +135,8 @@ def make_method(name: str, summary: str, rows: Rows, module: str = "morsel") -> 
                      options["count_iterations"], options["on_iteration"], options["progress"], 2)
 
     doc = _METHOD_DOC.format(summary=_sentence(summary), parameters=_described(parameters), name=name,
-                             python=python_name(name))
+                             python=python_name(name),
+                             defaults=_DEFAULTS.format(where="Field.steps[-1].parameters"))
     return _finished(call, name, doc, signature, parameters, module)
 
 
@@ -160,6 +174,8 @@ def _finished(call: Callable[..., Field], name: str, doc: str, signature: inspec
 def shipped() -> dict[str, Callable[..., Field]]:
     """The functions of all that ships, by their Python names."""
     registry = _library.Registry()
-    functions = {python_name(row[0]): make_function(*row) for row in registry.functions()}
+    units = registry.units()
+    functions = {python_name(row[0]): make_function(*row, unit=units[row[0]])
+                 for row in registry.functions()}
     methods = {python_name(row[0]): make_method(*row) for row in registry.methods()}
     return {**functions, **methods}

@@ -11,14 +11,11 @@ from . import _library
 from ._complex import MorseSmaleComplex, Segmentation, segmentation_of
 from ._errors import ArgumentError
 from ._field import Field
-from ._made import field_of, mesh_file, number_text
+from ._made import field_of, mesh_file, number_text, or_minus_one
 from ._mesh import PathLike, path_bytes
 from ._points import Counts, CriticalPoints
 from ._progress import Progress, reporting
 from ._registry import registry
-
-POINT_STATUS = ("first", "kept", "moved", "new")
-
 
 class Links(NamedTuple):
     """How the cells of a level lie in those of the levels beside it, by label."""
@@ -44,9 +41,8 @@ class Level:
         """Its critical points: by persistence those that are left, with the values of the field."""
         self.complex = MorseSmaleComplex(self.field, made["complex"])
         self.segmentation: Segmentation = segmentation_of(made["segmentation"])
-        self.parents: NDArray[np.int64] = np.where(
-            made["parents"] == _library.none, -1, made["parents"].astype(np.int64))
-        """Per critical point: the vertex of the one of the finer level that it came from; -1 for none."""
+        self.parents = or_minus_one(made["parents"])
+        """Per critical point (k,): the vertex of the one of the finer level that it came from; -1 for none."""
 
     def __repr__(self) -> str:
         return f"<morsel.Level {self.name}: {len(self.critical_points):,} critical points>"
@@ -89,7 +85,7 @@ class Level:
 
     @property
     def status(self) -> NDArray[np.str_]:
-        """Per critical point: "first" (of the finest level), "kept", "moved" or "new"."""
+        """Per critical point (k,): "first" (of the finest level), "kept", "moved" or "new"."""
         if self._made["place"] == 0:
             return np.full(len(self.parents), "first")
         kept = self.parents == self.critical_points.vertex

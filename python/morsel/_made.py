@@ -5,6 +5,10 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Union
 
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _library
 from ._field import Field, evaluate
 from ._mesh import PathLike, path_bytes
 from ._progress import Progress
@@ -27,6 +31,11 @@ def name_of(named: Named) -> str:
 def field_of(given: Any, function: str, progress: Progress, level: int) -> Field:
     """A Field as it is, or the Morse function `function` of a mesh."""
     return given if isinstance(given, Field) else evaluate(given, function, progress, level + 1)
+
+
+def or_minus_one(numbers: NDArray[np.uint32]) -> NDArray[np.int64]:
+    """The library's numbers of vertices, -1 where there is none."""
+    return np.where(numbers == _library.none, -1, numbers.astype(np.int64))
 
 
 def mesh_file(mesh: PathLike | None) -> bytes | None:

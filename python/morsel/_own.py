@@ -69,8 +69,9 @@ def function(name: str, *, descriptions: dict[str, str] | None = None,
     """Makes a Python function a Morse function, with its parameters and their defaults.
 
     The function gets a Mesh and the parameters as keywords, and returns an array (n,) of finite values, or
-    a Field. It becomes a function like ms.height, and has a name for compare(), sweep(), stability() and
-    the like. Adding one of the same name replaces it. The types of the parameters are those of their
+    a Field. The Mesh that it gets is that of the computation, in its own numbers: its path is empty. It
+    becomes a function like ms.height, and has a name for compare(), sweep(), stability() and the like.
+    Adding one of the same name replaces it. The types of the parameters are those of their
     defaults: numbers, True or False, texts, ms.Length("8eps"), ms.File("") for a file that it reads.
 
     >>> @ms.function("radius", power=1.0)
@@ -94,7 +95,8 @@ def method(name: str, *, descriptions: dict[str, str] | None = None,
     """Makes a Python function a method, with its parameters and their defaults.
 
     The function gets a Field and the parameters as keywords, and returns an array (n,) of finite values, or
-    a Field on the same mesh, whose order is kept. It becomes a function like ms.salient, and has a name for
+    a Field on the same mesh, whose order is kept. The Field that it gets is that of the computation, in the
+    mesh's own numbers: f.function, f.steps and f.mesh.path are empty. It becomes a function like ms.salient, and has a name for
     Field.apply(), compare(), targets, reports and the like. Adding one of the same name replaces it. The
     types of the parameters are those of their defaults: numbers, True or False, texts, ms.Length("8eps").
 
@@ -126,15 +128,26 @@ def _wrapped(made: Callable[..., Field], own: Callable[..., Any]) -> Callable[..
 
 
 def functions() -> dict[str, str]:
-    """The Morse functions that can be named, with a line on each; ms.NAME has the keys."""
+    """The Morse functions that can be named, with a line on each; ms.NAME has the keys.
+
+    >>> ms.functions()["height"]
+    'distance along an axis or a direction'
+    """
     return {name: summary for name, summary, _ in registry().functions()}
 
 
 def methods() -> dict[str, str]:
-    """The methods that can be named, with a line on each; ms.NAME has the keys."""
+    """The methods that can be named, with a line on each; ms.NAME has the keys.
+
+    >>> "salient" in ms.methods()
+    True
+    """
     return {name: summary for name, summary, _ in registry().methods()}
 
 
 def presets() -> dict[str, tuple[str, str, list[str]]]:
-    """Purpose, field and methods of each preset of compare()."""
+    """Purpose, field and methods of each preset of compare().
+
+    >>> purpose, field, methods = ms.presets()["noise"]
+    """
     return {name: (purpose, field, methods) for name, purpose, field, methods in _library.presets()}

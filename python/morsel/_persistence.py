@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _library
 from ._field import Field
+from ._made import number_text
 from ._points import _field
 from ._progress import Progress, reporting
 
@@ -58,7 +59,7 @@ class Diagram:
 
     @property
     def finite(self) -> NDArray[np.float64]:
-        """birth_death of the finite pairs alone, for programs that take no infinite ones."""
+        """birth_death of the finite pairs alone (k, 2), for programs that take no infinite ones."""
         return self.birth_death[:self._data.finite_count]
 
     @property
@@ -76,7 +77,7 @@ class Diagram:
     def count_above(self, threshold: str | float) -> int:
         """How many finite pairs have more persistence than this, in the field's unit or, as in "1%", of its
         range."""
-        least = _library.threshold(self.field._data, _threshold(threshold))
+        least = _library.threshold(self.field._data, number_text(threshold))
         return int(np.count_nonzero(self.persistence[:self._data.finite_count] > least))
 
     def to_pandas(self) -> Any:
@@ -93,10 +94,6 @@ class Diagram:
         from . import _plots
 
         return _plots.diagram(self, ax)
-
-
-def _threshold(threshold: str | float) -> str:
-    return threshold if isinstance(threshold, str) else repr(float(threshold))
 
 
 def persistence(f: Field, *, progress: Progress = None) -> Diagram:

@@ -53,7 +53,7 @@ def diagrams(comparison: Comparison, axes: Any = None) -> Any:
                                   sharex=True, sharey=True, squeeze=False)
         axes = axes[0]
     for ax, row in zip(axes, comparison):
-        diagram(row.persistence, ax)
+        diagram(row.diagram, ax)
         ax.set_title(row.specification)
     return axes
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _library
 from ._field import Field
+from ._made import or_minus_one
 from ._progress import Progress, reporting
 
 MINIMUM = 1
@@ -108,7 +109,7 @@ class CriticalPoints:
         for those that have none."""
         if self._origins is None:
             raise AttributeError("only the critical points of a comparison are followed to their origins")
-        return np.where(self._origins == _library.none, -1, self._origins.astype(np.int64))
+        return or_minus_one(self._origins)
 
     @property
     def counts(self) -> Counts:
@@ -167,6 +168,6 @@ def critical_points(f: Field, *, progress: Progress = None) -> CriticalPoints:
 
 def _field(f: Any) -> Field:
     if not isinstance(f, Field):
-        raise TypeError(f"this takes a Field, not a {type(f).__name__}; make one by a Morse function or "
+        raise TypeError(f"f must be a Field, not a {type(f).__name__}; make one by a Morse function or "
                         "ms.field(mesh, values)")
     return f

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from . import _library
 from ._field import Field
-from ._made import mesh_file, number_text
+from ._made import mesh_file, number_text, or_minus_one
 from ._mesh import PathLike, path_bytes
 from ._points import _field
 from ._progress import Progress, reporting
@@ -48,21 +48,21 @@ class Segments:
 
     @property
     def table(self) -> NDArray[np.void]:
-        """A structured array with a row for each segment: minimum and top (nodes of the complex, 2³² - 1
+        """A structured array (s,) with a row for each of the s segments: minimum and top (nodes of the complex, 2³² - 1
         where it has none), triangles, vertices, area (the mesh's unit squared), boundary_length,
         mesh_boundary_length. """
         return self._data.table
 
     @property
     def minima(self) -> NDArray[np.int64]:
-        """Per segment: the vertex of its minimum, -1 if it is of a maximum."""
-        return _or_none(self._data.minima())
+        """Per segment (s,): the vertex of its minimum, -1 if it is of a maximum."""
+        return or_minus_one(self._data.minima())
 
     @property
     def maxima(self) -> NDArray[np.int64]:
-        """Per segment: the vertex of its maximum or, of a boundary loop, its smallest; -1 if it is of a
+        """Per segment (s,): the vertex of its maximum or, of a boundary loop, its smallest; -1 if it is of a
         minimum."""
-        return _or_none(self._data.tops())
+        return or_minus_one(self._data.tops())
 
     @property
     def neighbours(self) -> tuple[NDArray[np.void], NDArray[np.uint32]]:
@@ -115,10 +115,6 @@ class Segments:
 
         with reporting(progress) as report:
             _documents.write_segments(self._data, path_bytes(path), mesh_file(mesh), registry(), report)
-
-
-def _or_none(vertices: NDArray[np.uint32]) -> NDArray[np.int64]:
-    return np.where(vertices == _library.none, -1, vertices.astype(np.int64))
 
 
 def segment(f: Field, *, by: str = "descending", segments: int | None = None,

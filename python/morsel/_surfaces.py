@@ -36,12 +36,12 @@ class Cut:
 
     @property
     def original(self) -> NDArray[np.uint32]:
-        """Per vertex of the opened mesh: the one of the surface that it is, or copies."""
+        """Per vertex of the opened mesh (o,): the one of the surface that it is, or copies."""
         return self._data.originals()
 
     @property
     def paths(self) -> list[NDArray[np.uint32]]:
-        """The pieces of the cut, as vertices, neighbours each; a loop has its first one last, too."""
+        """The pieces of the cut, as vertices (k,), neighbours each; a loop has its first one last, too."""
         return self._data.paths()
 
     @property
@@ -51,8 +51,8 @@ class Cut:
 
     @property
     def components(self) -> NDArray[np.void]:
-        """A structured array with a row for each component: vertices, genus, loops, paths, length_found,
-        length, copies."""
+        """A structured array (c,) with a row for each component: vertices, genus, loops, paths, length_found,
+        length (in the mesh's unit), copies."""
         return self._data.components
 
     @property
@@ -143,7 +143,12 @@ class Quads:
 
     @property
     def quality(self) -> dict[str, Any]:
-        """Valences, angles (degrees), scaled Jacobians, areas, distances from the surface."""
+        """By name: valence (how many vertices have 0, 1, … edges), extraordinary (vertices of a valence other
+        than 4, on the boundary 3); angle_mean and angle_max (how far corners are from 90 degrees);
+        scaled_jacobian_mean and scaled_jacobian_min (1 for a rectangle), concave (quads of a negative one);
+        area_mean (in the mesh's unit squared), area_deviation, area_min and area_max (as shares of it);
+        distance_max and distance_mean of the quads from the surface and distance_from_input, the largest the
+        other way (in the mesh's unit)."""
         return self._data.quality()
 
     def describe(self) -> str:

@@ -71,7 +71,10 @@ class Sweep(Sequence[Dict[str, Any]]):
 
         frame = pandas.DataFrame(self._rows)
         for key in self.keys:
-            frame[key] = pandas.to_numeric(frame[key], errors="ignore")
+            try:
+                frame[key] = pandas.to_numeric(frame[key])
+            except ValueError:
+                pass  # texts
         return frame
 
     def save(self, path: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
@@ -139,7 +142,8 @@ class Stability(Sequence[Dict[str, Any]]):
     A dict for each field, method, count and perturbation: field, method, target, perturbation, amount,
     trials, clean (critical points of the clean surface), agreement (the share of them that the reference
     has, too), and Estimates over the trials: recall (repeatability), precision, f_score, chance (the
-    F-score of as many random points), drift (mean distance of matched points), found (number of points).
+    F-score of as many random points), drift (mean distance of matched points, in mean edge lengths), found
+    (number of points).
     """
 
     def __init__(self, data: _library.Stability) -> None:
@@ -168,6 +172,11 @@ class Stability(Sequence[Dict[str, Any]]):
     def radius(self) -> float:
         """Within which points match, in the mesh's unit."""
         return self._data.radius
+
+    @property
+    def mean_edge_length(self) -> float:
+        """Of the clean mesh, in its unit: that of drift and of the amounts of noise."""
+        return self._data.mean_edge_length
 
     def table(self) -> str:
         """The table of `morsel stability`."""

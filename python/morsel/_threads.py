@@ -8,6 +8,7 @@ from . import _library
 class threads:
     """Limits the number of threads within a `with` block; no result depends on it.
 
+    The limit holds for the whole process: for what other threads of Python compute meanwhile, too.
     Of nested blocks the smallest number holds. More threads than processors are allowed. Raises
     ArgumentError for a number below 1.
 
@@ -27,5 +28,10 @@ class threads:
 
 
 def thread_count() -> int:
-    """The number of threads that computations may use now."""
+    """The number of threads that computations may use now.
+
+    >>> with ms.threads(1):
+    ...     ms.thread_count()
+    1
+    """
     return _library.thread_count()

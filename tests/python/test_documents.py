@@ -92,13 +92,19 @@ def test_pages(in_memory, tmp_path, monkeypatch):
     r = ms.compare(in_memory, methods=["conventional", "salient"])
     page = r.html()
     assert page.startswith("<!") and "morsel compare" in page
+    assert "--html" not in page and page == r.html()
     r.save(tmp_path / "page.html")
-    assert "morsel.provenance/1" in (tmp_path / "page.html").read_text()
+    kept = (tmp_path / "page.html").read_text()
+    assert "morsel.provenance/1" in kept and f"--html {tmp_path}/page.html" in kept
+    for ending in ("csv", "png", "htm", ""):
+        with pytest.raises(ms.ArgumentError, match="json or .html"):
+            r.save(tmp_path / f"page.{ending}")
     import webbrowser
     opened = []
     monkeypatch.setattr(webbrowser, "open", opened.append)
     path = r.show()
-    assert opened == ["file://" + path] and pathlib.Path(path).read_text()[:2] == "<!"
+    shown = pathlib.Path(path).read_text()
+    assert opened == ["file://" + path] and shown[:2] == "<!" and "--html" not in shown
     pathlib.Path(path).unlink()
     assert r._repr_html_().startswith("<pre>")
 
@@ -153,7 +159,7 @@ def test_fields_of_no_single_request(small, tmp_path):
             ms.segment(made).save(tmp_path / "s.json")
 
 
-@pytest.mark.parametrize("path", ["/proc/none/report.json", "/"])
+@pytest.mark.parametrize("path", ["/proc/none/report.json", "/dev/null/report.json"])
 def test_places_that_cannot_be_written(path):
     with pytest.raises(ms.WriteError):
         ms.compare(sample("eight.off"), methods=["conventional"]).save(path)

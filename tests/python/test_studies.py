@@ -22,7 +22,7 @@ def test_comparison(lion, curvature, smooth):
     p = r["salient"].critical_points
     assert p.origin.shape == (97,)
     assert set(p.origin[p.origin >= 0].tolist()) <= set(r[0].critical_points.vertex.tolist())
-    assert len(r["salient"].persistence) == 48 and r["salient"].complex.saddle_count == 48
+    assert len(r["salient"].diagram) == 48 and r["salient"].complex.saddle_count == 48
     assert r["salient"].field.steps[0].iterations["iteration"].tolist() == list(range(11))
     for wrong in ("gaussian", "x"):
         with pytest.raises(KeyError):
@@ -111,7 +111,7 @@ def test_frames(small):
     points = r[1].critical_points.to_pandas()
     assert points.columns.tolist() == ["vertex", "type", "multiplicity", "value", "persistence", "x", "y",
                                        "z"]
-    assert len(r[1].persistence.to_pandas()) == len(r[1].persistence)
+    assert len(r[1].diagram.to_pandas()) == len(r[1].diagram)
     assert len(ms.segment(r[1].field).to_pandas()) == len(ms.segment(r[1].field))
     assert len(ms.points(small, 5).to_pandas()) == 5
 

@@ -45,7 +45,7 @@ std::vector<FunctionEntry> standard_functions() {
                     "the heat that is left at its source after a time (Sun et al. 2009)",
                     morse::make_heat_kernel_signature, "1/length²"},
       FunctionEntry{"height", "distance along an axis or a direction", morse::make_height, "length"},
-      FunctionEntry{"mean-curvature", "mean curvature, positive on a sphere", morse::make_mean_curvature,
+      FunctionEntry{"mean-curvature", "mean curvature (Taubin 1995), positive on a sphere", morse::make_mean_curvature,
                     "1/length"},
       FunctionEntry{"principal-curvature", "the larger or the smaller principal curvature",
                     morse::make_principal_curvature, "1/length"},
