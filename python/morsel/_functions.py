@@ -56,8 +56,8 @@ progress : bool or callable
 
 {defaults}
 
-Returns a Field, one value per vertex (n,). The same bits as --field {name} of the program. Raises ArgumentError
-for bad values, InputError where the mesh or a file does not allow it.
+Returns a Field, one value per vertex (n,). The same bits as --field {name} of the program. Raises
+ArgumentError for bad values, InputError where the mesh or a file does not allow it.
 
 >>> f = ms.{python}({example})
 """

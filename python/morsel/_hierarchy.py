@@ -42,7 +42,8 @@ class Level:
         self.complex = MorseSmaleComplex(self.field, made["complex"])
         self.segmentation: Segmentation = segmentation_of(made["segmentation"])
         self.parents = or_minus_one(made["parents"])
-        """Per critical point (k,): the vertex of the one of the finer level that it came from; -1 for none."""
+        """Per critical point (k,): the vertex of the one of the finer level that it came from; -1 for
+        none."""
 
     def __repr__(self) -> str:
         return f"<morsel.Level {self.name}: {len(self.critical_points):,} critical points>"

@@ -225,13 +225,15 @@ def read(path: PathLike, *, repair: bool = False, progress: Progress = None) -> 
 
 
 def as_mesh(mesh: Any) -> Mesh:
-    """What users may give for a mesh, as one."""
+    """Converts what users may give for a mesh to a Mesh."""
     return mesh if isinstance(mesh, Mesh) else Mesh(mesh)
 
 
 def defects(vertices: ArrayLike, faces: ArrayLike) -> list[Defect]:
     """All that keeps these arrays, as Mesh takes them, from being a mesh; empty if nothing does.
 
+    >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [9, 9, 9]]
+    >>> F = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
     >>> [defect.description for defect in ms.defects(V, F)]
     ['1 unreferenced vertex (the first: 4)']
     """

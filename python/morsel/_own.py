@@ -96,16 +96,16 @@ def method(name: str, *, descriptions: dict[str, str] | None = None,
 
     The function gets a Field and the parameters as keywords, and returns an array (n,) of finite values, or
     a Field on the same mesh, whose order is kept. The Field that it gets is that of the computation, in the
-    mesh's own numbers: f.function, f.steps and f.mesh.path are empty. It becomes a function like ms.salient, and has a name for
-    Field.apply(), compare(), targets, reports and the like. Adding one of the same name replaces it. The
-    types of the parameters are those of their defaults: numbers, True or False, texts, ms.Length("8eps").
+    mesh's own numbers: f.function, f.steps and f.mesh.path are empty. It becomes a function like ms.salient,
+    and has a name for Field.apply(), compare(), targets, reports and the like. Adding one of the same name
+    replaces it. The types of the parameters are those of their defaults: numbers, True or False, texts, ms.Length("8eps").
 
     It is always called on the thread that asked for the work. Of a study that runs on several threads,
     calls come one after the other.
 
     >>> @ms.method("mine", strength=1.0)
     ... def mine(f, strength):
-    ...     return f.values ** strength
+    ...     return np.abs(f.values) ** strength
     >>> g = mine(f, strength=2.0);  r = ms.compare(mesh, methods=["salient", "mine:strength=0.5"])
     """
     def decorate(own: Callable[..., Any]) -> Callable[..., Field]:

@@ -68,8 +68,8 @@ def test_targets_and_snapping(tmp_path):
     r.save(tmp_path / "python.json")
     assert without_timings(tmp_path / "program.json") == without_timings(tmp_path / "python.json")
     assert without_seconds(r.table()) == without_seconds(program(
-        "compare", path, "--field", "height:axis=x", "--method", "salient", "--method", "saliency", "--target",
-        "40", "--snap"))
+        "compare", path, "--field", "height:axis=x", "--method", "salient", "--method", "saliency",
+        "--target", "40", "--snap"))
 
 
 # With all options that Python writes into files, in its order: then their bytes are the same.
@@ -97,7 +97,8 @@ def test_documents(command, tmp_path):
         if ending == "json":
             assert without_timings(tmp_path / "program.json") == without_timings(tmp_path / "python.json")
         else:
-            assert (tmp_path / f"program.{ending}").read_bytes() == (tmp_path / f"python.{ending}").read_bytes()
+            a, b = ((tmp_path / f"{who}.{ending}").read_bytes() for who in ("program", "python"))
+            assert a == b
     if json:
         program(command, path, *field, *words, "-o", tmp_path / f"other.{endings[0]}", "--json",
                 tmp_path / "program.json")
