@@ -77,14 +77,6 @@ py::list presets() {
   return list;
 }
 
-/// The steps of a chain of methods as texts.
-std::vector<std::string> step_texts(const std::string& chain) {
-  std::vector<std::string> result;
-  for (const core::Specification& step : core::parse_chain(chain, "the method"))
-    result.push_back(core::to_string(step));
-  return result;
-}
-
 }  // namespace
 
 void add_registry(py::module_& m) {
@@ -96,17 +88,9 @@ void add_registry(py::module_& m) {
       .def("add_function", &add_own_function, py::arg("name"), py::arg("summary"), py::arg("parameters"),
            py::arg("call"))
       .def("add_method", &add_own_method, py::arg("name"), py::arg("summary"), py::arg("parameters"),
-           py::arg("call"))
-      .def("check_function",
-           [](const Registry& registry, const std::string& specification) {
-             return registry.make_function(specification).name;
-           })
-      .def("check_method", [](const Registry& registry, const std::string& specification) {
-        return registry.make_method(specification).name;
-      });
+           py::arg("call"));
   m.def("presets", &presets);
   m.def("escape", [](const std::string& word) { return core::escape(word); });
-  m.def("steps", &step_texts);
 }
 
 }  // namespace morsel::python

@@ -17,8 +17,6 @@ from ._points import Counts, CriticalPoints
 from ._progress import Progress, reporting
 from ._registry import registry
 
-POINT_STATUS = ("first", "kept", "moved", "new")
-
 
 class Links(NamedTuple):
     """How the cells of a level lie in those of the levels beside it, by label."""
