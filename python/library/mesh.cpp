@@ -109,6 +109,9 @@ void save(const MeshHandle& mesh, const std::string& path, const py::list& prope
     throw core::InvalidArgument("a mesh is written to .off or .ply, not to " + path);
   if (extension == ".off" && !named.empty())
     throw core::InvalidArgument("an .off file holds no properties of vertices; write a .ply file");
+  std::error_code error;  // of paths that are not there
+  if (!mesh->path.empty() && std::filesystem::equivalent(path, mesh->path, error))
+    throw core::InvalidArgument(path + " is the file that the mesh was read from; give another name");
   run_job(report, [&](const core::Progress& progress) {
     if (extension == ".off")
       core::write_off(path, mesh->mesh(), {}, progress);

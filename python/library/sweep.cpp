@@ -20,36 +20,9 @@ namespace morsel::python {
 namespace {
 
 /// `values` is a field, or None where the request names a Morse function.
-SweepHandle sweep(const MeshHandle& mesh, const FieldHandle& values, const std::string& field,
-                  const std::string& method, const std::vector<std::string>& vary,
-                  const tools::Registry& registry, const py::object& report) {
-  tools::SweepRequest request{field, method, vary};
-  FieldHandle given;
-  if (values) {
-    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
-    request.field = function_text(plain->story);
-    if (plain->story.function.empty()) given = plain;
-  }
-  tools::SweepPlan plan = tools::prepare(request, registry);
-  return compute(report, [&](const core::Progress& progress) {
-    const auto data =
-        std::make_shared<SweepData>(SweepData{{mesh, given}, std::move(request), std::move(plan), {}});
-    data->rows = tools::run_sweep(data->input.loaded(), data->plan, {}, progress);
-    return data;
-  });
-}
-
-py::dict row_dict(const SweepHandle& sweep, std::size_t i) {
-  if (i >= sweep->rows.size()) throw py::index_error("there is no such row");
-  const tools::SweepRow& row = sweep->rows[i];
-  const tools::Combination& combination = sweep->plan.combinations[i];
+/// What was found with one combination, column by column.
+py::dict results(const tools::SweepRow& row) {
   py::dict result;
-  for (std::size_t k = 0; k < combination.choices.size(); ++k) {
-    const tools::Variation& variation = sweep->plan.variations[k];
-    result[text(variation.key)] = text(variation.values[combination.choices[k]]);
-  }
-  result["field"] = text(core::to_string(combination.field));
-  result["method"] = text(core::to_string(combination.steps));
   result["minima"] = row.critical_points.minima;
   result["saddles"] = row.critical_points.saddles;
   result["saddle_multiplicity"] = row.critical_points.saddle_multiplicity;
@@ -65,6 +38,49 @@ py::dict row_dict(const SweepHandle& sweep, std::size_t i) {
   result["max"] = row.max;
   result["seconds"] = row.seconds.sum();
   return result;
+}
+
+/// Throws InvalidArgument where a key that varies, a user's own, has the name of another column.
+void check_columns(const tools::SweepPlan& plan) {
+  const py::dict others = results({});
+  for (const tools::Variation& one : plan.variations)
+    if (others.contains(text(one.key)) || one.key == "field" || one.key == "method")
+      throw core::InvalidArgument("the key " + one.key + " has the name of a column of the results; write it " +
+                                  "with its method (NAME." + one.key + ") or field (field." + one.key + ")");
+}
+
+SweepHandle sweep(const MeshHandle& mesh, const FieldHandle& values, const std::string& field,
+                  const std::string& method, const std::vector<std::string>& vary,
+                  const tools::Registry& registry, const py::object& report) {
+  tools::SweepRequest request{field, method, vary};
+  FieldHandle given;
+  if (values) {
+    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
+    request.field = function_text(plain->story);
+    if (plain->story.function.empty()) given = plain;
+  }
+  tools::SweepPlan plan = tools::prepare(request, registry);
+  check_columns(plan);
+  return compute(report, [&](const core::Progress& progress) {
+    const auto data =
+        std::make_shared<SweepData>(SweepData{{mesh, given}, std::move(request), std::move(plan), {}});
+    data->rows = tools::run_sweep(data->input.loaded(), data->plan, {}, progress);
+    return data;
+  });
+}
+
+py::dict row_dict(const SweepHandle& sweep, std::size_t i) {
+  if (i >= sweep->rows.size()) throw py::index_error("there is no such row");
+  const tools::Combination& combination = sweep->plan.combinations[i];
+  py::dict row;
+  for (std::size_t k = 0; k < combination.choices.size(); ++k) {
+    const tools::Variation& variation = sweep->plan.variations[k];
+    row[text(variation.key)] = text(variation.values[combination.choices[k]]);
+  }
+  row["field"] = text(core::to_string(combination.field));
+  row["method"] = text(core::to_string(combination.steps));
+  row.attr("update")(results(sweep->rows[i]));
+  return row;
 }
 
 }  // namespace

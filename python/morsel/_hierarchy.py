@@ -17,6 +17,7 @@ from ._points import Counts, CriticalPoints
 from ._progress import Progress, reporting
 from ._registry import registry
 
+
 class Links(NamedTuple):
     """How the cells of a level lie in those of the levels beside it, by label."""
 

@@ -205,7 +205,8 @@ class Mesh:
         """Writes .off or .ply, in full precision: read() gets the same mesh, bit for bit.
 
         `properties` are values for each vertex (n,), by name, which only .ply holds. The file is written
-        whole or not at all. Raises WriteError, and ArgumentError for other endings. """
+        whole or not at all. Raises WriteError, and ArgumentError for other endings and for the file that the
+        mesh was read from."""
         named = [(str(name), _interop.array(values, f"the property {name}"))
                  for name, values in (properties or {}).items()]
         with reporting(progress) as report:

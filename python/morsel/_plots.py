@@ -87,12 +87,12 @@ def counts(comparison: Comparison, ax: Any = None) -> Any:
     bottom = np.zeros(len(names))
     for kind, of in ((1, "minima"), (2, "saddles"), (3, "maxima")):
         heights = np.array([getattr(row.counts, of) for row in comparison])
-        ax.bar(names, heights, bottom=bottom, color=OF_TYPE[kind][0], label=of)
+        ax.bar(np.arange(len(names)), heights, bottom=bottom, color=OF_TYPE[kind][0], label=of)
         bottom += heights
     for place, total in enumerate(bottom):
         ax.annotate(f"{total:,.0f}", (place, total), ha="center", va="bottom")
     ax.set_ylabel("critical points")
-    ax.tick_params(axis="x", rotation=20)
+    ax.set_xticks(np.arange(len(names)), names, rotation=20)
     ax.legend(frameon=False)
     return ax
 
@@ -120,19 +120,31 @@ def sweep(s: Sweep, key: str | None = None, ax: Any = None) -> Any:
     return ax
 
 
-def stability(s: Stability, quantity: str = "f_score", ax: Any = None) -> Any:
-    """A quantity against the amount of perturbation."""
+AMOUNTS = {"noise": "noise (mean edge lengths)", "decimation": "share of the vertices that is left",
+           "subdivision": "pieces of an edge"}
+
+
+def stability(s: Stability, quantity: str = "f_score", perturbation: str | None = None, ax: Any = None) -> Any:
+    """A quantity against the amount of one kind of perturbation."""
+    kinds = list(dict.fromkeys(row["perturbation"] for row in s))
+    if perturbation is None:
+        perturbation = kinds[0]
+    if perturbation not in kinds:
+        raise ValueError(f"the study has {', '.join(kinds)}, not {perturbation!r}")
     ax = _axes(ax)
-    lines: dict[tuple[str, ...], list[Any]] = {}
+    fields = {row["field"] for row in s}
+    lines: dict[str, list[Any]] = {}
     for row in s:
+        if row["perturbation"] != perturbation:
+            continue
+        field = f"{row['field']}, " if len(fields) > 1 else ""
         target = f", {row['target']} points" if row["target"] is not None else ""
-        lines.setdefault((row["perturbation"], f"{row['method']}{target}"), []).append(row)
-    for (perturbation, name), rows in lines.items():
+        lines.setdefault(f"{field}{row['method']}{target}", []).append(row)
+    for name, rows in lines.items():
         means = [row[quantity].mean for row in rows]
         errors = [row[quantity].half_width or 0 for row in rows]
-        ax.errorbar([row["amount"] for row in rows], means, yerr=errors, marker="o", capsize=3,
-                    label=f"{name}, {perturbation}")
-    ax.set_xlabel("amount")
+        ax.errorbar([row["amount"] for row in rows], means, yerr=errors, marker="o", capsize=3, label=name)
+    ax.set_xlabel(AMOUNTS[perturbation])
     ax.set_ylabel(quantity.replace("_", "-"))
     if quantity not in ("drift", "found"):
         ax.set_ylim(0, 1.02)

@@ -128,9 +128,14 @@ class Estimate:
     """The mean of a quantity over trials."""
 
     mean: float
+    """NaN where no trial has a value: the drift where no point was found again."""
     half_width: float | None
     """Of the 95 % confidence interval; None for fewer than two trials."""
     count: int
+
+
+def _estimate(mean: float, half_width: float | None, count: int) -> Estimate:
+    return Estimate(mean if count else float("nan"), half_width, count)
 
 
 _ESTIMATES = ("recall", "precision", "f_score", "chance", "drift", "found")
@@ -148,7 +153,7 @@ class Stability(Sequence[Dict[str, Any]]):
 
     def __init__(self, data: _library.Stability) -> None:
         self._data = data
-        self._rows = [{key: Estimate(*value) if key in _ESTIMATES else value for key, value in row.items()}
+        self._rows = [{key: _estimate(*value) if key in _ESTIMATES else value for key, value in row.items()}
                       for row in data.rows()]
 
     def __len__(self) -> int:
@@ -193,7 +198,7 @@ class Stability(Sequence[Dict[str, Any]]):
             flat = {}
             for key, value in row.items():
                 if key in _ESTIMATES:
-                    flat[key] = value.mean if value.count else float("nan")
+                    flat[key] = value.mean
                     flat[key + "_half_width"] = float("nan") if value.half_width is None else value.half_width
                 else:
                     flat[key] = value
@@ -208,12 +213,13 @@ class Stability(Sequence[Dict[str, Any]]):
         with reporting(progress) as report:
             _documents.write_stability(self._data, path_bytes(path), mesh_file(mesh), report)
 
-    def plot(self, quantity: str = "f_score", ax: Any = None) -> Any:
-        """Draws a quantity against the amount of perturbation, a line for each method with its confidence
-        intervals. Returns matplotlib's axes."""
+    def plot(self, quantity: str = "f_score", perturbation: str | None = None, ax: Any = None) -> Any:
+        """Draws a quantity against the amount of one kind of perturbation ("noise", "decimation" or
+        "subdivision", by default the first that the study has): a line for each field, method and count with
+        its confidence intervals. Returns matplotlib's axes."""
         from . import _plots
 
-        return _plots.stability(self, quantity, ax)
+        return _plots.stability(self, quantity, perturbation, ax)
 
 
 def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequence[Named] | None = None,

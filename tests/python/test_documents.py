@@ -170,3 +170,30 @@ def test_what_is_no_report(tmp_path, text):
     (tmp_path / "report.json").write_text(text)
     with pytest.raises(ms.InputError):
         ms.check(tmp_path / "report.json")
+
+
+def test_what_was_read_is_not_replaced(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    original = pathlib.Path(sample("eight.off")).read_bytes()
+    pathlib.Path("e.off").write_bytes(original)
+    pathlib.Path("link.json").symlink_to("e.off")
+    pathlib.Path("sub").mkdir()
+    mesh = ms.read("e.off")
+    f = ms.mean_curvature(mesh)
+    r = ms.compare(mesh, methods=["conventional"])
+    given = ms.field(mesh, np.array(f.values))
+    for write in (lambda: r.save("e.off"), lambda: r.save("link.json"), lambda: r.save("other.off"),
+                  lambda: r.save("r.json", mesh="e.off"), lambda: r.save("same.off", mesh="same.off"),
+                  lambda: ms.cut(f).save("e.off"), lambda: ms.cut(f).save("sub/../e.off"),
+                  lambda: mesh.save("e.off"), lambda: mesh.save(tmp_path / "e.off"),
+                  lambda: ms.compare(given, methods=["conventional"]).save("r.json", mesh="r.json")):
+        with pytest.raises(ms.ArgumentError):
+            write()
+        assert pathlib.Path("e.off").read_bytes() == original
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["e.off", "link.json", "sub"]
+    np.savetxt("values.txt", f.values)
+    read = ms.vertex_scalar(mesh, file="values.txt")
+    before = pathlib.Path("values.txt").read_bytes()
+    with pytest.raises(ms.ArgumentError):
+        read.save("values.txt")
+    assert pathlib.Path("values.txt").read_bytes() == before

@@ -172,3 +172,14 @@ def test_library_within(small):
     assert np.array_equal(nested(f).values, ms.salient(f, iterations=2).values)
     with ms.threads(3):
         ms.stability(small, methods=["nested"], noise=[0.1], trials=4)
+
+
+def test_a_sweep_over_a_key_that_is_named_as_a_result(small):
+    @ms.method("clamped", max=1.0)
+    def clamped(f, max):
+        return np.minimum(f.values, max)
+
+    with pytest.raises(ms.ArgumentError, match="clamped|NAME.max"):
+        ms.sweep(small, {"max": [0.5, 2.0]}, method="clamped")
+    s = ms.sweep(small, {"clamped.max": [0.5, 2.0]}, method="clamped")
+    assert [row["clamped.max"] for row in s] == ["0.5", "2.0"] and s[0]["max"] <= 0.5

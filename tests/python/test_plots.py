@@ -5,6 +5,7 @@ import pytest
 from matplotlib import pyplot
 
 import morsel as ms
+from morsel import _sweep
 
 
 @pytest.fixture(autouse=True)
@@ -48,6 +49,8 @@ def test_counts(comparison):
     ax = comparison.plot_counts()
     heights = np.array([bar.get_height() for bar in ax.patches]).reshape(3, 2)
     assert heights.sum(axis=0).tolist() == [1895, 97]
+    twice = ms.compare(comparison.field.mesh, methods=["conventional", "conventional"]).plot_counts()
+    assert sorted({round(bar.get_x() + bar.get_width() / 2) for bar in twice.patches}) == [0, 1]
     axes = comparison.plot_diagrams()
     assert [ax.get_title() for ax in axes] == ["conventional", "salient"]
 
@@ -66,3 +69,19 @@ def test_stability(small):
     assert len(ax.get_legend().get_texts()) == 2
     assert ax.lines[0].get_ydata().tolist() == [row["recall"].mean
                                                 for row in t if row["method"] == "conventional"]
+
+
+def test_stability_of_several_fields_and_perturbations(small):
+    t = ms.stability(small, fields=["mean-curvature", "height"], methods=["conventional"], noise=[0.1, 0.2],
+                     decimate=[0.5, 0.8], trials=2)
+    ax = t.plot()
+    assert ax.get_xlabel().startswith("noise")
+    assert [line.lines[0].get_xdata().tolist() for line in ax.containers] == 2 * [[0.1, 0.2]]
+    ax = t.plot("f_score", "decimation")
+    assert [sorted(line.lines[0].get_xdata()) for line in ax.containers] == 2 * [[0.5, 0.8]]
+    with pytest.raises(ValueError):
+        t.plot("f_score", "subdivision")
+
+
+def test_an_estimate_of_nothing_is_no_number():
+    assert np.isnan(_sweep._estimate(0.0, None, 0).mean) and _sweep._estimate(0.5, None, 1).mean == 0.5
