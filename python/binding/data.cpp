@@ -56,7 +56,7 @@ tools::MethodChain steps_after(const FieldStory& story, const std::string& chain
   return all;
 }
 
-FieldHandle unmade(const FieldHandle& field) {
+FieldHandle without_methods(const FieldHandle& field) {
   const core::ScalarField& made = *field->field;
   if (field->story.method.empty() && field->story.is_request) return field;
   core::ScalarField by_value(made.mesh(), {made.values().begin(), made.values().end()});
@@ -65,6 +65,15 @@ FieldHandle unmade(const FieldHandle& field) {
         "this field has an order of its own, which its values do not give: name its methods in the study "
         "instead");
   return given_field(field->mesh, std::move(by_value), "values", true);
+}
+
+StudyInput input_of(const FieldHandle& field) {
+  return {field->mesh, field->story.function.empty() ? field : nullptr};
+}
+
+StudyField study_field(const FieldHandle& field) {
+  const FieldHandle plain = without_methods(field);
+  return {function_text(plain->story), input_of(plain).values};
 }
 
 tools::MadeField made_field(const FieldData& field) {
@@ -78,8 +87,8 @@ Documented documented(const FieldData& field, const tools::Registry& registry) {
   const FieldStory& story = field.story;
   if (!story.is_request)
     throw core::InvalidArgument(
-        "this field was made by steps that are no single request (an order of one's own, its negative, or a "
-        "method after a target), which a document cannot hold");
+        "this field was made by steps that no one command line makes (an order of one's own, its negative, "
+        "or a method after a target), which a document cannot hold");
   tools::FieldRequest request{function_text(story), method_text(story), story.target};
   tools::FieldPlan plan = tools::prepare(request, registry);
   return {std::move(request), std::move(plan), made_field(field)};

@@ -29,6 +29,7 @@ struct MeshData {
   std::string path = {};                           ///< of its file, as given; empty for a mesh made in memory
   bool repair = false;                             ///< whether it was read with repair
   std::filesystem::file_time_type file_time = {};  ///< when the file was last changed before it was read
+  std::string file = {};                           ///< `path`, made absolute when it was read
 
   const core::TriangleMesh& mesh() const { return loaded.mesh; }
 };
@@ -40,7 +41,7 @@ struct FieldStory {
   std::string name;                        ///< of given values: their name as a property of a file
   std::string method;                      ///< a chain of methods; empty for none
   std::optional<std::size_t> target = {};  ///< of the last one
-  bool is_request = true;                  ///< false: no single request makes it, so no document can hold it
+  bool is_request = true;                  ///< false: no command line makes it, so no document can hold it
   std::shared_ptr<const tools::FieldOutcome> input = {};  ///< what the function gave
   std::vector<tools::StepOutcome> steps = {};             ///< the methods' outcomes
   std::optional<tools::TargetOutcome> reached = {};
@@ -79,13 +80,13 @@ tools::MethodChain steps_after(const FieldStory& story, const std::string& chain
 
 /// The field itself if no method was applied to it, else one of its values. Throws InvalidArgument where the
 /// order is not that of the values.
-FieldHandle unmade(const FieldHandle& field);
+FieldHandle without_methods(const FieldHandle& field);
 
 /// The field as a request makes it.
 tools::MadeField made_field(const FieldData& field);
 
 /// The field as documents take it: the request's plan, and what it made. Throws InvalidArgument for a field
-/// that no single request makes.
+/// that no one command line makes.
 struct Documented {
   tools::FieldRequest request;
   tools::FieldPlan plan;
@@ -100,6 +101,17 @@ struct StudyInput {
 
   core::LoadedMesh loaded() const { return values ? mesh_with_values(*values) : mesh->loaded; }
 };
+
+/// The input that a field is on.
+StudyInput input_of(const FieldHandle& field);
+
+/// The field of a study that is of a given one.
+struct StudyField {
+  std::string text;    ///< as function_text()
+  FieldHandle values;  ///< null where the text is a Morse function
+};
+/// Throws as without_methods().
+StudyField study_field(const FieldHandle& field);
 
 /// A comparison and its results, row by row.
 struct ComparisonData {

@@ -46,7 +46,9 @@ void write_mesh(const std::string& path, const core::LoadedMesh& loaded, bool ha
 
 void check_unchanged(const MeshData& mesh) {
   std::error_code error;
-  if (std::filesystem::last_write_time(mesh.path, error) != mesh.file_time || error)
+  if (!std::filesystem::exists(mesh.file, error))
+    throw core::BadInput(mesh.file + ", which the mesh was read from, is missing");
+  if (std::filesystem::last_write_time(mesh.file, error) != mesh.file_time || error)
     throw core::BadInput(mesh.path + " has changed since it was read");
 }
 
@@ -55,7 +57,7 @@ void check_unchanged(const MeshData& mesh) {
 std::vector<core::Point> DocumentMesh::input_positions(const core::Progress& progress) const {
   if (loaded.source.numbering.from_input.empty())
     return {loaded.mesh.positions().begin(), loaded.mesh.positions().end()};
-  if (file.path != kInMemory) return core::read_polygon_soup(file.path, progress).soup.positions;
+  if (!read_from.empty()) return core::read_polygon_soup(read_from, progress).soup.positions;
   std::vector<core::Point> positions(loaded.source.numbering.input_count, core::Point::Zero());
   for (core::Index v = 0; v < loaded.mesh.vertex_count(); ++v)
     positions[loaded.source.numbering.input_vertex(v)] = loaded.mesh.position(v);
@@ -89,15 +91,16 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
                            const std::vector<std::string>& read, const core::Progress& progress) {
   const MeshData& mesh = *input.mesh;
   const bool has_values = input.values != nullptr;
-  check_outputs(place, mesh.path, read);
+  check_outputs(place, mesh.file, read);
   if (place.mesh_file) {
     core::LoadedMesh loaded = has_values ? mesh_with_values(*input.values) : in_own_numbers(mesh.loaded);
     write_mesh(*place.mesh_file, loaded, has_values, progress);
-    return {std::move(loaded), {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)}, false};
+    return {std::move(loaded), {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)}, false,
+            *place.mesh_file};
   }
   if (!mesh.path.empty() && !has_values) {
     check_unchanged(mesh);
-    return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.path)}, mesh.repair};
+    return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.file)}, mesh.repair, mesh.file};
   }
   if (place.mesh_must_be_file)
     throw core::InvalidArgument(
@@ -105,12 +108,13 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
             ? "the report's field is of given values, which are in no file: name one for mesh and values "
               "(mesh=\"mesh.ply\")"
             : "the report's mesh is in no file: name one that it is written to (mesh=\"mesh.off\")");
-  return {has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair};
+  return {has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair,
+          {}};
 }
 
 DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
                              const tools::Registry& registry, const core::Progress& progress)
-    : mesh_(document_mesh({field->mesh, field->story.function.empty() ? field : nullptr}, place,
+    : mesh_(document_mesh(input_of(field), place,
                           files_of(*field->story.input), progress)),
       made_(documented(*field, registry)) {}
 

@@ -39,6 +39,7 @@ struct DocumentMesh {
   core::LoadedMesh loaded;  ///< in the vertex numbers of the file
   tools::HashedFile file;
   bool repair = false;
+  std::string read_from;  ///< where `file` is, whatever the working directory has become; empty: in memory
 
   /// `items`: whether lists that grow with the mesh are written.
   tools::ReportInput about(bool items = true) const { return {file.path, file.sha256, repair, items}; }

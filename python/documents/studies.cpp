@@ -86,8 +86,8 @@ void write_hierarchy(const LevelsHandle& levels, const std::string& path,
   if (!field->story.is_request) documented(*field, registry);  // which says why it cannot be
   const tools::HierarchyPlan plan = tools::prepare(levels->request, registry);
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentMesh mesh = document_mesh({field->mesh, field->story.function.empty() ? field : nullptr},
-                                            {path, mesh_file}, files_of(*field->story.input), progress);
+    const DocumentMesh mesh = document_mesh(input_of(field), {path, mesh_file},
+                                            files_of(*field->story.input), progress);
     const tools::ReportInput about = mesh.about(items);
     const tools::HierarchyRequest request = tools::with_defaults(levels->request);
     write_document(path, [&](tools::JsonSink& json) {

@@ -69,9 +69,9 @@ ComparisonHandle compare(const MeshHandle& mesh, const FieldHandle& values,
   ComparisonRequest request = request_of(field, methods, preset, target, snap, points);
   FieldHandle given;
   if (values) {
-    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
-    request.field = function_text(plain->story);
-    if (plain->story.function.empty()) given = plain;
+    StudyField of = compute(py::none(), [&](const core::Progress&) { return study_field(values); });
+    request.field = std::move(of.text);
+    given = std::move(of.values);
   }
   const tools::ComparisonPlan plan = tools::prepare(request, registry);
   return compute(report, [&](const core::Progress& progress) {
@@ -127,9 +127,7 @@ py::dict summary(const MethodOutcome& outcome) {
   const tools::PersistenceSummary pairs =
       tools::summary_of(outcome.measurement.diagram, outcome.input_extent);
   py::dict result;
-  result["pairs"] = pairs.pairs;
-  for (std::size_t i = 0; i < pairs.above.size(); ++i)
-    result[py::str("above_" + core::shortest(pairs.kPercents[i]) + "_percent")] = pairs.above[i];
+  add_pairs(result, pairs);
   result["arcs"] = outcome.measurement.complex.arc_count();
   result["cells"] = outcome.measurement.cells;
   result["kept"] = outcome.compared_to_first.kept.size();

@@ -56,6 +56,12 @@ py::array birth_death(const DiagramHandle& diagram) {
 
 }  // namespace
 
+void add_pairs(py::dict& result, const tools::PersistenceSummary& pairs) {
+  result["pairs"] = pairs.pairs;
+  for (std::size_t i = 0; i < pairs.above.size(); ++i)
+    result[py::str("above_" + core::shortest(pairs.kPercents[i]) + "_percent")] = pairs.above[i];
+}
+
 py::array points_array(const std::shared_ptr<const CriticalPoints>& points) {
   return view_of(std::span<const CriticalPoint>(points->points), points);
 }

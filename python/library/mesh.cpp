@@ -19,6 +19,8 @@
 #include "morsel/core/mesh/mesh_defects.h"
 #include "morsel/core/mesh/subdivision.h"
 #include "morsel/core/text/parameters.h"
+#include "morsel/morse/operators/normals.h"
+#include "morsel/morse/operators/unit_size.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
 #include "morsel/python/binding/job.h"
@@ -78,7 +80,8 @@ MeshHandle read(const std::string& path, bool repair, const py::object& report) 
     std::error_code error;  // of which reading has more to tell
     const std::filesystem::file_time_type time = std::filesystem::last_write_time(path, error);
     return std::make_shared<MeshData>(
-        MeshData{core::read_mesh(path, {.repair = repair}, progress), path, repair, time});
+        MeshData{core::read_mesh(path, {.repair = repair}, progress), path, repair, time,
+                 std::filesystem::absolute(path).string()});
   });
 }
 
@@ -110,7 +113,7 @@ void save(const MeshHandle& mesh, const std::string& path, const py::list& prope
   if (extension == ".off" && !named.empty())
     throw core::InvalidArgument("an .off file holds no properties of vertices; write a .ply file");
   std::error_code error;  // of paths that are not there
-  if (!mesh->path.empty() && std::filesystem::equivalent(path, mesh->path, error))
+  if (!mesh->path.empty() && std::filesystem::equivalent(path, mesh->file, error))
     throw core::InvalidArgument(path + " is the file that the mesh was read from; give another name");
   run_job(report, [&](const core::Progress& progress) {
     if (extension == ".off")
@@ -127,6 +130,14 @@ py::array edges(const MeshHandle& mesh) {
   for (Index e = 0; e < all.size(); ++e) all[e] = mesh->mesh().edge_vertices(e);
   const auto kept = std::make_shared<const std::vector<std::array<Index, 2>>>(std::move(all));
   return rows_of<Index, 2>(std::span<const std::array<Index, 2>>(*kept), kept);
+}
+
+py::array vertex_normals(const MeshHandle& mesh) {
+  const auto kept = compute(py::none(), [&](const core::Progress&) {
+    return std::make_shared<const std::vector<core::Point>>(
+        morse::vertex_normals(morse::unit_sized(mesh->mesh()).mesh));
+  });
+  return rows_of(std::span<const core::Point>(*kept), kept);
 }
 
 py::list boundary_loops(const MeshHandle& mesh) {
@@ -216,6 +227,7 @@ void add_mesh(py::module_& m) {
                              })
       .def("is_same", [](const MeshData& a, const MeshData& b) { return a.mesh().is_same(b.mesh()); })
       .def("edges", &edges)
+      .def("vertex_normals", &vertex_normals)
       .def("boundary_loops", &boundary_loops)
       .def("components", &components)
       .def("input_vertices", &input_vertices)

@@ -10,10 +10,14 @@
 #include "morsel/mscomplex/segmentation.h"
 #include "morsel/persistence/diagram.h"
 #include "morsel/python/binding/data.h"
+#include "morsel/tools/study/summary.h"
 
 namespace morsel::python {
 
 namespace py = pybind11;
+
+/// pairs, and above_0.1_percent and the like: how many pairs there are above shares of the field's range.
+void add_pairs(py::dict& result, const tools::PersistenceSummary& pairs);
 
 /// Vertex, type and multiplicity of each, in the memory of `points`.
 py::array points_array(const std::shared_ptr<const morse::CriticalPoints>& points);

@@ -52,9 +52,9 @@ StabilityHandle stability(const MeshHandle& mesh, const FieldHandle& values, con
   StabilityRequest request = request_of(given);
   FieldHandle field;
   if (values) {
-    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
-    request.fields = {function_text(plain->story)};
-    if (plain->story.function.empty()) field = plain;
+    StudyField of = compute(py::none(), [&](const core::Progress&) { return study_field(values); });
+    request.fields = {std::move(of.text)};
+    field = std::move(of.values);
   }
   tools::StabilityPlan plan = tools::prepare(request, registry);
   return compute(report, [&](const core::Progress& progress) {

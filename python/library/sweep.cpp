@@ -14,12 +14,12 @@
 #include "morsel/python/binding/job.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
+#include "morsel/python/library/results.h"
 #include "morsel/tools/study/sweep.h"
 
 namespace morsel::python {
 namespace {
 
-/// `values` is a field, or None where the request names a Morse function.
 /// What was found with one combination, column by column.
 py::dict results(const tools::SweepRow& row) {
   py::dict result;
@@ -29,10 +29,7 @@ py::dict results(const tools::SweepRow& row) {
   result["maxima"] = row.critical_points.maxima;
   result["total"] = row.critical_points.total();
   result["iterations_run"] = row.iterations_run ? py::cast(*row.iterations_run) : py::none();
-  result["pairs"] = row.persistence.pairs;
-  for (std::size_t k = 0; k < row.persistence.above.size(); ++k)
-    result[py::str("above_" + core::shortest(row.persistence.kPercents[k]) + "_percent")] =
-        row.persistence.above[k];
+  add_pairs(result, row.persistence);
   result["largest_persistence"] = row.persistence.largest ? py::cast(*row.persistence.largest) : py::none();
   result["min"] = row.min;
   result["max"] = row.max;
@@ -49,15 +46,16 @@ void check_columns(const tools::SweepPlan& plan) {
                                   "with its method (NAME." + one.key + ") or field (field." + one.key + ")");
 }
 
+/// `values` is a field, or None where the request names a Morse function.
 SweepHandle sweep(const MeshHandle& mesh, const FieldHandle& values, const std::string& field,
                   const std::string& method, const std::vector<std::string>& vary,
                   const tools::Registry& registry, const py::object& report) {
   tools::SweepRequest request{field, method, vary};
   FieldHandle given;
   if (values) {
-    const FieldHandle plain = compute(py::none(), [&](const core::Progress&) { return unmade(values); });
-    request.field = function_text(plain->story);
-    if (plain->story.function.empty()) given = plain;
+    StudyField of = compute(py::none(), [&](const core::Progress&) { return study_field(values); });
+    request.field = std::move(of.text);
+    given = std::move(of.values);
   }
   tools::SweepPlan plan = tools::prepare(request, registry);
   check_columns(plan);

@@ -89,6 +89,11 @@ class Points:
         return self._data.spacing
 
     @property
+    def candidates(self) -> list[int]:
+        """How many points there were to choose from: of the field, and of the one that fills up."""
+        return self._data.candidates
+
+    @property
     def note(self) -> str:
         """Why there are fewer than asked for; empty if there are not."""
         return self._data.note

@@ -284,8 +284,8 @@ def check(path: PathLike, *, progress: Progress = None) -> list[Difference]:
     """Runs a report's comparison, or its study of landmarks, again and returns what changed; empty if
     nothing did. As `morsel check`, with the user's own methods and Morse functions.
 
-    Raises InputError if the mesh or the list of meshes is missing, or the report is none or requests what
-    there is not.
+    Raises InputError if the mesh or the list of meshes is missing, or the file is not a report or names
+    an unknown Morse function or method.
 
     >>> r.save("report.json"); assert ms.check("report.json") == []
     """

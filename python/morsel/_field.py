@@ -70,7 +70,7 @@ class Target(NamedTuple):
 
 
 def warn(name: str, texts: list[str], level: int) -> None:
-    """Tells warnings of a Morse function or method; `level` as of warnings.warn() in the caller."""
+    """Issues warnings of a Morse function or method; `level` as of warnings.warn() in the caller."""
     for text in texts:
         _warnings.warn(f"{name}: {text}", MorselWarning, stacklevel=level + 1)
 
@@ -283,14 +283,15 @@ def field(mesh: Any, values: ArrayLike | str, *, ranks: ArrayLike | None = None,
         return evaluate(mesh, values, progress, 2)
     on = as_mesh(mesh)
     given = _interop.array(values, "the values")
-    if given.ndim == 1:
-        given = _by_vertex(on, given, numbering)
+    given = by_vertex(on, given, numbering)
     order = None if ranks is None else _interop.array(ranks, "the ranks")
     return Field._of(_library.given(on._data, given, order, str(name)), on)
 
 
-def _by_vertex(mesh: Mesh, values: NDArray[Any], numbering: str | None) -> NDArray[Any]:
-    """Values in the mesh's numbers."""
+def by_vertex(mesh: Mesh, values: NDArray[Any], numbering: str | None) -> NDArray[Any]:
+    """Values in the mesh's numbers; of another shape as they are, which the library refuses."""
+    if values.ndim != 1:
+        return values
     inputs = mesh._data.input_count
     if numbering not in (None, "mesh", "input"):
         raise ArgumentError(f'the numbering must be "mesh" or "input", not "{numbering}"')

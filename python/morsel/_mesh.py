@@ -149,6 +149,23 @@ class Mesh:
         return self._data.diagonal
 
     @property
+    def bounding_box(self) -> NDArray[np.float64]:
+        """The least and the greatest coordinates (2, 3), in the mesh's unit. Created."""
+        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+
+    @property
+    def face_areas(self) -> NDArray[np.float64]:
+        """Areas (m,) of the triangles, in the mesh's unit squared. Created."""
+        a, b, c = (self.vertices[self.faces[:, corner]] for corner in range(3))
+        return np.asarray(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
+
+    @property
+    def vertex_normals(self) -> NDArray[np.float64]:
+        """Unit normals (n, 3) at the vertices: the area vectors of their triangles summed, outwards on closed
+        surfaces, whichever way their triangles are turned; (0, 0, 0) where the sum is 0. Created."""
+        return self._data.vertex_normals()
+
+    @property
     def epsilon(self) -> float:
         """The paper's unit of length: 0.3 % of the diagonal."""
         return self._data.epsilon
@@ -204,10 +221,13 @@ class Mesh:
              progress: Progress = None) -> None:
         """Writes .off or .ply, in full precision: read() gets the same mesh, bit for bit.
 
-        `properties` are values for each vertex (n,), by name, which only .ply holds. The file is written
+        `properties` are values for each vertex (n,), by name, which only .ply holds; where repair has changed
+        the number of vertices, those of the file or arrays are taken, too, as of field(). The file is written
         whole or not at all. Raises WriteError, and ArgumentError for other endings and for the file that the
         mesh was read from."""
-        named = [(str(name), _interop.array(values, f"the property {name}"))
+        from ._field import by_vertex
+
+        named = [(str(name), by_vertex(self, _interop.array(values, f"the property {name}"), None))
                  for name, values in (properties or {}).items()]
         with reporting(progress) as report:
             self._data.save(path_bytes(path), named, report)

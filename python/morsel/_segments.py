@@ -49,8 +49,8 @@ class Segments:
     @property
     def table(self) -> NDArray[np.void]:
         """A structured array (s,) with a row for each of the s segments: minimum and top (nodes of the
-        complex, 2³² - 1 where it has none), triangles, vertices, area (the mesh's unit squared), boundary_length,
-        mesh_boundary_length. """
+        complex, 2³² - 1 where it has none), triangles, vertices, area (the mesh's unit squared),
+        boundary_length, mesh_boundary_length. """
         return self._data.table
 
     @property

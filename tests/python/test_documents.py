@@ -88,6 +88,24 @@ def test_a_file_that_has_changed(tmp_path, small):
         ms.check(tmp_path / "report.json")
 
 
+def test_another_working_folder(tmp_path, small, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "sub").mkdir()
+    small.save("mesh.off")
+    r = ms.compare("mesh.off", methods=["conventional"])
+    s = ms.segment(ms.mean_curvature("mesh.off"), segments=5)
+    monkeypatch.chdir(tmp_path / "sub")
+    r.save(tmp_path / "report.json")
+    s.save("segments.json")
+    assert json.loads((tmp_path / "report.json").read_text())["mesh"]["path"] == "mesh.off"
+    assert "unchanged" in program("check", "report.json", cwd=tmp_path)
+    with pytest.raises(ms.ArgumentError):
+        r.save(tmp_path / "mesh.off")
+    (tmp_path / "mesh.off").unlink()
+    with pytest.raises(ms.InputError, match="missing"):
+        r.save(tmp_path / "report.json")
+
+
 def test_pages(in_memory, tmp_path, monkeypatch):
     r = ms.compare(in_memory, methods=["conventional", "salient"])
     page = r.html()
@@ -155,7 +173,7 @@ def test_fields_of_no_single_request(small, tmp_path):
     f = ms.mean_curvature(small)
     for made in (-f, ms.tps(ms.salient(f, iterations=1, target=20)), ms.field(small, np.zeros(len(f)),
                                                                              ranks=f.ranks)):
-        with pytest.raises(ms.ArgumentError, match="single request"):
+        with pytest.raises(ms.ArgumentError, match="no one command line"):
             ms.segment(made).save(tmp_path / "s.json")
 
 

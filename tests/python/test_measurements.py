@@ -185,6 +185,7 @@ def test_hierarchy_by_iteration(curvature, smooth):
 def test_points(lion):
     p = ms.points(lion, 30, spacing="4%")
     assert len(p) == 30 and p.note == "" and (p.distance >= p.spacing).all()
+    assert p.candidates[0] >= 30 - p.is_fill.sum()
     assert p.position.shape == (30, 3) and (np.diff(p.rank[~p.is_fill]) <= 0).all()
     assert set(p.type.tolist()) <= {ms.MINIMUM, ms.MAXIMUM} and np.isnan(p.percentile).all()
     measured = ms.points(lion, 30, spacing="4%", percentiles=True)

@@ -23,6 +23,27 @@ def test_counts_and_views(octahedron):
         octahedron.vertices[0, 0] = 7
 
 
+def test_areas_normals_and_the_box(octahedron, lion):
+    assert octahedron.bounding_box.tolist() == [[-1, -1, -1], [1, 1, 1]]
+    assert octahedron.face_areas == pytest.approx(np.full(8, np.sqrt(3) / 2))
+    assert octahedron.vertex_normals == pytest.approx(OCTAHEDRON_V)
+    inside_out = ms.Mesh(OCTAHEDRON_V, OCTAHEDRON_F[:, ::-1])
+    assert inside_out.vertex_normals == pytest.approx(OCTAHEDRON_V)
+    assert lion.face_areas.sum() == pytest.approx(lion.length("1rootarea")**2)
+    assert np.linalg.norm(lion.vertex_normals, axis=1) == pytest.approx(np.ones(lion.vertex_count))
+    assert not lion.vertex_normals.flags.writeable
+
+
+def test_properties_of_the_input(tmp_path):
+    v = np.concatenate([[[9, 9, 9]], OCTAHEDRON_V])
+    mesh = ms.Mesh(v, OCTAHEDRON_F + 1, repair=True)
+    mesh.save(tmp_path / "mesh.ply", properties={"own": np.arange(6), "input": np.arange(7)})
+    read = ms.read(tmp_path / "mesh.ply").properties
+    assert read["own"].tolist() == [0, 1, 2, 3, 4, 5] and read["input"].tolist() == [1, 2, 3, 4, 5, 6]
+    with pytest.raises(ValueError, match="8 values"):
+        mesh.save(tmp_path / "other.ply", properties={"wrong": np.arange(8)})
+
+
 @pytest.mark.parametrize("of", [np.float32, np.float64, np.int32, np.uint8, np.int8, ">f8", np.float16])
 def test_any_real_positions(of):
     given = (OCTAHEDRON_V + 1).astype(of)

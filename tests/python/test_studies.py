@@ -160,7 +160,7 @@ def test_stability(small):
     assert frame["recall"].tolist() == [row["recall"].mean for row in t] and "f_score_half_width" in frame
     again = ms.stability(small, methods=["conventional", "salient"], noise=[0.05, 0.3], trials=3, seed=5)
     assert list(again) == list(t)
-    assert t.radius == small.length("0.02rootarea")
+    assert t.radius == small.length("0.02rootarea") and t.mean_edge_length == small.length("1edges")
     given = ms.stability(ms.field(small, small.vertices[:, 0]), methods=["conventional"], noise=[0.1],
                          trials=1)
     assert given[0]["recall"].mean > 0 and given[0]["recall"].half_width is None
