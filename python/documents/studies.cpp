@@ -14,11 +14,15 @@
 #include "morsel/python/binding/text.h"
 #include "morsel/python/documents/module.h"
 #include "morsel/python/documents/source.h"
+#include "morsel/tools/export/hierarchy_export.h"
+#include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/report/hierarchy_writer.h"
 #include "morsel/tools/report/input_files.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/report/stability_table.h"
 #include "morsel/tools/report/stability_writer.h"
 #include "morsel/tools/report/sweep_writer.h"
+#include "morsel/tools/results/result_folder.h"
 
 namespace morsel::python {
 namespace {
@@ -78,16 +82,22 @@ void write_stability(const StabilityHandle& stability, const std::string& path,
   });
 }
 
-/// Makes the hierarchy again, level by level, and writes it.
+/// What makes the levels again, one by one. Throws InvalidArgument where no command line does.
+tools::HierarchyPlan plan_of(const LevelsData& levels, const tools::Registry& registry) {
+  if (!levels.field->story.is_request) documented(*levels.field, registry);  // which says why it cannot be
+  return tools::prepare(levels.request, registry);
+}
+
+DocumentMesh mesh_of(const LevelsData& levels, const DocumentPlace& place, const core::Progress& progress) {
+  return document_mesh(input_of(levels.field), place, files_of(*levels.field->story.input), progress);
+}
+
 void write_hierarchy(const LevelsHandle& levels, const std::string& path,
                      const std::optional<std::string>& mesh_file, bool items, const tools::Registry& registry,
                      const py::object& report) {
-  const FieldHandle& field = levels->field;
-  if (!field->story.is_request) documented(*field, registry);  // which says why it cannot be
-  const tools::HierarchyPlan plan = tools::prepare(levels->request, registry);
+  const tools::HierarchyPlan plan = plan_of(*levels, registry);
   run_job(report, [&](const core::Progress& progress) {
-    const DocumentMesh mesh = document_mesh(input_of(field), {path, mesh_file},
-                                            files_of(*field->story.input), progress);
+    const DocumentMesh mesh = mesh_of(*levels, {path, mesh_file}, progress);
     const tools::ReportInput about = mesh.about(items);
     const tools::HierarchyRequest request = tools::with_defaults(levels->request);
     write_document(path, [&](tools::JsonSink& json) {
@@ -95,6 +105,30 @@ void write_hierarchy(const LevelsHandle& levels, const std::string& path,
       tools::run_hierarchy(mesh.loaded, plan, {&writer}, progress);
       writer.finish();
     });
+  });
+}
+
+std::string hierarchy_command(const tools::HierarchyRequest& request, const DocumentMesh& mesh) {
+  std::vector<std::string> words = tools::words_of(request.field, mesh.repair);
+  tools::add_option(words, "--by",
+                    request.kind == tools::HierarchyKind::iteration ? "iteration" : "persistence");
+  if (!request.levels.empty()) tools::add_option(words, "--levels", request.levels);
+  if (!request.counts.empty()) tools::add_option(words, "--counts", request.counts);
+  return command_of("hierarchy", mesh, words);
+}
+
+void export_hierarchy(const LevelsHandle& levels, const std::string& folder,
+                      const std::optional<std::string>& mesh_file, const tools::Registry& registry,
+                      const py::object& report) {
+  const tools::HierarchyPlan plan = plan_of(*levels, registry);
+  run_job(report, [&](const core::Progress& progress) {
+    tools::ResultFolder results(folder);
+    const DocumentMesh mesh = mesh_of(*levels, {{}, mesh_file}, progress);
+    const tools::HierarchyRequest request = tools::with_defaults(levels->request);
+    tools::HierarchyExport files(
+        results, mesh.loaded,
+        {hierarchy_command(request, mesh), tools::request_section(request, mesh.about()), {mesh.file}});
+    tools::run_hierarchy(mesh.loaded, plan, {&files}, progress);
   });
 }
 
@@ -108,6 +142,7 @@ void add_study_documents(py::module_& m) {
     return text(tools::stability_table(stability->plan, stability->result));
   });
   m.def("write_hierarchy", &write_hierarchy);
+  m.def("export_hierarchy", &export_hierarchy);
 }
 
 }  // namespace morsel::python

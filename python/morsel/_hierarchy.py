@@ -167,6 +167,14 @@ class Levels(Sequence[Level]):
             _documents.write_hierarchy(self._data, path_bytes(path), mesh_file(mesh), bool(items), registry(),
                                        report)
 
+    def export(self, folder: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
+        """Writes, for each level, the surface and the complex for ParaView (.vtp) into a folder, as `morsel
+        hierarchy --export` does; they are made again. `mesh` is as of save()."""
+        from . import _documents
+
+        with reporting(progress) as report:
+            _documents.export_hierarchy(self._data, path_bytes(folder), mesh_file(mesh), registry(), report)
+
 
 class PersistenceHierarchy:
     """All complexes between that of a field and the one with nothing left to cancel; made by hierarchy().

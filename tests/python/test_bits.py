@@ -106,6 +106,18 @@ def test_documents(command, tmp_path):
         assert without_timings(tmp_path / "program.json") == without_timings(tmp_path / "python.json")
 
 
+def test_exports_of_hierarchies(tmp_path):
+    path = sample("eight.off")
+    words = ["--by", "persistence", "--counts", "60,20"]
+    program("hierarchy", path, "--field", "mean-curvature", "--method", "conventional", *words,
+            "--export", tmp_path / "program")
+    ms.hierarchy(ms.mean_curvature(ms.read(path))).levels(counts=[60, 20]).export(tmp_path / "python")
+    names = sorted(made.name for made in (tmp_path / "program").glob("*.vtp"))
+    assert names == ["complex.0.vtp", "complex.1.vtp", "surface.0.vtp", "surface.1.vtp"]
+    for name in names:
+        assert (tmp_path / "program" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
+
+
 def test_hierarchies(tmp_path):
     path = sample("eight.off")
     f = ms.mean_curvature(ms.read(path))

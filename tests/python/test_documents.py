@@ -100,7 +100,7 @@ def test_another_working_folder(tmp_path, small, monkeypatch):
     assert json.loads((tmp_path / "report.json").read_text())["mesh"]["path"] == "mesh.off"
     assert "unchanged" in program("check", "report.json", cwd=tmp_path)
     with pytest.raises(ms.ArgumentError):
-        r.save(tmp_path / "mesh.off")
+        r.save(tmp_path / "report.json", mesh=tmp_path / "mesh.off")
     (tmp_path / "mesh.off").unlink()
     with pytest.raises(ms.InputError, match="missing"):
         r.save(tmp_path / "report.json")
