@@ -95,7 +95,9 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
   if (place.mesh_file) {
     core::LoadedMesh loaded = has_values ? mesh_with_values(*input.values) : in_own_numbers(mesh.loaded);
     write_mesh(*place.mesh_file, loaded, has_values, progress);
-    return {std::move(loaded), {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)}, false,
+    return {std::move(loaded),
+            {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)},
+            false,
             *place.mesh_file};
   }
   if (!mesh.path.empty() && !has_values) {
@@ -108,14 +110,13 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
             ? "the report's field is of given values, which are in no file: name one for mesh and values "
               "(mesh=\"mesh.ply\")"
             : "the report's mesh is in no file: name one that it is written to (mesh=\"mesh.off\")");
-  return {has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair,
-          {}};
+  return {
+      has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair, {}};
 }
 
 DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
                              const tools::Registry& registry, const core::Progress& progress)
-    : mesh_(document_mesh(input_of(field), place,
-                          files_of(*field->story.input), progress)),
+    : mesh_(document_mesh(input_of(field), place, files_of(*field->story.input), progress)),
       made_(documented(*field, registry)) {}
 
 tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,

@@ -79,9 +79,8 @@ MeshHandle read(const std::string& path, bool repair, const py::object& report) 
   return compute(report, [&](const core::Progress& progress) {
     std::error_code error;  // of which reading has more to tell
     const std::filesystem::file_time_type time = std::filesystem::last_write_time(path, error);
-    return std::make_shared<MeshData>(
-        MeshData{core::read_mesh(path, {.repair = repair}, progress), path, repair, time,
-                 std::filesystem::absolute(path).string()});
+    return std::make_shared<MeshData>(MeshData{core::read_mesh(path, {.repair = repair}, progress), path,
+                                               repair, time, std::filesystem::absolute(path).string()});
   });
 }
 

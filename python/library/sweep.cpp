@@ -42,7 +42,8 @@ void check_columns(const tools::SweepPlan& plan) {
   const py::dict others = results({});
   for (const tools::Variation& one : plan.variations)
     if (others.contains(text(one.key)) || one.key == "field" || one.key == "method")
-      throw core::InvalidArgument("the key " + one.key + " has the name of a column of the results; write it " +
+      throw core::InvalidArgument("the key " + one.key +
+                                  " has the name of a column of the results; write it " +
                                   "with its method (NAME." + one.key + ") or field (field." + one.key + ")");
 }
 
