@@ -53,9 +53,9 @@ tools::MethodChain steps_after(const FieldStory& story, const std::string& chain
                                const tools::Registry& registry) {
   tools::MethodChain steps = registry.make_method(chain);
   if (!story.steps.empty() && reevaluates(steps))
-    throw core::InvalidArgument(steps.steps.front().name +
-                                " evaluates the Morse function again and does not use the field of " +
-                                story.method + ": apply it to the field's input");
+    throw core::InvalidArgument(
+        steps.steps.front().name + " evaluates the Morse function again and does not use the field of " +
+        story.method + ", so it can only be the first step: apply it to the field's input");
   return steps;
 }
 

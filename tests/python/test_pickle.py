@@ -7,7 +7,7 @@ import pickle
 
 import numpy as np
 import pytest
-from conftest import OCTAHEDRON_F, OCTAHEDRON_V, sample
+from conftest import OCTAHEDRON_F, OCTAHEDRON_V
 
 import morsel as ms
 
@@ -36,13 +36,6 @@ def test_meshes(lion, tmp_path):
         assert list(again.properties) == list(mesh.properties) and again != mesh
     ms.compare(pickle.loads(pickle.dumps(lion)), methods=["conventional"]).save(tmp_path / "r.json")
     assert ms.check(tmp_path / "r.json") == []
-
-
-def test_molecules():
-    surface = ms.molecule(sample("1bp2.pdb"), resolution=3)
-    again = pickle.loads(pickle.dumps(surface))
-    assert isinstance(again, ms.Molecule) and np.array_equal(again.atoms, surface.atoms)
-    assert (again.area, again.molecule_path) == (surface.area, surface.molecule_path)
 
 
 def test_fields(smooth, tmp_path):
