@@ -51,9 +51,21 @@ core::LoadedMesh mesh_with_values(const FieldData& field) {
 
 tools::MethodChain steps_after(const FieldStory& story, const std::string& chain,
                                const tools::Registry& registry) {
-  tools::MethodChain all = registry.make_method(story.method.empty() ? chain : story.method + "+" + chain);
-  all.steps.erase(all.steps.begin(), all.steps.begin() + static_cast<std::ptrdiff_t>(story.steps.size()));
-  return all;
+  tools::MethodChain steps = registry.make_method(chain);
+  if (!story.steps.empty() && reevaluates(steps))
+    throw core::InvalidArgument(
+        steps.steps.front().name + " evaluates the Morse function again and does not use the field of " +
+        story.method + ", so it can only be the first step: apply it to the field's input");
+  return steps;
+}
+
+bool reevaluates(const tools::MethodChain& chain) {
+  return chain.steps.front().method->traits().reevaluates_function;
+}
+
+tools::NamedFunction function_for(const tools::MethodChain& chain, const FieldStory& story,
+                                  const tools::Registry& registry) {
+  return registry.make_function(reevaluates(chain) ? function_text(story) : "height");
 }
 
 FieldHandle without_methods(const FieldHandle& field) {
@@ -83,15 +95,20 @@ tools::MadeField made_field(const FieldData& field) {
   return {*story.input, {*field.field, std::move(steps), story.reached}, story.method_seconds};
 }
 
+Documented documented(const FieldData& field) {
+  const FieldStory& story = field.story;
+  return {{function_text(story), method_text(story), story.target}, {}, made_field(field)};
+}
+
 Documented documented(const FieldData& field, const tools::Registry& registry) {
   const FieldStory& story = field.story;
   if (!story.is_request)
     throw core::InvalidArgument(
-        "this field was made by steps that no one command line makes (an order of one's own, its negative, "
-        "or a method after a target), which a document cannot hold");
-  tools::FieldRequest request{function_text(story), method_text(story), story.target};
-  tools::FieldPlan plan = tools::prepare(request, registry);
-  return {std::move(request), std::move(plan), made_field(field)};
+        "this field was made by steps that no one command line makes (an order of one's own, its negative, a "
+        "method after a target, or one that on_iteration ended), which a document cannot hold");
+  Documented result = documented(field);
+  result.plan = tools::prepare(result.request, registry);
+  return result;
 }
 
 }  // namespace morsel::python

@@ -73,10 +73,15 @@ core::LoadedMesh in_own_numbers(const core::LoadedMesh& loaded);
 /// numbers.
 core::LoadedMesh mesh_with_values(const FieldData& field);
 
-/// The steps of `chain` that come after those that the field has. Both are read together, since some methods
-/// can only be first.
+/// The steps of `chain`, which come after those that the field has: these are not read again, since their
+/// names may stand for others now. Throws InvalidArgument for methods that can only be first.
 tools::MethodChain steps_after(const FieldStory& story, const std::string& chain,
                                const tools::Registry& registry);
+/// Whether the chain evaluates the Morse function again.
+bool reevaluates(const tools::MethodChain& chain);
+/// The Morse function for apply_chain(): the field's if the chain evaluates it again; any other one if not.
+tools::NamedFunction function_for(const tools::MethodChain& chain, const FieldStory& story,
+                                  const tools::Registry& registry);
 
 /// The field itself if no method was applied to it, else one of its values. Throws InvalidArgument where the
 /// order is not that of the values.
@@ -93,6 +98,8 @@ struct Documented {
   tools::MadeField made;
 };
 Documented documented(const FieldData& field, const tools::Registry& registry);
+/// The same for files that are not made again, of any field: without the plan.
+Documented documented(const FieldData& field);
 
 /// What a study was made of: a mesh and, if its field is one of given values, that field.
 struct StudyInput {
@@ -172,6 +179,7 @@ struct LevelsData {
   FieldHandle field;  ///< of the finest level by persistence; the method's input by iteration
   tools::HierarchyRequest request;
   std::vector<std::shared_ptr<const tools::Level>> levels;
+  std::vector<FieldHandle> fields;  ///< of each level by iteration; empty by persistence
 };
 using LevelsHandle = std::shared_ptr<LevelsData>;
 

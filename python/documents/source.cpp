@@ -52,6 +52,9 @@ void check_unchanged(const MeshData& mesh) {
     throw core::BadInput(mesh.path + " has changed since it was read");
 }
 
+/// Whether it can be made again.
+bool is_document(const std::string& path) { return core::file_extension(path) == ".json"; }
+
 }  // namespace
 
 std::vector<core::Point> DocumentMesh::input_positions(const core::Progress& progress) const {
@@ -117,10 +120,12 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
 DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
                              const tools::Registry& registry, const core::Progress& progress)
     : mesh_(document_mesh(input_of(field), place, files_of(*field->story.input), progress)),
-      made_(documented(*field, registry)) {}
+      made_(is_document(place.path) ? documented(*field, registry) : documented(*field)),
+      is_request_(field->story.is_request) {}
 
 tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,
                                             const tools::Json& json) const {
+  if (!is_request_) return {"", tools::Json::object(), source()};
   std::vector<std::string> all = tools::words_of(request(), mesh_.repair);
   tools::add_words(all, words);
   return {command_of(command, mesh_, all), json, source()};

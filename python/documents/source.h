@@ -53,7 +53,8 @@ struct DocumentMesh {
 DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
                            const std::vector<std::string>& read, const core::Progress& progress);
 
-/// A field of a request, on its mesh.
+/// A field on its mesh. A JSON document is made again from its request, so that the field must have one;
+/// other files hold any field.
 class DocumentField {
  public:
   DocumentField(const FieldHandle& field, const DocumentPlace& place, const tools::Registry& registry,
@@ -63,13 +64,15 @@ class DocumentField {
   const tools::FieldRequest& request() const { return made_.request; }
   const tools::MadeField& made() const { return made_.made; }
   tools::FieldSource source() const { return {mesh_.file, mesh_.loaded, made_.plan, made_.made}; }
-  /// `words`: the command's own, after its field and method.
+  /// `words`: the command's own, after its field and method. Of a field that no request makes, the command
+  /// and the request are empty.
   tools::Provenance provenance(const std::string& command, const std::vector<std::string>& words,
                                const tools::Json& request) const;
 
  private:
   DocumentMesh mesh_;
   Documented made_;
+  bool is_request_;
 };
 
 /// "morsel COMMAND MESH --field F --method M …"; `words`: all that shapes the result.

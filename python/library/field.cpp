@@ -71,16 +71,16 @@ struct Applied {
   std::optional<std::size_t> target;
   bool count_iterations;
   py::object on_iteration;  // None, or called with the number and the field of each iteration
+  bool is_ended = false;    // by on_iteration
 };
 
-core::IterationCallback callback_of(const Applied& options, const MeshHandle& mesh,
+core::IterationCallback callback_of(Applied& options, const MeshHandle& mesh,
                                     const core::Progress& progress) {
   if (options.on_iteration.is_none()) return {};
   return [&options, mesh, &progress](int number, const ScalarField& field) {
     const FieldHandle passed = given_field(mesh, field, "values", false);
-    bool go_on = true;
-    call_python(progress, [&] { go_on = !says_stop(options.on_iteration(number, passed)); });
-    return go_on;
+    call_python(progress, [&] { options.is_ended = says_stop(options.on_iteration(number, passed)); });
+    return !options.is_ended;
   };
 }
 
@@ -90,11 +90,10 @@ FieldHandle apply(const FieldHandle& input, const std::string& chain, std::optio
                   const py::object& report) {
   tools::check_target(target);
   const tools::MethodChain steps = steps_after(input->story, chain, registry);
-  const tools::NamedFunction function = registry.make_function(function_text(input->story));
-  const Applied options{target, count_iterations, std::move(on_iteration)};
+  const tools::NamedFunction function = function_for(steps, input->story, registry);
+  Applied options{target, count_iterations, std::move(on_iteration)};
   return compute(report, [&](const core::Progress& progress) {
-    const bool reevaluates = steps.steps.front().method->traits().reevaluates_function;
-    const core::LoadedMesh loaded = reevaluates ? mesh_with_values(*input) : input->mesh->loaded;
+    const core::LoadedMesh loaded = reevaluates(steps) ? mesh_with_values(*input) : input->mesh->loaded;
     const tools::Stopwatch watch;
     tools::ChainOutcome outcome =
         tools::apply_chain(steps, loaded, function, *input->field,
@@ -103,7 +102,7 @@ FieldHandle apply(const FieldHandle& input, const std::string& chain, std::optio
                             .on_iteration = callback_of(options, input->mesh, progress)},
                            progress);
     FieldStory story = input->story;
-    story.is_request = story.is_request && !story.target;
+    story.is_request = story.is_request && !story.target && !options.is_ended;
     story.method += (story.method.empty() ? "" : "+") + chain;
     story.target = target;
     story.reached = std::move(outcome.target);

@@ -3,6 +3,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +12,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/field/method.h"
+#include "morsel/core/text/specification.h"
 #include "morsel/mscomplex/hierarchy.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
@@ -68,7 +72,7 @@ py::tuple counts_at(const HierarchyHandle& h, Index level) {
 
 LevelsHandle built(const FieldHandle& field, tools::HierarchyRequest request,
                    std::vector<tools::LevelSeed> seeds, const core::Progress& progress) {
-  const auto result = std::make_shared<LevelsData>(LevelsData{field, std::move(request), {}});
+  const auto result = std::make_shared<LevelsData>(LevelsData{field, std::move(request), {}, {}});
   tools::build_levels(
       std::move(seeds),
       [&](Level level) { result->levels.push_back(std::make_shared<const Level>(std::move(level))); },
@@ -103,23 +107,61 @@ LevelsHandle persistence_levels(const HierarchyHandle& h, const std::string& lev
   });
 }
 
+/// A chain of methods after those that a field has.
+std::string after(const FieldStory& story, const std::string& chain) {
+  return story.method.empty() ? chain : story.method + "+" + chain;
+}
+
+/// The chain's text with another number of iterations of its last step, which gives one.
+std::string with_number(const tools::MethodChain& chain, int iterations) {
+  std::vector<core::Specification> steps = core::parse_chain(chain.specification, "the method");
+  for (auto& [key, value] : steps.back().given)
+    if (key == core::kIterationsKey) value = std::to_string(iterations);
+  return core::to_string(steps);
+}
+
+/// What a run of more iterations says of its last step, as a run of fewer does.
+tools::StepOutcome ended_at(tools::StepOutcome step, int iterations) {
+  for (core::Parameters* values : {&step.parameters, &step.details})
+    for (auto& [key, value] : *values)
+      if (key == core::kIterationsKey || key == "iterations_run") value = std::int64_t{iterations};
+  step.iterations.resize(std::min(step.iterations.size(), static_cast<std::size_t>(iterations) + 1));
+  step.end = core::IterationEnd{iterations, std::string(core::kIterationsKey)};
+  return step;
+}
+
+/// The field of a level by iteration, made by the steps of `chain` from `input`.
+FieldHandle field_of(const Level& level, const FieldHandle& input, const tools::MethodChain& chain,
+                     std::vector<tools::StepOutcome> steps) {
+  const int number = *level.name.iteration;
+  FieldStory story = input->story;
+  story.method = after(story, with_number(chain, number));
+  story.is_request = story.is_request && chain.steps.back().method->traits().iterates_are_results;
+  steps.back() = ended_at(std::move(steps.back()), number);
+  story.steps.insert(story.steps.end(), steps.begin(), steps.end());
+  return std::make_shared<FieldData>(FieldData{input->mesh, level.field, std::move(story)});
+}
+
 /// Levels by iteration of the last method of a chain.
 LevelsHandle iteration_levels(const FieldHandle& field, const std::string& method, const std::string& levels,
                               const tools::Registry& registry, const py::object& report) {
   const FieldStory& story = field->story;
   if (story.target)
     throw core::InvalidArgument("levels by iteration are not made of a field that was ended at a target");
-  tools::HierarchyRequest request = request_of(field, tools::HierarchyKind::iteration,
-                                               story.method.empty() ? method : story.method + "+" + method);
+  tools::HierarchyRequest request = request_of(field, tools::HierarchyKind::iteration, after(story, method));
   request.levels = levels;
-  tools::HierarchyPlan plan = tools::prepare(request, registry);
-  tools::MethodChain& chain = plan.field.chain;  // without the steps that the field has
-  chain.steps.erase(chain.steps.begin(),
-                    chain.steps.begin() + static_cast<std::ptrdiff_t>(story.steps.size()));
+  tools::HierarchyRequest own_steps = request;  // of the chain without the steps that the field has
+  own_steps.field = {"height", method, {}};
+  const tools::HierarchyPlan plan = tools::prepare(own_steps, registry);
+  const tools::MethodChain chain = steps_after(story, plan.field.chain.specification, registry);
+  const tools::NamedFunction function = function_for(chain, story, registry);
   return compute(report, [&](const core::Progress& progress) {
-    tools::IterationLevels found = tools::iteration_levels(
-        chain, mesh_with_values(*field), plan.field.function, *field->field, plan.iterations, progress);
-    return built(field, request, std::move(found.seeds), progress);
+    tools::IterationLevels found = tools::iteration_levels(chain, mesh_with_values(*field), function,
+                                                           *field->field, plan.iterations, progress);
+    const LevelsHandle made = built(field, request, std::move(found.seeds), progress);
+    for (const std::shared_ptr<const Level>& level : made->levels)
+      made->fields.push_back(field_of(*level, field, chain, found.outcome.steps));
+    return made;
   });
 }
 
@@ -147,9 +189,7 @@ py::dict level_dict(const LevelsHandle& levels, std::size_t place) {
       level->name.cancelled ? py::cast(level->name.cancelled->cancellations) : py::none();
   result["largest_persistence"] =
       level->name.cancelled ? py::cast(level->name.cancelled->largest) : py::none();
-  result["field"] = level->field == levels->field->field
-                        ? levels->field
-                        : given_field(levels->field->mesh, *level->field, "values", false);
+  result["field"] = levels->fields.empty() ? levels->field : levels->fields[place];
   result["points"] = view_of(std::span<const morse::CriticalPoint>(level->points.points), level);
   result["persistence"] = view_of(std::span<const double>(level->persistence), level);
   result["parents"] = view_of(std::span<const Index>(level->parents), level);

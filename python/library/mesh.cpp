@@ -39,12 +39,16 @@ MeshHandle handle_of(core::BuiltMesh built, bool repair) {
 }
 
 /// Triangles that are a mesh as they are: with less memory than polygons.
-MeshHandle from_triangles(const py::array& positions, const py::array& faces) {
+MeshHandle from_triangles(const py::array& positions, const py::array& faces, const py::object& report) {
   std::vector<core::Point> points = points_from(positions, "the vertices");
   std::vector<core::Triangle> triangles = triangles_from(faces);
-  return compute(py::none(), [&](const core::Progress&) {
+  return compute(report, [&](const core::Progress& progress) {
     const std::size_t count = points.size();
-    return handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, false);
+    progress.update("building the mesh", 0);
+    MeshHandle mesh =
+        handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, false);
+    progress.update("building the mesh", 1);
+    return mesh;
   });
 }
 
@@ -52,7 +56,7 @@ MeshHandle from_triangles(const py::array& positions, const py::array& faces) {
 MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool repair,
                        const py::object& report) {
   const bool are_triangles = faces.ndim() == 2 && faces.shape(1) == 3;
-  if (are_triangles && !repair) return from_triangles(positions, faces);
+  if (are_triangles && !repair) return from_triangles(positions, faces, report);
   core::PolygonSoup soup = soup_from(positions, faces);
   return compute(report, [&](const core::Progress& progress) {
     return handle_of(core::build_mesh(std::move(soup), {repair}, progress), repair);
@@ -126,7 +130,10 @@ py::array faces(const MeshHandle& mesh) { return rows_of<Index, 3>(mesh->mesh().
 
 py::array edges(const MeshHandle& mesh) {
   std::vector<std::array<Index, 2>> all(mesh->mesh().edge_count());
-  for (Index e = 0; e < all.size(); ++e) all[e] = mesh->mesh().edge_vertices(e);
+  for (Index e = 0; e < all.size(); ++e) {
+    all[e] = mesh->mesh().edge_vertices(e);  // in the direction of a half-edge
+    std::ranges::sort(all[e]);
+  }
   const auto kept = std::make_shared<const std::vector<std::array<Index, 2>>>(std::move(all));
   return rows_of<Index, 2>(std::span<const std::array<Index, 2>>(*kept), kept);
 }

@@ -45,6 +45,7 @@ PYBIND11_MODULE(_library, m) {
   add_registry(m);
   add_mesh(m);
   add_field(m);
+  add_pickling(m);
   add_measurements(m);
   add_complex(m);
   add_segments(m);

@@ -10,6 +10,7 @@ namespace py = pybind11;
 void add_registry(py::module_& m);
 void add_mesh(py::module_& m);
 void add_field(py::module_& m);
+void add_pickling(py::module_& m);
 void add_measurements(py::module_& m);
 void add_complex(py::module_& m);
 void add_segments(py::module_& m);

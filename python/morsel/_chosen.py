@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import operator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable, whole
 from ._field import Field, warn
 from ._made import Named, field_of, mesh_file, name_of, number_text
 from ._mesh import PathLike, path_bytes
-from ._points import TYPE_NAMES
+from ._points import Counts, counts_of, type_names
 from ._progress import Progress, reporting
 from ._registry import registry
 
 
-class Points:
+class Points(Immutable):
     """Chosen critical points, in the order in which they were chosen; made by points()."""
 
     __slots__ = ("field", "_data")
@@ -41,6 +41,16 @@ class Points:
     def type(self) -> NDArray[np.uint8]:
         """MINIMUM (1), SADDLE (2) or MAXIMUM (3) (k,)."""
         return self._data.type
+
+    @property
+    def type_name(self) -> NDArray[np.str_]:
+        """ "minimum", "saddle" or "maximum" (k,)."""
+        return type_names(self.type)
+
+    @property
+    def counts(self) -> Counts:
+        """How many there are of each type."""
+        return counts_of(self.type, self.multiplicity)
 
     @property
     def multiplicity(self) -> NDArray[np.uint32]:
@@ -104,10 +114,16 @@ class Points:
 
         position = self.position
         return pandas.DataFrame({
-            "vertex": self.vertex, "type": [TYPE_NAMES[of] for of in self.type.tolist()],
+            "vertex": self.vertex, "type": self.type_name,
             "value": self.value, "persistence": self.persistence, "rank": self.rank,
             "distance": self.distance, "percentile": self.percentile, "is_fill": self.is_fill,
             "x": position[:, 0], "y": position[:, 1], "z": position[:, 2]})
+
+    def plot(self, mesh: Any = None, ax: Any = None) -> Any:
+        """Draws the surface with the points on it, as CriticalPoints.plot()."""
+        from . import _plots
+
+        return _plots.points(self, mesh, ax)
 
     def save(self, path: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
         """Writes .csv, .json, .ply or .vtp as `morsel points` does.
@@ -124,8 +140,8 @@ def choice(count: int = 20, kind: str = "extrema", rank: str = "persistence", sp
            fill: Named | None = None, scale: str | float | None = None,
            percentiles: bool = False) -> dict[str, Any]:
     """How points are chosen, as the library reads it."""
-    wanted = {"count": operator.index(count), "kind": kind, "rank": rank, "spacing": number_text(spacing),
-              "percentiles": bool(percentiles)}
+    wanted = {"count": whole(count, "the number of points", 0), "kind": kind, "rank": rank,
+              "spacing": number_text(spacing), "percentiles": bool(percentiles)}
     if fill is not None:
         wanted["fill"] = name_of(fill)
     if scale is not None:

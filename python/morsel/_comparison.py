@@ -7,6 +7,7 @@ import sys
 from typing import Any, Iterator, Mapping, NamedTuple, Sequence
 
 from . import _library
+from ._arguments import Immutable, target_of
 from ._chosen import Points, choice, warn_of_fill
 from ._complex import MorseSmaleComplex, Segmentation, segmentation_of
 from ._errors import ArgumentError
@@ -18,7 +19,7 @@ from ._points import Counts, CriticalPoints
 from ._progress import Progress, reporting
 from ._registry import registry
 
-class Row:
+class Row(Immutable):
     """What one method gave; a row of a Comparison."""
 
     __slots__ = ("_made", "specification", "name", "field", "critical_points", "diagram", "complex",
@@ -61,7 +62,7 @@ class Row:
         return made
 
 
-class Comparison(Sequence[Row]):
+class Comparison(Immutable, Sequence[Row]):
     """Several methods on one field, each measured by the same code; made by compare().
 
     A row for each method: by number, or by the method as it was given or by its name, r["salient"].
@@ -254,8 +255,9 @@ def compare(mesh: Any, *, field: Field | Named | None = None, methods: Sequence[
     named = None if methods is None else [name_of(method) for method in _listed(methods)]
     keys = {} if points is None else dict(points) if isinstance(points, Mapping) else {"count": points}
     with reporting(progress) as report:
-        made = Comparison(_library.compare(on._data, values, function, named, preset, target, bool(snap),
-                                           None if points is None else choice(**keys), registry(), report),
+        made = Comparison(_library.compare(on._data, values, function, named, preset, target_of(target),
+                                           bool(snap), None if points is None else choice(**keys), registry(),
+                                           report),
                           on)
     warn(made.field.function.partition(":")[0] or "values", made.field._data.warnings, 2)
     for row in made:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable, place
 from ._field import Field
 from ._points import _field
 from ._progress import Progress, reporting
@@ -40,7 +41,7 @@ class Segmentation(NamedTuple):
     """(k, 2): ascending and descending label of each Morse-Smale label."""
 
 
-class MorseSmaleComplex:
+class MorseSmaleComplex(Immutable):
     """A Morse-Smale complex; made by morse_smale().
 
     Nodes are minima, then saddles (one for each multiplicity), then maxima, then the caps of boundary
@@ -130,9 +131,7 @@ class MorseSmaleComplex:
 
     def arcs_around(self, node: int) -> NDArray[np.uint32]:
         """The arcs at a node, counter-clockwise seen from outside."""
-        if node < 0:
-            raise IndexError(f"nodes are numbered from 0 on; there is no node {node}")
-        return self._data.arcs_around(node)
+        return self._data.arcs_around(place(node, "the node", len(self.nodes) - 1))
 
     def to_networkx(self) -> Any:
         """A networkx.MultiGraph: nodes 0 … with kind, vertex, value and position, an edge for each arc with

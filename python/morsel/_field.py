@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _interop, _library
+from ._arguments import Immutable, target_of
 from ._errors import ArgumentError, MorselWarning
 from ._mesh import Mesh, PathLike, as_mesh, path_bytes
 from ._progress import Progress, reporting
@@ -75,7 +76,7 @@ def warn(name: str, texts: list[str], level: int) -> None:
         _warnings.warn(f"{name}: {text}", MorselWarning, stacklevel=level + 1)
 
 
-class Field:
+class Field(Immutable):
     """A scalar field on a mesh: one finite value per vertex, and the total order of the vertices.
 
     Vertices are compared by (value, vertex number), unless a method, such as persistence simplification,
@@ -102,6 +103,9 @@ class Field:
         if self._persistence is None:
             self._persistence = _library.persistence(self._data, None).vertex_persistence(len(self))
         return self._persistence
+
+    def __reduce__(self) -> Any:
+        return _restored, (self._mesh, _library.field_state(self._data))
 
     def __repr__(self) -> str:
         made = self.function or "values"
@@ -194,14 +198,16 @@ class Field:
         """What the values do not mean on this mesh, and what methods could not do."""
         return self._data.warnings + [text for step in self.steps for text in step.warnings]
 
-    def apply(self, methods: str, *, target: int | None = None, count_iterations: bool = False,
-              on_iteration: OnIteration | None = None, progress: Progress = None) -> Field:
+    def apply(self, methods: str | Callable[..., Field], *, target: int | None = None,
+              count_iterations: bool = False, on_iteration: OnIteration | None = None,
+              progress: Progress = None) -> Field:
         """Applies a method or a chain of methods, in the program's words.
 
         Parameters
         ----------
-        methods : str
-            "salient:iterations=5+tps:count=150". help(ms.salient) tells the keys of a method.
+        methods : str or function
+            "salient:iterations=5+tps:count=150", or a function such as ms.salient. help(ms.salient) tells
+            the keys of a method.
         target : int
             End with so many critical points, or the nearest smaller number: as much of the last method as
             leaves enough of them, persistence cancellation for the rest. `Field.target` tells how.
@@ -209,7 +215,8 @@ class Field:
             Count the critical points of every iteration: Field.steps[-1].iterations.
         on_iteration : callable
             Called with the number and the Field of each iteration of the last method, of its input first
-            (0); returning False ends the method there.
+            (0); returning False ends the method there. With a target a method may be started again, and the
+            numbers with it.
         progress : bool or callable
             True shows a bar; a function is called with the step's name and the fraction done, and ends the
             work by returning False.
@@ -218,7 +225,9 @@ class Field:
 
         >>> f.apply("salient:iterations=5+tps:count=150", target=150)
         """
-        return apply(self, methods, target, count_iterations, on_iteration, progress, 2)
+        from ._made import name_of
+
+        return apply(self, name_of(methods), target, count_iterations, on_iteration, progress, 2)
 
     def save(self, path: PathLike, *, progress: Progress = None) -> None:
         """Writes the field: .txt (a value a line), .ply or .vtp (the surface with the values), as `morsel
@@ -237,7 +246,7 @@ def apply(field: Field, methods: str, target: int | None, count_iterations: bool
         return on_iteration(number, Field._of(data, field.mesh))
 
     with reporting(progress) as report:
-        made = Field._of(_library.apply(field._data, methods, target, bool(count_iterations),
+        made = Field._of(_library.apply(field._data, methods, target_of(target), bool(count_iterations),
                                         None if on_iteration is None else called, registry(), report),
                          field.mesh)
     for step in made.steps[len(field._data.steps):]:
@@ -254,16 +263,17 @@ def evaluate(mesh: Any, specification: str, progress: Progress, level: int) -> F
     return made
 
 
-def field(mesh: Any, values: ArrayLike | str, *, ranks: ArrayLike | None = None, name: str = "values",
+def field(mesh: Any, values: ArrayLike | str | Field, *, ranks: ArrayLike | None = None, name: str = "values",
           numbering: str | None = None, progress: Progress = None) -> Field:
     """A field of values, or of a Morse function in the program's words.
 
     Parameters
     ----------
     mesh : Mesh, or what Mesh() takes
-    values : array_like (n,), or str
+    values : array_like (n,), or str, or Field
         A finite value for each vertex of the mesh, or of the arrays or file that it was made from, where
-        repair has changed their number. Or a text: "height:axis=x".
+        repair has changed their number. Or a text: "height:axis=x". A Field on the same mesh is returned
+        as it is, with its order.
     ranks : array_like (n,)
         An order of one's own: a permutation of 0 … n - 1 along which values never decrease. By default
         vertices are ordered by (value, vertex number).
@@ -282,10 +292,27 @@ def field(mesh: Any, values: ArrayLike | str, *, ranks: ArrayLike | None = None,
             raise TypeError("ranks and numbering are for values, not for a Morse function")
         return evaluate(mesh, values, progress, 2)
     on = as_mesh(mesh)
+    if isinstance(values, Field):
+        return _whole(on, values, ranks is None and numbering is None and name == "values")
     given = _interop.array(values, "the values")
     given = by_vertex(on, given, numbering)
     order = None if ranks is None else _interop.array(ranks, "the ranks")
     return Field._of(_library.given(on._data, given, order, str(name)), on)
+
+
+def _restored(mesh: Mesh, state: tuple[Any, ...]) -> Field:
+    """Of pickle."""
+    return Field._of(_library.restored_field(mesh._data, state), mesh)
+
+
+def _whole(mesh: Mesh, given: Field, is_alone: bool) -> Field:
+    """A Field that was given for values."""
+    if given.mesh != mesh:
+        raise ValueError("the field is on another mesh; its values alone are FIELD.values")
+    if not is_alone:
+        raise TypeError("ranks, name and numbering are for values, not for a Field; its values alone are "
+                        "FIELD.values")
+    return given
 
 
 def by_vertex(mesh: Mesh, values: NDArray[Any], numbering: str | None) -> NDArray[Any]:

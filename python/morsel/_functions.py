@@ -12,7 +12,7 @@ from ._specification import Parameter, specification
 
 Rows = list[tuple[str, str, str, str, list[str]]]
 
-_ON_METHODS = ("target", "count_iterations", "on_iteration", "progress")
+ON_METHODS = ("target", "count_iterations", "on_iteration", "progress")
 
 
 def python_name(name: str) -> str:
@@ -73,7 +73,8 @@ target : int
 count_iterations : bool
     Count the critical points of every iteration: Field.steps[-1].iterations.
 on_iteration : callable
-    Called with the number and the Field of each iteration; returning False ends the method there.
+    Called with the number and the Field of each iteration, of the input first (0); returning False ends the
+    method there. With a target the method may be started again, and the numbers with it.
 progress : bool or callable
     True shows a bar; a function is called with the step's name and the fraction done.
 
@@ -126,7 +127,7 @@ def make_method(name: str, summary: str, rows: Rows, module: str = "morsel") -> 
 
     def call(*args: Any, **keys: Any) -> Field:
         bound = _bind(call.__name__, signature, args, keys)
-        options = {key: bound.pop(key, None) for key in _ON_METHODS}
+        options = {key: bound.pop(key, None) for key in ON_METHODS}
         field = bound.pop("f")
         if not isinstance(field, Field):
             raise TypeError(f"{call.__name__}() takes a Field, not a {type(field).__name__}; make one by "

@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable, listed, place, whole
 from ._complex import MorseSmaleComplex, Segmentation, segmentation_of
 from ._errors import ArgumentError
 from ._field import Field
-from ._made import field_of, mesh_file, number_text, or_minus_one
+from ._made import Named, field_of, mesh_file, name_of, number_text, or_minus_one
 from ._mesh import PathLike, path_bytes
 from ._points import Counts, CriticalPoints
 from ._progress import Progress, reporting
@@ -29,14 +30,14 @@ class Links(NamedTuple):
     """The same of the coarser level."""
 
 
-class Level:
+class Level(Immutable):
     """A level of a hierarchy: its critical points, complex and segmentation, and their links."""
 
     __slots__ = ("_made", "field", "critical_points", "complex", "segmentation", "parents")
 
-    def __init__(self, made: dict[str, Any], mesh: Any) -> None:
+    def __init__(self, made: dict[str, Any], field: Field) -> None:
         self._made = made
-        self.field = Field._of(made["field"], mesh)
+        self.field = field
         """The field; by persistence the same one for all levels."""
         self.critical_points = CriticalPoints(self.field, made["points"])
         """Its critical points: by persistence those that are left, with the values of the field."""
@@ -121,19 +122,21 @@ class Level:
         return Links(*self._made["links_" + kind])
 
 
-class Levels(Sequence[Level]):
+class Levels(Immutable, Sequence[Level]):
     """The levels of a hierarchy, the finest first; made by hierarchy().
 
-    By iteration levels[5] is the level after five iterations; list(levels) are all of them.
+    A sequence: levels[0] is the finest, levels[-1] the coarsest. levels.at(5) is the level after five
+    iterations, levels.at("1%") or levels.at(60) the one that was asked for so by persistence.
     """
 
-    def __init__(self, data: _library.Levels, mesh: Any) -> None:
+    def __init__(self, data: _library.Levels, field: Field) -> None:
         self._data = data
         self._levels = []
-        for place in range(len(data)):
-            made = data.level(place)
-            made["place"] = place
-            self._levels.append(Level(made, mesh))
+        for number in range(len(data)):
+            made = data.level(number)
+            made["place"] = number
+            of = field if made["field"] is field._data else Field._of(made["field"], field.mesh)
+            self._levels.append(Level(made, of))
 
     def __len__(self) -> int:
         return len(self._levels)
@@ -142,13 +145,15 @@ class Levels(Sequence[Level]):
         return iter(self._levels)
 
     def __getitem__(self, number: Any) -> Any:
-        for level in self._levels:
-            if number == (level.iteration if level.iteration is not None else level.name):
-                return level
-        if isinstance(number, str) or any(level.iteration is not None for level in self._levels):
-            names = ", ".join(level.name for level in self._levels)
-            raise KeyError(f"there is no level {number}; there are {names}")
         return self._levels[number]
+
+    def at(self, name: str | float) -> Level:
+        """The level that was asked for by this number of iterations or of critical cells, or this
+        threshold. Raises KeyError if there is none."""
+        for level in self._levels:
+            if level.name in (str(name), number_text(name)):
+                return level
+        raise KeyError(f"there is no level {name}; there are " + ", ".join(one.name for one in self._levels))
 
     def __repr__(self) -> str:
         return "<morsel.Levels: " + ", ".join(level.name for level in self._levels) + ">"
@@ -176,11 +181,11 @@ class Levels(Sequence[Level]):
             _documents.export_hierarchy(self._data, path_bytes(folder), mesh_file(mesh), registry(), report)
 
 
-class PersistenceHierarchy:
+class PersistenceHierarchy(Immutable):
     """All complexes between that of a field and the one with nothing left to cancel; made by hierarchy().
 
     h[150] is the first one with at most 150 critical cells (minima, saddles with their multiplicities,
-    maxima), h.at("1%") the one without pairs of at most that persistence. """
+    maxima), h.at("1%") or h["1%"] the one without pairs of at most that persistence. """
 
     __slots__ = ("field", "_data")
 
@@ -197,10 +202,13 @@ class PersistenceHierarchy:
         goes with the extremum, and the nodes of the extremum and of the one that takes over its arcs."""
         return self._data.cancellations
 
-    def __getitem__(self, count: int) -> MorseSmaleComplex:
-        if count < 1:
-            raise IndexError(f"a complex has at least one critical cell, not {count}")
-        return self._complex(self._data.level_with(count))
+    def __getitem__(self, count: int | str) -> MorseSmaleComplex:
+        if isinstance(count, str):
+            return self.at(count)
+        number = whole(count, "the number of critical cells", -2**63, 2**63 - 1)
+        if number < 1:
+            raise IndexError(f"a complex has at least one critical cell, not {number}")
+        return self._complex(self._data.level_with(number))
 
     def at(self, persistence: str | float) -> MorseSmaleComplex:
         """The complex in which all pairs of at most this persistence are cancelled, in the field's unit or,
@@ -210,29 +218,31 @@ class PersistenceHierarchy:
 
     def after(self, cancellations: int) -> MorseSmaleComplex:
         """The complex after so many cancellations."""
-        if cancellations < 0:
-            raise IndexError(f"cancellations are counted from 0 on, not {cancellations}")
-        return self._complex(cancellations)
+        return self._complex(self._checked(cancellations))
 
     def counts(self, cancellations: int) -> tuple[int, int, int]:
         """Minima, saddles with their multiplicities and maxima after so many cancellations. O(1)."""
-        return self._data.counts(cancellations)
+        return self._data.counts(self._checked(cancellations))
 
     def levels(self, *, persistence: Sequence[str | float] = (), counts: Sequence[int] = (),
                progress: Progress = None) -> Levels:
         """Several levels with the links between them: at thresholds, or at numbers of critical cells. By
         default at 0.1 %, 1 % and 5 % of the field's range."""
         with reporting(progress) as report:
-            made = self._data.linked(",".join(number_text(one) for one in persistence),
-                                     ",".join(str(one) for one in counts), registry(), report)
-        return Levels(made, self.field.mesh)
+            thresholds = [number_text(one) for one in listed(persistence, "thresholds of persistence")]
+            numbers = [str(whole(one, "a number of critical cells")) for one in listed(counts, "counts")]
+            made = self._data.linked(",".join(thresholds), ",".join(numbers), registry(), report)
+        return Levels(made, self.field)
+
+    def _checked(self, cancellations: int) -> int:
+        return place(cancellations, "the number of cancellations", self._data.levels)
 
     def _complex(self, level: int) -> MorseSmaleComplex:
         return MorseSmaleComplex(self.field, self._data.complex_at(level, None))
 
 
-def hierarchy(f: Any, *, by: str = "persistence", method: str = "salient", levels: Sequence[int] = (1, 5, 10),
-              progress: Progress = None) -> Any:
+def hierarchy(f: Any, *, by: str = "persistence", method: Named | None = None,
+              levels: Sequence[int] | None = None, progress: Progress = None) -> Any:
     """A hierarchy of critical points and Morse-Smale complexes.
 
     Parameters
@@ -243,23 +253,31 @@ def hierarchy(f: Any, *, by: str = "persistence", method: str = "salient", level
         2003; Bremer, Edelsbrunner, Hamann, Pascucci 2004); a PersistenceHierarchy. Iteration: the fields
         that the method passes through (the paper's Figure 4), critical points followed from one to the
         next; Levels.
-    method : str
-        By iteration: a method or chain, in the program's words, of which the last one iterates.
+    method : str or function
+        By iteration alone: a method or chain, in the program's words, of which the last one iterates;
+        salient by default.
     levels : sequence of int
-        By iteration: the numbers of the iterations; 0 is the method's input.
+        By iteration alone: the numbers of the iterations; 0 is the method's input; 1, 5 and 10 by default.
 
-    The same as `morsel hierarchy`. Raises ArgumentError for a method that has no iterations or too few.
+    The same as `morsel hierarchy`, whose default is by iteration. Raises ArgumentError for a method that has
+    no iterations or too few.
 
     >>> ms.hierarchy(f)[150].arcs
-    >>> ms.hierarchy(f, by="iteration", levels=[1, 5, 10])[5].critical_points
+    >>> ms.hierarchy(f, by="iteration", levels=[1, 5, 10]).at(5).critical_points
     """
+    if by not in ("persistence", "iteration"):
+        raise ArgumentError(f'a hierarchy is by "persistence" or by "iteration", not by "{by}"')
+    if by == "persistence" and (method is not None or levels is not None):
+        raise ArgumentError('method and levels are for by="iteration"; by persistence apply methods to the '
+                            "field, and take levels of the hierarchy: h[150], h.at(\"1%\"), h.levels(…)")
+    asked = (1, 5, 10) if levels is None else listed(levels, "levels")
+    numbers = [str(whole(one, "a level")) for one in asked]
+    if not numbers:
+        raise ArgumentError("there are no levels")
+    steps = "salient" if method is None else name_of(method)
     field = field_of(f, "mean-curvature", progress, 2)
     with reporting(progress) as report:
         if by == "persistence":
             return PersistenceHierarchy(field, _library.hierarchy(field._data, report))
-        if by != "iteration":
-            raise ArgumentError(f'a hierarchy is by "persistence" or by "iteration", not by "{by}"')
-        numbers = ",".join(str(one) for one in levels)
-        if not numbers:
-            raise ArgumentError("there are no levels")
-        return Levels(_library.iteration_levels(field._data, method, numbers, registry(), report), field.mesh)
+        made = _library.iteration_levels(field._data, steps, ",".join(numbers), registry(), report)
+        return Levels(made, field)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _interop
+from ._arguments import Immutable, place, whole
 from ._chosen import choice
 from ._field import warn
 from ._made import Named, name_of, number_text
@@ -44,7 +45,7 @@ class Marks(NamedTuple):
     """Why there are fewer points than wanted; empty if there are not."""
 
 
-class Landmarks(Sequence[Dict[str, Any]]):
+class Landmarks(Immutable, Sequence[Dict[str, Any]]):
     """How well chosen critical points agree with points that people marked; made by landmarks().
 
     A dict for each field and method, then for random vertices and farthest points: name, field, method (None
@@ -83,7 +84,7 @@ class Landmarks(Sequence[Dict[str, Any]]):
 
     def on_mesh(self, i: int) -> list[Marks]:
         """What each row has on the mesh of number i."""
-        rows = self._data.on_mesh(i)[2]
+        rows = self._data.on_mesh(place(i, "the number of the mesh", self.mesh_count - 1))[2]
         return [Marks(row["name"], *of) for row, of in zip(self._rows, rows)]
 
     def table(self) -> str:
@@ -149,9 +150,12 @@ def landmarks(marked: Marked, *, fields: Sequence[Named] | None = None,
     from . import _documents
 
     request: dict[str, Any] = {
-        "choice": choice(kind=kind, rank=rank, spacing=spacing, fill=fill, scale=scale), "points": points,
-        "radius": number_text(radius), "largest_radius": number_text(largest_radius), "first": first,
-        "resamples": resamples, "seed": seed}
+        "choice": choice(kind=kind, rank=rank, spacing=spacing, fill=fill, scale=scale),
+        "points": None if points is None else whole(points, "the number of points", 0),
+        "radius": number_text(radius), "largest_radius": number_text(largest_radius),
+        "first": whole(first, "first"),
+        "resamples": whole(resamples, "the number of resamples"),
+        "seed": whole(seed, "the seed", 0, 2**64 - 1)}
     if fields is not None:
         request["fields"] = [name_of(one) for one in fields]
     if methods is not None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _interop, _library
+from ._arguments import Immutable, whole
 from ._errors import Defect
 from ._progress import Progress, reporting
 
@@ -23,7 +24,7 @@ def path_bytes(path: PathLike) -> bytes:
     return name
 
 
-class Mesh:
+class Mesh(Immutable):
     """A triangle surface: manifold, oriented, every vertex used. Immutable.
 
     Parameters
@@ -72,6 +73,9 @@ class Mesh:
         mesh = object.__new__(cls)
         mesh._data = data
         return mesh
+
+    def __reduce__(self) -> Any:
+        return _restored, (_library.mesh_state(self._data),)
 
     def __repr__(self) -> str:
         where = f" of {self.path}" if self.path else ""
@@ -215,7 +219,7 @@ class Mesh:
     def subdivided(self, pieces: int) -> Mesh:
         """The same surface, each edge cut into equal `pieces` and each triangle into their square; the
         vertices of this mesh come first."""
-        return Mesh._of(self._data.subdivided(pieces))
+        return Mesh._of(self._data.subdivided(whole(pieces, "the number of pieces")))
 
     def save(self, path: PathLike, *, properties: dict[str, ArrayLike] | None = None,
              progress: Progress = None) -> None:
@@ -231,6 +235,11 @@ class Mesh:
                  for name, values in (properties or {}).items()]
         with reporting(progress) as report:
             self._data.save(path_bytes(path), named, report)
+
+
+def _restored(state: tuple[Any, ...]) -> Mesh:
+    """Of pickle."""
+    return Mesh._of(_library.restored_mesh(state))
 
 
 def read(path: PathLike, *, repair: bool = False, progress: Progress = None) -> Mesh:

@@ -7,6 +7,7 @@ from typing import Any, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _library
 from ._mesh import Mesh, PathLike, path_bytes
 from ._progress import Progress, reporting
 from ._specification import Parameter, specification
@@ -31,6 +32,25 @@ class Molecule(Mesh):
     """Components that are walls of closed cavities, kept or not."""
     molecule_path: str
     """The file of the atoms."""
+
+
+    def __reduce__(self) -> Any:
+        made = (self.atoms, self.area, self.volume, self.cavities, self.molecule_path)
+        return _restored, (_library.mesh_state(self._data), made)
+
+
+def _restored(state: tuple[Any, ...], made: tuple[Any, ...]) -> Molecule:
+    """Of pickle."""
+    return _molecule_of(_library.restored_mesh(state), *made)
+
+
+def _molecule_of(data: _library.Mesh, atoms: NDArray[np.void], area: float, volume: float, cavities: int,
+                 path: str) -> Molecule:
+    made: Molecule = object.__new__(Molecule)
+    made._data = data
+    made.atoms, made.area, made.volume, made.cavities = atoms, area, volume, cavities
+    made.molecule_path = path
+    return made
 
 
 def _atoms(columns: dict[str, Any]) -> NDArray[np.void]:
@@ -87,8 +107,4 @@ def molecule(path: PathLike, *, kind: str = "gaussian", resolution: float = 0.5,
         data, columns, area, volume, walls = _molecule.molecule(
             path_bytes(path), kind, resolution, probe, blobbiness, bool(cavities),
             specification("molecule", keys, given), report)
-    made: Molecule = object.__new__(Molecule)
-    made._data = data
-    made.atoms, made.area, made.volume, made.cavities = _atoms(columns), area, volume, walls
-    made.molecule_path = str(path)
-    return made
+    return _molecule_of(data, _atoms(columns), area, volume, walls, str(path))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import Any, Callable
 
 import numpy as np
 
-from . import _library
-from ._errors import ArgumentError
+from . import _interop, _library
 from ._field import Field
-from ._functions import make_function, make_method
+from ._functions import ON_METHODS, make_function, make_method
 from ._mesh import Mesh
 from ._registry import add, registry
 
@@ -20,6 +20,43 @@ class Length(str):
 
 class File(str):
     """A path as the default of a parameter: File(""). Reports hash the file."""
+
+
+def _check_name(name: Any, kind: str) -> None:
+    if not isinstance(name, str):
+        raise TypeError(f'a {kind} of one\'s own has a name: @ms.{kind}("mine")')
+
+
+def _module(own: Callable[..., Any]) -> str:
+    return getattr(own, "__module__", None) or "__main__"
+
+
+_TYPES = (bool, np.bool_, int, np.integer, float, np.floating, str)
+
+
+def _declared(own: Any, name: str, given: dict[str, Any], taken: tuple[str, ...]) -> dict[str, Any]:
+    """The parameters with their defaults: those of the decorator, then those of the function. A TypeError
+    where it cannot be called with them, or their names, `taken`, are those of other arguments."""
+    if not callable(own):
+        raise TypeError(f"{name} must be a function, not a {type(own).__name__}")
+    try:
+        signature = inspect.signature(own)
+    except ValueError:  # of a function that is written in C
+        signature = inspect.Signature([inspect.Parameter("input", inspect.Parameter.POSITIONAL_ONLY),
+                                       inspect.Parameter("keys", inspect.Parameter.VAR_KEYWORD)])
+    positional_only = inspect.Parameter.POSITIONAL_ONLY
+    defaults = {key: one.default for key, one in list(signature.parameters.items())[1:]
+                if isinstance(one.default, _TYPES) and one.kind is not positional_only}
+    declared = {**given, **{key: value for key, value in defaults.items() if key not in given}}
+    for key in declared:
+        if key in taken:
+            raise TypeError(f"{name} cannot have a parameter {key}: that is another argument of all such "
+                            "functions")
+    try:
+        signature.bind(None, **declared)
+    except TypeError as error:
+        raise TypeError(f"{name} cannot be called with an input and its parameters: {error}") from None
+    return declared
 
 
 def _kind(key: str, default: Any) -> tuple[str, Any]:
@@ -47,12 +84,14 @@ def _rows(parameters: dict[str, Any], descriptions: dict[str, str]) -> list[tupl
             in parameters.items()]
 
 
-def _result(made: Any) -> Any:
+def _result(made: Any, name: str) -> Any:
     """What a function returned, as the library takes it."""
     if isinstance(made, Field):
         return made._data
-    values = np.asarray(made)
-    return made if values.ndim == 0 else values  # which the library refuses
+    values = made if isinstance(made, np.ma.MaskedArray) else np.asarray(made)
+    if values.ndim == 0:
+        return made  # which the library refuses
+    return _interop.array(values, f"the values that {name} returns")
 
 
 def _summary(function: Callable[..., Any], name: str) -> str:
@@ -64,7 +103,7 @@ def _arguments(values: dict[str, Any]) -> dict[str, Any]:
     return {key.replace("-", "_"): value for key, value in values.items()}
 
 
-def function(name: str, *, descriptions: dict[str, str] | None = None,
+def function(name: str, /, *, descriptions: dict[str, str] | None = None,
              **parameters: Any) -> Callable[[Callable[..., Any]], Callable[..., Field]]:
     """Makes a Python function a Morse function, with its parameters and their defaults.
 
@@ -73,24 +112,28 @@ def function(name: str, *, descriptions: dict[str, str] | None = None,
     becomes a function like ms.height, and has a name for compare(), sweep(), stability() and the like.
     Adding one of the same name replaces it. The types of the parameters are those of their
     defaults: numbers, True or False, texts, ms.Length("8eps"), ms.File("") for a file that it reads.
+    Parameters that only the function gives such defaults are parameters, too.
 
     >>> @ms.function("radius", power=1.0)
     ... def radius(mesh, power):
     ...     return np.linalg.norm(mesh.vertices - mesh.vertices.mean(axis=0), axis=1) ** power
     >>> f = radius(mesh);  r = ms.compare(mesh, field="radius:power=2")
     """
+    _check_name(name, "function")
+
     def decorate(own: Callable[..., Any]) -> Callable[..., Field]:
         def call(data: _library.Mesh, values: dict[str, Any]) -> Any:
-            return _result(own(Mesh._of(data), **_arguments(values)))
+            return _result(own(Mesh._of(data), **_arguments(values)), name)
 
-        add("function", name, _summary(own, name), _rows(parameters, descriptions or {}), call)
+        declared = _declared(own, name, parameters, ("mesh", "progress"))
+        add("function", name, _summary(own, name), _rows(declared, descriptions or {}), call)
         row = next(row for row in registry().functions() if row[0] == name)
-        return _wrapped(make_function(*row, module=own.__module__), own)
+        return _wrapped(make_function(*row, module=_module(own)), own)
 
     return decorate
 
 
-def method(name: str, *, descriptions: dict[str, str] | None = None,
+def method(name: str, /, *, descriptions: dict[str, str] | None = None,
            **parameters: Any) -> Callable[[Callable[..., Any]], Callable[..., Field]]:
     """Makes a Python function a method, with its parameters and their defaults.
 
@@ -100,6 +143,7 @@ def method(name: str, *, descriptions: dict[str, str] | None = None,
     and has a name for Field.apply(), compare(), targets, reports and the like. Adding one of the same name
     replaces it. The types of the parameters are those of their defaults: numbers, True or False, texts,
     ms.Length("8eps").
+    Parameters that only the function gives such defaults are parameters, too.
 
     It is always called on the thread that asked for the work. Of a study that runs on several threads,
     calls come one after the other.
@@ -109,20 +153,21 @@ def method(name: str, *, descriptions: dict[str, str] | None = None,
     ...     return np.abs(f.values) ** strength
     >>> g = mine(f, strength=2.0);  r = ms.compare(mesh, methods=["salient", "mine:strength=0.5"])
     """
+    _check_name(name, "method")
+
     def decorate(own: Callable[..., Any]) -> Callable[..., Field]:
         def call(data: _library.Field, values: dict[str, Any]) -> Any:
-            return _result(own(Field._of(data), **_arguments(values)))
+            return _result(own(Field._of(data), **_arguments(values)), name)
 
-        add("method", name, _summary(own, name), _rows(parameters, descriptions or {}), call)
+        declared = _declared(own, name, parameters, ("f", *ON_METHODS))
+        add("method", name, _summary(own, name), _rows(declared, descriptions or {}), call)
         row = next(row for row in registry().methods() if row[0] == name)
-        return _wrapped(make_method(*row, module=own.__module__), own)
+        return _wrapped(make_method(*row, module=_module(own)), own)
 
     return decorate
 
 
 def _wrapped(made: Callable[..., Field], own: Callable[..., Any]) -> Callable[..., Field]:
-    if not callable(own):
-        raise ArgumentError("a decorator is for functions")
     made.__doc__ = (own.__doc__ or "") + "\n\n" + (made.__doc__ or "")
     made.__wrapped_function__ = own  # type: ignore[attr-defined]
     return made

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable
 from ._field import Field
 from ._made import number_text
 from ._points import _field
@@ -18,7 +19,7 @@ SADDLE_MAXIMUM = 1
 SADDLE_CAP = 2
 
 
-class Diagram:
+class Diagram(Immutable):
     """The persistence pairs of a field; made by persistence()."""
 
     __slots__ = ("field", "_data")

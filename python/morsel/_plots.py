@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
+    from ._chosen import Points
     from ._comparison import Comparison
     from ._persistence import Diagram
     from ._points import CriticalPoints
@@ -58,7 +59,7 @@ def diagrams(comparison: Comparison, axes: Any = None) -> Any:
     return axes
 
 
-def points(p: CriticalPoints, mesh: Any = None, ax: Any = None) -> Any:
+def points(p: CriticalPoints | Points, mesh: Any = None, ax: Any = None) -> Any:
     """A surface, grey, with critical points on it."""
     from ._mesh import as_mesh
 

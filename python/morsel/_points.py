@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable
 from ._field import Field
 from ._made import or_minus_one
 from ._progress import Progress, reporting
@@ -15,7 +16,6 @@ from ._progress import Progress, reporting
 MINIMUM = 1
 SADDLE = 2
 MAXIMUM = 3
-TYPE_NAMES = {MINIMUM: "minimum", SADDLE: "saddle", MAXIMUM: "maximum"}
 
 
 class Counts(NamedTuple):
@@ -31,7 +31,18 @@ class Counts(NamedTuple):
     """minima + saddles + maxima."""
 
 
-class CriticalPoints:
+def type_names(types: NDArray[np.uint8]) -> NDArray[np.str_]:
+    """ "minimum", "saddle" or "maximum" of each."""
+    return np.array(["regular", "minimum", "saddle", "maximum"])[types]
+
+
+def counts_of(types: NDArray[np.uint8], multiplicities: NDArray[np.uint32]) -> Counts:
+    """How many there are of each type."""
+    minima, saddles, maxima = (int(np.count_nonzero(types == of)) for of in (MINIMUM, SADDLE, MAXIMUM))
+    return Counts(minima, saddles, int(multiplicities[types == SADDLE].sum()), maxima, len(types))
+
+
+class CriticalPoints(Immutable):
     """Critical points by ascending vertex; made by critical_points().
 
     `array` is a structured array (vertex, type, multiplicity); each of these, and value, persistence and
@@ -55,11 +66,15 @@ class CriticalPoints:
     def __getitem__(self, which: Any) -> CriticalPoints:
         if isinstance(which, CriticalPoints):
             raise TypeError("critical points are indexed by slices, numbers or booleans")
-        if isinstance(which, (int, np.integer)):
-            which = [which]
-        chosen = self.array[which]
+        places = np.atleast_1d(np.arange(len(self))[which])
+        if places.ndim != 1:
+            raise IndexError("critical points are indexed by slices, numbers or booleans, of one dimension")
+        chosen = self.array[places]
         chosen.flags.writeable = False
-        return CriticalPoints(self.field, chosen, None if self._origins is None else self._origins[which])
+        return CriticalPoints(self.field, chosen, None if self._origins is None else self._origins[places])
+
+    def __reduce__(self) -> Any:
+        return _restored, (self.field, self.array, self._origins)
 
     def __repr__(self) -> str:
         c = self.counts
@@ -79,7 +94,7 @@ class CriticalPoints:
     @property
     def type_name(self) -> NDArray[np.str_]:
         """ "minimum", "saddle" or "maximum" (k,)."""
-        return np.array(["regular", "minimum", "saddle", "maximum"])[self.type]
+        return type_names(self.type)
 
     @property
     def multiplicity(self) -> NDArray[np.uint32]:
@@ -114,9 +129,7 @@ class CriticalPoints:
     @property
     def counts(self) -> Counts:
         """How many there are of each type."""
-        minima, saddles, maxima = (int(np.count_nonzero(self.type == of)) for of in TYPE_NAMES)
-        multiplicity = int(self.multiplicity[self.type == SADDLE].sum())
-        return Counts(minima, saddles, multiplicity, maxima, len(self))
+        return counts_of(self.type, self.multiplicity)
 
     @property
     def minima(self) -> CriticalPoints:
@@ -149,6 +162,12 @@ class CriticalPoints:
         from . import _plots
 
         return _plots.points(self, mesh, ax)
+
+
+def _restored(field: Field, array: NDArray[np.void], origins: NDArray[np.uint32] | None) -> CriticalPoints:
+    """Of pickle."""
+    array.flags.writeable = False
+    return CriticalPoints(field, array, origins)
 
 
 def critical_points(f: Field, *, progress: Progress = None) -> CriticalPoints:

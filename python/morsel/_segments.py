@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable, whole
 from ._field import Field
 from ._made import mesh_file, number_text, or_minus_one
 from ._mesh import PathLike, path_bytes
@@ -16,7 +17,7 @@ from ._progress import Progress, reporting
 from ._registry import registry
 
 
-class Segments:
+class Segments(Immutable):
     """A surface in connected segments; made by segment(). Arrays are read-only, in its memory."""
 
     __slots__ = ("field", "_data")
@@ -139,4 +140,5 @@ def segment(f: Field, *, by: str = "descending", segments: int | None = None,
     """
     with reporting(progress) as report:
         threshold = None if persistence is None else number_text(persistence)
+        segments = None if segments is None else whole(segments, "the number of segments", 0)
         return Segments(f, _library.segment(_field(f)._data, by, segments, threshold, report))

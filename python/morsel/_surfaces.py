@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _library
+from ._arguments import Immutable, whole
 from ._complex import MorseSmaleComplex
 from ._field import Field
 from ._made import field_of, mesh_file, number_text
@@ -16,7 +17,7 @@ from ._progress import Progress, reporting
 from ._registry import registry
 
 
-class Cut:
+class Cut(Immutable):
     """A surface cut open; made by cut()."""
 
     __slots__ = ("field", "_data")
@@ -93,7 +94,7 @@ def cut(f: Any, *, shorten: bool = True, progress: Progress = None) -> Cut:
         return Cut(field, _library.cut(field._data, bool(shorten), report))
 
 
-class Quads:
+class Quads(Immutable):
     """An all-quad mesh; made by quads()."""
 
     __slots__ = ("field", "_data")
@@ -187,4 +188,5 @@ def quads(f: Any, *, persistence: str | float | None = None, resolution: int = 1
     field = field_of(f, _library.quads_field, progress, 2)
     with reporting(progress) as report:
         threshold = "" if persistence is None else number_text(persistence)
-        return Quads(field, _library.quads(field._data, threshold, resolution, relaxation, report))
+        return Quads(field, _library.quads(field._data, threshold, whole(resolution, "the resolution"),
+                                           whole(relaxation, "the relaxation"), report))

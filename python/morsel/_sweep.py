@@ -8,6 +8,7 @@ from typing import Any, Dict, Iterator, Mapping, Sequence, Union
 import numpy as np
 
 from . import _library
+from ._arguments import Immutable, target_of, whole
 from ._comparison import input_of
 from ._field import Field, warn
 from ._made import Named, mesh_file, name_of, number_text
@@ -35,7 +36,7 @@ def _variation(key: str, values: Values) -> str:
     return f"{key}={values}"
 
 
-class Sweep(Sequence[Dict[str, Any]]):
+class Sweep(Immutable, Sequence[Dict[str, Any]]):
     """The results of a sweep, a dict for each combination; made by sweep()."""
 
     def __init__(self, data: _library.Sweep) -> None:
@@ -141,7 +142,7 @@ def _estimate(mean: float, half_width: float | None, count: int) -> Estimate:
 _ESTIMATES = ("recall", "precision", "f_score", "chance", "drift", "found")
 
 
-class Stability(Sequence[Dict[str, Any]]):
+class Stability(Immutable, Sequence[Dict[str, Any]]):
     """How well critical points repeat on perturbed surfaces; made by stability().
 
     A dict for each field, method, count and perturbation: field, method, target, perturbation, amount,
@@ -265,7 +266,8 @@ def stability(mesh: Any, *, fields: Sequence[Named] | None = None, methods: Sequ
         raise TypeError("a preset sets the field: give it a mesh")
     request: dict[str, Any] = {
         "noise": [float(one) for one in noise], "kind": kind, "decimate": [float(one) for one in decimate],
-        "subdivide": [float(one) for one in subdivide], "trials": trials, "seed": seed, "target": target,
+        "subdivide": [float(one) for one in subdivide], "trials": whole(trials, "the number of trials"),
+        "seed": whole(seed, "the seed", 0, 2**64 - 1), "target": target_of(target),
         "preset": preset, "points": points, "reference": name_of(reference)}
     if radius is not None:
         request["radius"] = number_text(radius)

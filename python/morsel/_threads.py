@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from . import _library
+from ._arguments import whole
 
 
 class threads:
@@ -17,7 +18,7 @@ class threads:
     """
 
     def __init__(self, count: int) -> None:
-        self._limit = _library.Threads(count)
+        self._limit = _library.Threads(whole(count, "the number of threads"))
 
     def __enter__(self) -> threads:
         self._limit.begin()

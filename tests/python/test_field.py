@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import OCTAHEDRON_F, OCTAHEDRON_V, sample
+from conftest import OCTAHEDRON_F, OCTAHEDRON_V, program, sample
 
 import morsel as ms
 
@@ -124,12 +124,47 @@ def test_on_iteration(curvature):
     assert np.array_equal(f.values, ms.salient(curvature, iterations=2).values)
 
 
+def test_on_iteration_ends_at_the_input(curvature, tmp_path):
+    seen = []
+
+    def end(number, f):
+        seen.append(number)
+        return False
+
+    f = ms.salient(curvature, iterations=5, on_iteration=end)
+    assert seen == [0] and f.steps[-1].end == (0, "caller")
+    assert np.array_equal(f.values, curvature.values) and np.array_equal(f.ranks, curvature.ranks)
+    g = ms.salient(curvature, iterations=5, target=100, on_iteration=lambda number, _: number > 9)
+    assert g.target.iterations == 0 and g.target.before_cancelling == 1895
+    assert g.target.reached == ms.critical_points(g).counts.total
+    assert np.array_equal(g.values, ms.tps(curvature, count=100).values)
+    f.save(tmp_path / "f.txt")
+    with pytest.raises(ms.ArgumentError, match="on_iteration"):
+        ms.segment(f).save(tmp_path / "f.json")
+
+
+def test_a_field_for_values_is_taken_whole(curvature):
+    simple = ms.tps(curvature, threshold="5%")
+    whole = ms.field(curvature.mesh, simple)
+    assert np.array_equal(whole.values, simple.values) and np.array_equal(whole.ranks, simple.ranks)
+    assert ms.critical_points(whole).counts == ms.critical_points(simple).counts
+    other = curvature.mesh.with_vertices(2 * curvature.mesh.vertices)
+    with pytest.raises(ValueError, match="another mesh"):
+        ms.field(other, simple)
+    assert ms.field(other, simple.values).mesh == other
+    for options in ({"name": "other"}, {"numbering": "mesh"}, {"ranks": simple.ranks}):
+        with pytest.raises(TypeError):
+            ms.field(curvature.mesh, simple, **options)
+
+
 def test_methods_that_evaluate_the_function_again(octahedron):
     mesh = octahedron.subdivided(6)
     values = ms.field(mesh, mesh.vertices[:, 2])
     assert np.array_equal(ms.denoise(values, iterations=1).values, values.values)
     height = ms.height(mesh)
     assert not np.array_equal(ms.denoise(height, iterations=1, kind="laplacian").values, height.values)
+    with pytest.raises(ms.ArgumentError, match="denoise evaluates the Morse function again"):
+        ms.denoise(ms.gaussian(height, iterations=1))
 
 
 def test_warnings_are_python_warnings():
@@ -152,6 +187,21 @@ def test_saving(tmp_path, lion, curvature):
     given.save(tmp_path / "g.ply")
     assert np.array_equal(ms.vertex_scalar(tmp_path / "g.ply", property="vertex-scalar").values,
                           curvature.values)
+
+
+def test_fields_that_no_request_makes_are_saved(tmp_path, curvature):
+    aimed = ms.salient(curvature, iterations=2, target=500)
+    for name, f in {"negated": -curvature, "after": ms.gaussian(aimed, iterations=1),
+                    "ordered": ms.field(curvature.mesh, curvature.values, ranks=curvature.ranks)}.items():
+        f.save(tmp_path / f"{name}.ply")
+        held = ms.read(tmp_path / f"{name}.ply")
+        assert any(np.array_equal(values, f.values) for values in held.properties.values())
+        assert "made by" in program("info", tmp_path / f"{name}.ply")
+        ms.segment(f).save(tmp_path / "labels.ply")
+        ms.points(f, 5).save(tmp_path / "points.csv")
+        with pytest.raises(ms.ArgumentError, match="no single request"):
+            ms.segment(f).save(tmp_path / "segments.json")
+        assert not (tmp_path / "segments.json").exists()
 
 
 def test_a_file_of_values(lion, tmp_path):

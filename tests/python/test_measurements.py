@@ -35,6 +35,10 @@ def test_indexing(smooth):
         p[np.ones(3, bool)]
     with pytest.raises(AttributeError):
         p.origin
+    assert p[np.array(3)].vertex.tolist() == [p.vertex[3]] and len(p[...]) == 97
+    for wrong in (None, True, np.array(True), (slice(None), None), [[0, 1], [2, 3]], ["vertex", "type"], 1.5):
+        with pytest.raises(IndexError):
+            p[wrong]
     with pytest.raises(ValueError):
         p.vertex[0] = 0
 
@@ -158,28 +162,62 @@ def test_hierarchy_by_persistence(curvature):
             wrong()
     levels = h.levels(counts=[500, 100])
     assert [level.name for level in levels] == ["500", "100"] and len(levels) == 2
-    assert levels["100"].counts.total <= 100 and levels[0].status.tolist()[0] == "first"
+    assert levels.at(100).counts.total <= 100 and levels[0].status.tolist()[0] == "first"
     assert set(levels[1].status.tolist()) == {"kept"}
     links = levels[1].links("descending")
     assert links.areas.sum() == pytest.approx(curvature.mesh.length("1rootarea")**2)
     assert (links.parents["segment"] != NONE).any()
     with pytest.raises(KeyError):
-        levels["7"]
+        levels.at(7)
 
 
 def test_hierarchy_by_iteration(curvature, smooth):
     levels = ms.hierarchy(curvature, by="iteration", levels=[10, 1, 5])
     assert [level.iteration for level in levels] == [1, 5, 10]
-    assert np.array_equal(levels[10].field.values, smooth.values)
-    assert levels[10].counts.total == 97 and levels[5].arcs is not None
-    assert set(levels[10].status.tolist()) <= {"kept", "moved", "new"}
+    assert np.array_equal(levels.at(10).field.values, smooth.values)
+    assert levels.at(10).counts.total == 97 and levels.at(5).arcs is not None
+    assert set(levels.at(10).status.tolist()) <= {"kept", "moved", "new"}
     with pytest.raises(KeyError):
-        levels[2]
+        levels.at(2)
     for options in ({"method": "tps"}, {"levels": []}, {"levels": [-1]}, {"levels": [1, 1]}):
         with pytest.raises(ms.ArgumentError):
             ms.hierarchy(curvature, by="iteration", **options)
     with pytest.raises(ms.ArgumentError):
         ms.hierarchy(curvature, by="area")
+
+
+def test_levels_are_a_sequence(curvature):
+    by_iteration = ms.hierarchy(curvature, by="iteration", levels=[0, 1, 2])
+    by_count = ms.hierarchy(curvature).levels(counts=[500, 100])
+    for levels in (by_iteration, by_count):
+        assert levels[-1] is levels[len(levels) - 1] and levels[1:] == list(levels)[1:]
+        assert list(reversed(levels)) == list(levels)[::-1] and levels.index(levels[1]) == 1
+        with pytest.raises(IndexError):
+            levels[len(levels)]
+    assert by_iteration.at(2) is by_iteration.at("2") is by_iteration[2]
+    assert by_count.at(500) is by_count[0]
+    by_threshold = ms.hierarchy(curvature).levels(persistence=["1%", 0.5])
+    assert {by_threshold.at("1%"), by_threshold.at(0.5)} == set(by_threshold)
+
+
+def test_levels_by_persistence_share_their_field(curvature):
+    h = ms.hierarchy(curvature)
+    levels = h.levels(counts=[500, 100])
+    assert levels[0].field is levels[1].field is h.field is curvature
+
+
+def test_levels_by_iteration_know_how_they_were_made(curvature, tmp_path):
+    start = ms.gaussian(curvature, iterations=1)
+    levels = ms.hierarchy(start, by="iteration", method="laplacian:iterations=4", levels=[0, 2, 4])
+    for level in levels:
+        alone = ms.laplacian(start, iterations=level.iteration)
+        assert np.array_equal(level.field.values, alone.values)
+        assert level.field.method == alone.method and level.field.steps[-1].end == alone.steps[-1].end
+        assert level.field.steps[-1].parameters == alone.steps[-1].parameters
+        assert level.field.steps[-1].details == alone.steps[-1].details
+        level.field.save(tmp_path / "level.txt")
+        alone.save(tmp_path / "alone.txt")
+        assert (tmp_path / "level.txt").read_bytes() == (tmp_path / "alone.txt").read_bytes()
 
 
 def test_points(lion):
@@ -195,13 +233,14 @@ def test_points(lion):
     assert len(few) < 500 and few.note != ""
     filled = ms.points(ms.height(lion), len(few) + 5, spacing=0, kind="maxima", fill=ms.mean_curvature)
     assert np.array_equal(filled.vertex[~filled.is_fill], few.vertex) and filled.is_fill.sum() == 5
+    assert p.counts.total == 30 and p.counts.minima == (p.type_name == "minimum").sum()
     assert ms.points(ms.mean_curvature(lion), 5, rank="salience").vertex.shape == (5,)
     for options in ({"kind": "other"}, {"rank": "other"}, {"spacing": -1}, {"fill": "none-such"},
-                    {"count": 0},
+                    {"count": 0}, {"count": -1},
                     {"scale": 1}):
         with pytest.raises(ms.ArgumentError):
             ms.points(lion, **options)
-    for options in ({"count": 2.5}, {"count": -1}, {"fill": 3}):
+    for options in ({"count": 2.5}, {"fill": 3}):
         with pytest.raises(TypeError):
             ms.points(lion, **options)
 

@@ -57,6 +57,23 @@ def test_any_whole_faces(of):
     assert np.array_equal(ms.Mesh(OCTAHEDRON_V, OCTAHEDRON_F.astype(of)).faces, OCTAHEDRON_F)
 
 
+def test_edges_are_sorted(lion, small):
+    for mesh in (lion, small):
+        edges = mesh.edges
+        assert (edges[:, 0] < edges[:, 1]).all()
+        assert np.array_equal(np.lexsort(edges.T[::-1]), np.arange(mesh.edge_count))
+        corners = np.sort(mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        assert np.array_equal(np.unique(corners, axis=0), edges)
+
+
+def test_progress_of_triangles(lion):
+    seen = []
+    ms.Mesh(lion.vertices, lion.faces, progress=lambda step, share: seen.append((step, share)))
+    assert ("building the mesh", 1) in seen
+    with pytest.raises(ms.Cancelled):
+        ms.Mesh(lion.vertices, lion.faces, progress=lambda *_: False)
+
+
 def test_any_layout():
     for v, f in ((np.asfortranarray(OCTAHEDRON_V), np.asfortranarray(OCTAHEDRON_F)),
                  (OCTAHEDRON_V.tolist(), OCTAHEDRON_F.tolist()),

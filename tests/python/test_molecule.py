@@ -1,5 +1,7 @@
 """Surfaces of molecules."""
 
+import pickle
+
 import numpy as np
 import pytest
 from conftest import program
@@ -38,6 +40,15 @@ def test_surface(chain, tmp_path):
     program("molecule", chain, "-o", tmp_path / "surface.off")
     same = ms.read(tmp_path / "surface.off")
     assert np.array_equal(same.vertices, m.vertices) and np.array_equal(same.faces, m.faces)
+
+
+def test_pickled(chain):
+    m = ms.molecule(chain)
+    again = pickle.loads(pickle.dumps(m))
+    assert isinstance(again, ms.Molecule) and np.array_equal(again.atoms, m.atoms)
+    assert np.array_equal(again.vertices, m.vertices) and np.array_equal(again.faces, m.faces)
+    assert (again.area, again.volume, again.cavities, again.molecule_path) == (
+        m.area, m.volume, m.cavities, m.molecule_path)
 
 
 def test_options(chain, tmp_path):

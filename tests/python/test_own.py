@@ -131,7 +131,58 @@ def test_added_again_replaces(small):
     assert "bad" not in ms.methods()
 
 
+def test_fields_made_before_go_on(small, tmp_path):
+    """A name that stands for something else now does not concern fields that were made with it."""
+    @ms.function("later", power=2.0)
+    def later(mesh, power):
+        return mesh.vertices[:, 0] ** power
+
+    @ms.method("later", strength=1.0)
+    def later_method(f, strength):
+        return f.values * strength
+
+    h = later_method(later(small, power=3.0), strength=3.0)
+    ms.function("later", other=2.0)(lambda mesh, other: mesh.vertices[:, 1])
+    ms.method("later", other=1.0)(lambda f, other: f.values)
+    assert np.array_equal(ms.salient(h, iterations=1).values,
+                          ms.salient(ms.field(small, h.values), iterations=1).values)
+    levels = ms.hierarchy(h, by="iteration", method="gaussian", levels=[1])
+    assert np.array_equal(levels[0].field.values, ms.gaussian(h, iterations=1).values)
+    h.save(tmp_path / "h.txt")
+    with pytest.raises(ms.ArgumentError):
+        ms.segment(h).save(tmp_path / "h.json")
+
+
+def test_wrong_declarations_add_nothing(small):
+    for decorate, own, says in [
+            (lambda: ms.method, lambda f: f, "has a name"),
+            (lambda: ms.function, lambda mesh: mesh.V[:, 0], "has a name"),
+            (lambda: ms.method("bad"), 3, "must be a function"),
+            (lambda: ms.method("bad", target=1), lambda f, target: f, "cannot have a parameter target"),
+            (lambda: ms.method("bad", progress=True), lambda f, progress: f, "parameter progress"),
+            (lambda: ms.function("bad", mesh=1), lambda mesh: mesh, "parameter mesh"),
+            (lambda: ms.method("bad", strength=1.0), lambda f: f, "strength"),
+            (lambda: ms.method("bad"), lambda f, strength: f, "strength")]:
+        with pytest.raises(TypeError, match=says):
+            decorate()(own)
+    assert "bad" not in ms.methods() and "bad" not in ms.functions()
+
+
+def test_defaults_of_the_function_are_parameters(small):
+    @ms.method("scaled", power=2.0)
+    def scaled(f, power, factor=1.5, *, name="x", helper=None):
+        assert name in ("x", "y") and helper is None
+        return factor * f.values ** power
+
+    f = ms.field(small, np.arange(small.vertex_count))
+    assert np.array_equal(scaled(f).values, 1.5 * f.values ** 2)
+    g = scaled(f, factor=3.0, name="y")
+    assert np.array_equal(g.values, 3 * f.values ** 2) and g.method == "scaled:factor=3.0,name=y"
+    assert g.steps[0].parameters == {"power": 2.0, "factor": 3.0, "name": "y"}
+
+
 @pytest.mark.parametrize("returned, says", [
+    (lambda f: np.ma.masked_less(f.values, 0), "masked array"),
     (lambda f: None, "must return"),
     (lambda f: "text", "must return"),
     (lambda f: f.values[:3], "3 values"),

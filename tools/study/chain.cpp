@@ -71,6 +71,17 @@ class StepWatcher {
   bool ended_ = false;
 };
 
+/// The outcome of a last step that the caller ends at its input: it is not run.
+void end_at_input(const MethodStep& step, std::optional<TargetSearch>& search, ChainOutcome& outcome) {
+  outcome.steps.push_back({step.name, {}, {}, {}, core::IterationEnd{0, "caller"}});
+  if (!search) return;
+  search->offer(outcome.field);
+  TargetSearch::Result found = search->finish();
+  outcome.field = std::move(found.field);
+  outcome.target = std::move(found.outcome);
+  outcome.target->iterations = 0;
+}
+
 }  // namespace
 
 core::MethodContext method_context(const core::LoadedMesh& loaded, const NamedFunction& function,
@@ -104,7 +115,10 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
         const bool go_on = watcher.iteration(number, passed);
         return callback(number, passed) && go_on;
       };
-    callback(0, outcome.field);
+    if (!callback(0, outcome.field)) {
+      end_at_input(step, search, outcome);
+      break;
+    }
     core::MethodResult result = step.method->apply(outcome.field, context);
     watcher.finish(result.field);
     outcome.steps.push_back(

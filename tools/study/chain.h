@@ -34,7 +34,8 @@ struct ChainOptions {
   bool count_iterations = false;           ///< of iterative methods
   morse::CriticalPointTracker* tracker =
       nullptr;  ///< made for the input; advanced by every field that is passed through
-  /// As core::MethodContext's, for the last step only; its input is reported first, as iteration 0.
+  /// As core::MethodContext's, for the last step only; its input is reported first, as iteration 0, and
+  /// returned if the callback ends the step there. A search for a target may start the step again.
   core::IterationCallback on_iteration = {};
 };
 

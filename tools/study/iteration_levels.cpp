@@ -126,7 +126,8 @@ IterationLevels iteration_levels(const MethodChain& chain, const core::LoadedMes
   ChainOptions options;
   options.count_iterations = true;
   options.on_iteration = [&](int iteration, const ScalarField& field) {
-    return collector.take(iteration, field);
+    const bool wants_more = collector.take(iteration, field);
+    return wants_more || iteration == 0;  // the method is run even where its input is the only level
   };
   ChainOutcome outcome = apply_chain(chain, loaded, function, input, options, progress);
   const std::string& name = chain.steps.back().name;
