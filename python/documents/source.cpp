@@ -119,7 +119,7 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
 
 DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
                              const tools::Registry& registry, const core::Progress& progress)
-    : mesh_(document_mesh(input_of(field), place, files_of(*field->story.input), progress)),
+    : mesh_(document_mesh(study_input(field), place, files_of(*field->story.input), progress)),
       made_(is_document(place.path) ? documented(*field, registry) : documented(*field)),
       is_request_(field->story.is_request) {}
 

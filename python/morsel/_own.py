@@ -142,8 +142,7 @@ def method(name: str, /, *, descriptions: dict[str, str] | None = None,
     mesh's own numbers: f.function, f.steps and f.mesh.path are empty. It becomes a function like ms.salient,
     and has a name for Field.apply(), compare(), targets, reports and the like. Adding one of the same name
     replaces it. The types of the parameters are those of their defaults: numbers, True or False, texts,
-    ms.Length("8eps").
-    Parameters that only the function gives such defaults are parameters, too.
+    ms.Length("8eps"). Parameters that only the function gives such defaults are parameters, too.
 
     It is always called on the thread that asked for the work. Of a study that runs on several threads,
     calls come one after the other.
