@@ -40,11 +40,11 @@ py::tuple mesh_state(const MeshHandle& mesh) {
   for (const core::VertexProperty& property : source.properties)
     properties.append(
         py::make_tuple(text(property.name), view_of(std::span<const double>(property.values), mesh)));
-  return py::make_tuple(rows_of(mesh->mesh().positions(), mesh),
-                        rows_of<Index, 3>(mesh->mesh().triangles(), mesh), py::bytes(mesh->path),
-                        mesh->repair, std::int64_t{mesh->file_time.time_since_epoch().count()},
-                        source.numbering.input_count, taken(std::vector<Index>(source.numbering.to_input)),
-                        taken(std::vector<Index>(source.numbering.from_input)), repairs, properties);
+  return py::make_tuple(
+      rows_of(mesh->mesh().positions(), mesh), rows_of<Index, 3>(mesh->mesh().triangles(), mesh),
+      py::bytes(mesh->path), mesh->repair, std::int64_t{mesh->file_time.time_since_epoch().count()},
+      source.numbering.input_count, taken(std::vector<Index>(source.numbering.to_input)),
+      taken(std::vector<Index>(source.numbering.from_input)), repairs, properties, py::bytes(mesh->file));
 }
 
 MeshHandle restored_mesh(const py::tuple& state) {
@@ -63,10 +63,12 @@ MeshHandle restored_mesh(const py::tuple& state) {
     source.properties.push_back({std::move(name), values_from(values, "a property")});
   }
   const auto path = state[2].cast<std::string>();
+  const auto file = state[10].cast<std::string>();
   const auto repair = state[3].cast<bool>();
   return compute(py::none(), [&](const core::Progress&) {
     core::TriangleMesh mesh(std::move(points), std::move(triangles));
-    return std::make_shared<MeshData>(MeshData{{std::move(mesh), std::move(source)}, path, repair, time});
+    return std::make_shared<MeshData>(
+        MeshData{{std::move(mesh), std::move(source)}, path, repair, time, file});
   });
 }
 

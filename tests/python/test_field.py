@@ -199,7 +199,7 @@ def test_fields_that_no_request_makes_are_saved(tmp_path, curvature):
         assert "made by" in program("info", tmp_path / f"{name}.ply")
         ms.segment(f).save(tmp_path / "labels.ply")
         ms.points(f, 5).save(tmp_path / "points.csv")
-        with pytest.raises(ms.ArgumentError, match="no single request"):
+        with pytest.raises(ms.ArgumentError, match="no one command line"):
             ms.segment(f).save(tmp_path / "segments.json")
         assert not (tmp_path / "segments.json").exists()
 
