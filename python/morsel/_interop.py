@@ -111,5 +111,5 @@ def arrays_of(mesh: Any) -> tuple[Any, Any]:
         return _of_meshio(mesh)
     if hasattr(mesh, "GetPolys"):  # vtkPolyData
         return _of_vtk(mesh)
-    raise TypeError(f"a {type(mesh).__name__} is not a mesh: give vertices and faces, a path, or a mesh of "
+    raise TypeError(f"{type(mesh).__name__} is not a mesh: give vertices and faces, a path, or a mesh of "
                     "trimesh, pyvista, VTK, meshio or Open3D")

@@ -265,7 +265,7 @@ def defects(vertices: ArrayLike, faces: ArrayLike) -> list[Defect]:
     >>> V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [9, 9, 9]]
     >>> F = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
     >>> [defect.description for defect in ms.defects(V, F)]
-    ['1 unreferenced vertex (the first: 4)']
+    ['1 vertex that no face uses (4)']
     """
     corners = _interop.faces_of(faces)
     if isinstance(corners, _interop.Polygons):

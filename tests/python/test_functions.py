@@ -90,7 +90,7 @@ def test_values_of_every_kind(octahedron, curvature):
     (lambda f: ms.salient(f, classify="both"), ms.ArgumentError, "smoothed or saliency"),
     (lambda f: ms.salient(f, target=0), ms.ArgumentError, "target"),
     (lambda f: ms.height(f.mesh, axis="w"), ms.ArgumentError, "x, y or z"),
-    (lambda f: ms.height(3), TypeError, "no mesh"),
+    (lambda f: ms.height(3), TypeError, "not a mesh"),
     (lambda f: ms.vertex_scalar(f.mesh), ms.ArgumentError, "file"),
     (lambda f: ms.vertex_scalar(f.mesh, file="missing.txt"), ms.InputError, "missing.txt"),
     (lambda f: ms.salient.spec(foo=1), TypeError, "foo"),

@@ -82,15 +82,14 @@ def test_points_at_their_origins(lion, tmp_path):
     followed = p.origin >= 0
     assert (p.origin[followed] != p.vertex[followed]).any()
     assert np.array_equal(p.vertex, made[False][0].critical_points.vertex)
-    vertices = {}
+    positions = {}
     for snap in made:
         method = json.loads((tmp_path / f"{snap}.json").read_text())["methods"][0]
-        vertices[snap] = [item["vertex"] for item in method["items"]]
-    assert sorted(vertices[False]) == p.vertex.tolist()
-    # those whose origin is of another type, or taken, stay where they are
-    origins = set(p.origin[followed].tolist())
-    assert set(vertices[True]) <= origins | set(p.vertex.tolist())
-    assert len(origins.intersection(vertices[True])) > len(origins.intersection(vertices[False]))
+        assert [item["vertex"] for item in method["items"]] == p.vertex.tolist()
+        positions[snap] = np.array([item["position"] for item in method["items"]])
+    assert np.array_equal(positions[False], p.position)
+    at = np.where(followed, p.origin, p.vertex)
+    assert np.array_equal(positions[True], lion.vertices[at])
     made[False][0].chosen.save(tmp_path / "points.csv")
     with pytest.raises(ms.ArgumentError, match="origins"):
         made[True][0].chosen.save(tmp_path / "points.csv")
