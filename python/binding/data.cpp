@@ -67,13 +67,13 @@ FieldHandle without_methods(const FieldHandle& field) {
   return given_field(field->mesh, std::move(by_value), "values", true);
 }
 
-StudyInput input_of(const FieldHandle& field) {
+StudyInput study_input(const FieldHandle& field) {
   return {field->mesh, field->story.function.empty() ? field : nullptr};
 }
 
 StudyField study_field(const FieldHandle& field) {
   const FieldHandle plain = without_methods(field);
-  return {function_text(plain->story), input_of(plain).values};
+  return {function_text(plain->story), study_input(plain).values};
 }
 
 tools::MadeField made_field(const FieldData& field) {

@@ -103,7 +103,7 @@ struct StudyInput {
 };
 
 /// The input that a field is on.
-StudyInput input_of(const FieldHandle& field);
+StudyInput study_input(const FieldHandle& field);
 
 /// The field of a study that is of a given one.
 struct StudyField {

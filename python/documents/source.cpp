@@ -116,7 +116,7 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
 
 DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
                              const tools::Registry& registry, const core::Progress& progress)
-    : mesh_(document_mesh(input_of(field), place, files_of(*field->story.input), progress)),
+    : mesh_(document_mesh(study_input(field), place, files_of(*field->story.input), progress)),
       made_(documented(*field, registry)) {}
 
 tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,

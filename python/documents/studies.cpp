@@ -89,7 +89,7 @@ tools::HierarchyPlan plan_of(const LevelsData& levels, const tools::Registry& re
 }
 
 DocumentMesh mesh_of(const LevelsData& levels, const DocumentPlace& place, const core::Progress& progress) {
-  return document_mesh(input_of(levels.field), place, files_of(*levels.field->story.input), progress);
+  return document_mesh(study_input(levels.field), place, files_of(*levels.field->story.input), progress);
 }
 
 void write_hierarchy(const LevelsHandle& levels, const std::string& path,
