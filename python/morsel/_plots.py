@@ -125,7 +125,8 @@ AMOUNTS = {"noise": "noise (mean edge lengths)", "decimation": "share of the ver
            "subdivision": "pieces of an edge"}
 
 
-def stability(s: Stability, quantity: str = "f_score", perturbation: str | None = None, ax: Any = None) -> Any:
+def stability(s: Stability, quantity: str = "f_score", perturbation: str | None = None,
+              ax: Any = None) -> Any:
     """A quantity against the amount of one kind of perturbation."""
     kinds = list(dict.fromkeys(row["perturbation"] for row in s))
     if perturbation is None:

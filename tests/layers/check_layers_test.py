@@ -125,7 +125,8 @@ class CheckLayers(unittest.TestCase):
                 self.assertEqual(len(found), 1, found)
                 self.assertIn(said, found[0])
         self.assertEqual(complaints({
-            "python/documents/a.cpp": '#include "morsel/tools/html/b.h"\n#include "morsel/python/binding/c.h"\n',
+            "python/documents/a.cpp":
+                '#include "morsel/tools/html/b.h"\n#include "morsel/python/binding/c.h"\n',
             "python/library/a.cpp": '#include "morsel/tools/study/b.h"\n#include <pybind11/stl.h>\n',
             "python/CMakeLists.txt": "x(LINKS morsel::export)\n"}), [])
 
