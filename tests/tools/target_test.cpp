@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/critical_points.h"
+#include "morsel/morse/tracking.h"
 #include "morsel/persistence/cancellation.h"
 #include "morsel/tools/study/comparison.h"
 #include "support/fields.h"
@@ -74,6 +76,39 @@ TEST_CASE("a method's own field with too few points says so, and is not blended 
   CHECK(outcome.target->before_cancelling == total(alone.field));
   CHECK_THAT(outcome.target->note, Catch::Contains("own field has " + std::to_string(total(alone.field)) +
                                                    " critical points, fewer than 400"));
+}
+
+TEST_CASE("a last step whose input the caller ends at is not run; a target cancels the input itself") {
+  const tools::Registry& registry = tools::Registry::standard();
+  const TriangleMesh mesh = sphere(3).mesh();
+  const ScalarField input(mesh, random_values(mesh.vertex_count(), 8));
+  const tools::NamedFunction function = registry.make_function("height");
+  for (const char* text : {"salient:iterations=3,sigma=0.4", "tps:count=6"})
+    for (const std::optional<std::size_t> target :
+         {std::optional<std::size_t>(), std::optional<std::size_t>(10)}) {
+      std::vector<int> called;
+      morse::CriticalPointTracker tracker(input, 0.5);
+      tools::ChainOptions options{target, false, &tracker};
+      options.on_iteration = [&](int number, const ScalarField& field) {
+        called.push_back(number);
+        CHECK(std::ranges::equal(field.values(), input.values()));
+        return false;
+      };
+      const tools::ChainOutcome outcome =
+          tools::apply_chain(registry.make_method(text), {mesh, {}}, function, input, options);
+      CHECK(called == std::vector<int>{0});
+      CHECK(outcome.steps.back().end->iterations_run == 0);
+      CHECK(outcome.steps.back().end->stopped_by == "caller");
+      if (target) {
+        CHECK(outcome.target->reached == total(outcome.field));
+        CHECK(outcome.target->iterations == 0);
+        CHECK(outcome.target->reached <= *target + 1);
+        CHECK(std::ranges::equal(tracker.field().ranks(), outcome.field.ranks()));
+      } else {
+        CHECK(std::ranges::equal(outcome.field.values(), input.values()));
+        CHECK_FALSE(outcome.target);
+      }
+    }
 }
 
 TEST_CASE("regression: a target returned the input where that had no more points, whatever the method") {

@@ -72,7 +72,8 @@ class StepWatcher {
 };
 
 /// The outcome of a last step that the caller ends at its input: it is not run.
-void end_at_input(const MethodStep& step, std::optional<TargetSearch>& search, ChainOutcome& outcome) {
+void end_at_input(const MethodStep& step, std::optional<TargetSearch>& search,
+                  morse::CriticalPointTracker* tracker, ChainOutcome& outcome) {
   outcome.steps.push_back({step.name, {}, {}, {}, core::IterationEnd{0, "caller"}});
   if (!search) return;
   search->offer(outcome.field);
@@ -80,6 +81,7 @@ void end_at_input(const MethodStep& step, std::optional<TargetSearch>& search, C
   outcome.field = std::move(found.field);
   outcome.target = std::move(found.outcome);
   outcome.target->iterations = 0;
+  if (tracker != nullptr) tracker->advance(outcome.field);
 }
 
 }  // namespace
@@ -116,7 +118,7 @@ ChainOutcome apply_chain(const MethodChain& chain, const core::LoadedMesh& loade
         return callback(number, passed) && go_on;
       };
     if (!callback(0, outcome.field)) {
-      end_at_input(step, search, outcome);
+      end_at_input(step, search, options.tracker, outcome);
       break;
     }
     core::MethodResult result = step.method->apply(outcome.field, context);
