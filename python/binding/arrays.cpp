@@ -100,12 +100,16 @@ void check_faces(const py::array& faces) {
            shape_text(faces) + (faces.ndim() == 2 && faces.shape(0) == 3 ? "; transpose them" : ""));
 }
 
-/// Doubles, contiguous, of an array of numbers.
-py::array_t<double> doubles(const py::array& array, const char* what) {
+using Doubles =
+    py::array_t<double, static_cast<int>(py::array::c_style) | static_cast<int>(py::array::forcecast) |
+                            static_cast<int>(py::detail::npy_api::NPY_ARRAY_ALIGNED_)>;
+
+/// Doubles, contiguous and aligned, of an array of numbers.
+Doubles doubles(const py::array& array, const char* what) {
   const char kind = array.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u')
     refuse(std::string(what) + " must be real numbers, not " + type_text(array));
-  return py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+  return Doubles(array);
 }
 
 }  // namespace
@@ -123,7 +127,7 @@ std::vector<core::Point> points_from(const py::array& array, const char* what) {
   if (array.ndim() != 2 || array.shape(1) != 3)
     refuse(std::string(what) + " must have the shape (n, 3), not " + shape_text(array) +
            (array.ndim() == 2 && array.shape(0) == 3 ? "; transpose them" : ""));
-  const py::array_t<double> numbers = doubles(array, what);
+  const Doubles numbers = doubles(array, what);
   std::vector<core::Point> points;
   const auto rows = static_cast<std::size_t>(numbers.shape(0));
   points.reserve(rows);
@@ -134,7 +138,7 @@ std::vector<core::Point> points_from(const py::array& array, const char* what) {
 
 std::vector<double> values_from(const py::array& array, const char* what) {
   if (array.ndim() != 1) refuse(std::string(what) + " must have the shape (n,), not " + shape_text(array));
-  const py::array_t<double> numbers = doubles(array, what);
+  const Doubles numbers = doubles(array, what);
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
