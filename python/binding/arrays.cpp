@@ -1,5 +1,7 @@
 #include "morsel/python/binding/arrays.h"
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -11,26 +13,6 @@ std::string shape_text(const py::array& array) { return py::str(py::tuple(array.
 std::string type_text(const py::array& array) { return py::str(array.dtype()); }
 
 [[noreturn]] void refuse(const std::string& text) { throw py::value_error(text); }
-
-/// Calls visit(T()) with the element type of an array of whole numbers in this machine's byte order; returns
-/// false for other arrays.
-template <class Visit>
-bool with_integers(const py::array& array, const Visit& visit) {
-  const char kind = array.dtype().kind();
-  const py::ssize_t size = array.itemsize();
-  if (kind != 'i' && kind != 'u') return false;
-  const bool is_signed = kind == 'i';
-  if (size == 1) {
-    is_signed ? visit(std::int8_t()) : visit(std::uint8_t());
-  } else if (size == 2) {
-    is_signed ? visit(std::int16_t()) : visit(std::uint16_t());
-  } else if (size == 4) {
-    is_signed ? visit(std::int32_t()) : visit(std::uint32_t());
-  } else {
-    is_signed ? visit(std::int64_t()) : visit(std::uint64_t());
-  }
-  return true;
-}
 
 template <class T>
 bool is_index(T value) {
@@ -57,7 +39,7 @@ void copy_indices(const py::array& array, core::Index* numbers, const char* what
       std::memcpy(&value, data + static_cast<py::ssize_t>(r) * down + static_cast<py::ssize_t>(c) * across,
                   sizeof(T));
       if (!is_index(value)) refuse_index(value, r, what);
-      *numbers++ = static_cast<core::Index>(value);
+      *numbers++ = static_cast<core::Index>(static_cast<std::uint64_t>(value));
     }
 }
 
@@ -69,10 +51,34 @@ void copy_consecutive(const py::array& array, core::Index* numbers, const char* 
   // All are indices if the bits that any of them has are: one test, and a loop that compilers vectorize.
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    bits |= static_cast<std::uint64_t>(data[i]);
-    numbers[i] = static_cast<core::Index>(data[i]);
+    const auto value = static_cast<std::uint64_t>(data[i]);
+    bits |= value;
+    numbers[i] = static_cast<core::Index>(value);
   }
   if (!is_index(bits)) copy_indices<T>(array, numbers, what);  // which looks at each, and names the first
+}
+
+template <class T>
+void copy(const py::array& array, core::Index* numbers, const char* what) {
+  constexpr unsigned kPlain = static_cast<unsigned>(py::array::c_style) |
+                              static_cast<unsigned>(py::detail::npy_api::NPY_ARRAY_ALIGNED_);
+  if ((static_cast<unsigned>(array.flags()) & kPlain) == kPlain)
+    copy_consecutive<T>(array, numbers, what);
+  else
+    copy_indices<T>(array, numbers, what);
+}
+
+using Copy = void (*)(const py::array&, core::Index*, const char*);
+
+/// For elements of a type, in this machine's byte order; null where these are no whole numbers.
+Copy copy_of(const py::dtype& type) {
+  constexpr std::array<Copy, 4> kSigned = {&copy<std::int8_t>, &copy<std::int16_t>, &copy<std::int32_t>,
+                                           &copy<std::int64_t>};
+  constexpr std::array<Copy, 4> kUnsigned = {&copy<std::uint8_t>, &copy<std::uint16_t>, &copy<std::uint32_t>,
+                                             &copy<std::uint64_t>};
+  if (type.kind() != 'i' && type.kind() != 'u') return nullptr;
+  const auto size = static_cast<std::size_t>(std::bit_width(static_cast<std::size_t>(type.itemsize()))) - 1;
+  return (type.kind() == 'i' ? kSigned : kUnsigned).at(size);
 }
 
 /// Writes the whole numbers of an array of one or two dimensions, row by row.
@@ -80,16 +86,10 @@ void read_indices(const py::array& given, core::Index* numbers, const char* what
   const py::array array = given.dtype().attr("isnative").cast<bool>()
                               ? given
                               : py::array(given.attr("astype")(given.dtype().attr("newbyteorder")("=")));
-  const auto flags = static_cast<unsigned>(array.flags());
-  constexpr unsigned kPlain = static_cast<unsigned>(py::array::c_style) |
-                              static_cast<unsigned>(py::detail::npy_api::NPY_ARRAY_ALIGNED_);
-  const bool known = with_integers(array, [&](auto type) {
-    using T = decltype(type);
-    (flags & kPlain) == kPlain ? copy_consecutive<T>(array, numbers, what)
-                               : copy_indices<T>(array, numbers, what);
-  });
-  if (!known)
+  const Copy copy_elements = copy_of(array.dtype());
+  if (copy_elements == nullptr)
     refuse(std::string(what) + " must be whole numbers (such as int32 or int64), not " + type_text(given));
+  copy_elements(array, numbers, what);
 }
 
 constexpr const char* kCorners = "the corners of the faces";

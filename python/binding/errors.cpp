@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/mesh/mesh_defects.h"
@@ -25,7 +26,7 @@ void raise(const char* name, Arguments&&... arguments) {
 void translate(std::exception_ptr exception) {
   if (!exception) return;
   try {
-    std::rethrow_exception(exception);
+    std::rethrow_exception(std::move(exception));
   } catch (const core::MeshError& error) {
     raise("MeshError", text(error.what()), defects(error.defects()));
   } catch (const core::Error& error) {
