@@ -70,22 +70,29 @@ void copy(const py::array& array, core::Index* numbers, const char* what) {
 
 using Copy = void (*)(const py::array&, core::Index*, const char*);
 
-/// For elements of a type, in this machine's byte order; null where these are no whole numbers.
+/// For elements of a type of at least two bytes, in this machine's byte order; null where these are no whole
+/// numbers.
 Copy copy_of(const py::dtype& type) {
-  constexpr std::array<Copy, 4> kSigned = {&copy<std::int8_t>, &copy<std::int16_t>, &copy<std::int32_t>,
-                                           &copy<std::int64_t>};
-  constexpr std::array<Copy, 4> kUnsigned = {&copy<std::uint8_t>, &copy<std::uint16_t>, &copy<std::uint32_t>,
+  constexpr std::array<Copy, 3> kSigned = {&copy<std::int16_t>, &copy<std::int32_t>, &copy<std::int64_t>};
+  constexpr std::array<Copy, 3> kUnsigned = {&copy<std::uint16_t>, &copy<std::uint32_t>,
                                              &copy<std::uint64_t>};
   if (type.kind() != 'i' && type.kind() != 'u') return nullptr;
-  const auto size = static_cast<std::size_t>(std::bit_width(static_cast<std::size_t>(type.itemsize()))) - 1;
+  const auto size = static_cast<std::size_t>(std::bit_width(static_cast<std::size_t>(type.itemsize()))) - 2;
   return (type.kind() == 'i' ? kSigned : kUnsigned).at(size);
+}
+
+/// As it is, but in this machine's byte order and not of single bytes.
+py::array plain_numbers(const py::array& given) {
+  const py::dtype type = given.dtype();
+  if ((type.kind() == 'i' || type.kind() == 'u') && type.itemsize() == 1)
+    return given.attr("astype")(py::dtype::of<std::int64_t>());
+  return type.attr("isnative").cast<bool>() ? given
+                                            : py::array(given.attr("astype")(type.attr("newbyteorder")("=")));
 }
 
 /// Writes the whole numbers of an array of one or two dimensions, row by row.
 void read_indices(const py::array& given, core::Index* numbers, const char* what) {
-  const py::array array = given.dtype().attr("isnative").cast<bool>()
-                              ? given
-                              : py::array(given.attr("astype")(given.dtype().attr("newbyteorder")("=")));
+  const py::array array = plain_numbers(given);
   const Copy copy_elements = copy_of(array.dtype());
   if (copy_elements == nullptr)
     refuse(std::string(what) + " must be whole numbers (such as int32 or int64), not " + type_text(given));

@@ -98,7 +98,7 @@ void run(LandmarksData& data, tools::MarkedMeshes& meshes, const core::Progress&
 
 LandmarksHandle landmarks_of_list(const std::string& list, bool repair, const py::dict& given,
                                   const tools::Registry& registry, const py::object& report) {
-  const auto data = std::make_shared<LandmarksData>();
+  auto data = std::make_shared<LandmarksData>();
   data->plan = tools::prepare(request_of(given), registry);
   run_job(report, [&](const core::Progress& progress) {
     const tools::LandmarksRequest& request = data->plan.request;
@@ -116,7 +116,7 @@ LandmarksHandle landmarks_of_meshes(const std::vector<std::pair<MeshHandle, py::
   if (marked.empty()) throw core::InvalidArgument("there is no marked mesh");
   MarkedInMemory meshes;
   for (const auto& [mesh, marks] : marked) meshes.add(mesh, indices_from(marks, "the marked vertices"));
-  const auto data = std::make_shared<LandmarksData>();
+  auto data = std::make_shared<LandmarksData>();
   data->plan = tools::prepare(request_of(given), registry);
   run_job(report, [&](const core::Progress& progress) { run(*data, meshes, progress); });
   return data;

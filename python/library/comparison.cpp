@@ -75,8 +75,7 @@ ComparisonHandle compare(const MeshHandle& mesh, const FieldHandle& values,
   }
   const tools::ComparisonPlan plan = tools::prepare(request, registry);
   return compute(report, [&](const core::Progress& progress) {
-    const auto data =
-        std::make_shared<ComparisonData>(ComparisonData{{mesh, given}, std::move(request), {}, {}});
+    auto data = std::make_shared<ComparisonData>(ComparisonData{{mesh, given}, std::move(request), {}, {}});
     Keeper keeper(*data);
     tools::run_comparison(given ? data->input.loaded() : mesh->loaded, plan, {&keeper}, progress);
     return data;

@@ -72,7 +72,7 @@ py::tuple counts_at(const HierarchyHandle& h, Index level) {
 
 LevelsHandle built(const FieldHandle& field, tools::HierarchyRequest request,
                    std::vector<tools::LevelSeed> seeds, const core::Progress& progress) {
-  const auto result = std::make_shared<LevelsData>(LevelsData{field, std::move(request), {}, {}});
+  auto result = std::make_shared<LevelsData>(LevelsData{field, std::move(request), {}, {}});
   tools::build_levels(
       std::move(seeds),
       [&](Level level) { result->levels.push_back(std::make_shared<const Level>(std::move(level))); },
@@ -158,7 +158,7 @@ LevelsHandle iteration_levels(const FieldHandle& field, const std::string& metho
   return compute(report, [&](const core::Progress& progress) {
     tools::IterationLevels found = tools::iteration_levels(chain, mesh_with_values(*field), function,
                                                            *field->field, plan.iterations, progress);
-    const LevelsHandle made = built(field, request, std::move(found.seeds), progress);
+    LevelsHandle made = built(field, request, std::move(found.seeds), progress);
     for (const std::shared_ptr<const Level>& level : made->levels)
       made->fields.push_back(field_of(*level, field, chain, found.outcome.steps));
     return made;

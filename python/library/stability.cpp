@@ -58,7 +58,7 @@ StabilityHandle stability(const MeshHandle& mesh, const FieldHandle& values, con
   }
   tools::StabilityPlan plan = tools::prepare(request, registry);
   return compute(report, [&](const core::Progress& progress) {
-    const auto data = std::make_shared<StabilityData>(
+    auto data = std::make_shared<StabilityData>(
         StabilityData{{mesh, field}, tools::with_defaults(request), std::move(plan), {}});
     data->result = tools::run_stability(data->input.loaded(), data->plan, progress);
     return data;

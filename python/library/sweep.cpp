@@ -61,7 +61,7 @@ SweepHandle sweep(const MeshHandle& mesh, const FieldHandle& values, const std::
   tools::SweepPlan plan = tools::prepare(request, registry);
   check_columns(plan);
   return compute(report, [&](const core::Progress& progress) {
-    const auto data =
+    auto data =
         std::make_shared<SweepData>(SweepData{{mesh, given}, std::move(request), std::move(plan), {}});
     data->rows = tools::run_sweep(data->input.loaded(), data->plan, {}, progress);
     return data;
