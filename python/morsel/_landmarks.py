@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterator, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _interop
-from ._arguments import Immutable, place, whole
+from ._arguments import place, whole
 from ._chosen import choice
 from ._field import warn
 from ._made import Named, name_of, number_text
 from ._mesh import PathLike, as_mesh, path_bytes
 from ._progress import Progress, reporting
 from ._registry import registry
+from ._rows import Rows
 
 if TYPE_CHECKING:
     from . import _documents
@@ -45,7 +46,7 @@ class Marks(NamedTuple):
     """Why there are fewer points than wanted; empty if there are not."""
 
 
-class Landmarks(Immutable, Sequence[Dict[str, Any]]):
+class Landmarks(Rows):
     """How well chosen critical points agree with points that people marked; made by landmarks().
 
     A dict for each field and method, then for random vertices and farthest points: name, field, method (None
@@ -57,17 +58,8 @@ class Landmarks(Immutable, Sequence[Dict[str, Any]]):
 
     def __init__(self, data: _documents.Landmarks) -> None:
         self._data = data
-        self._rows = [{key: MeshMean(*value) if isinstance(value, tuple) else value
-                       for key, value in row.items()} for row in data.rows()]
-
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        return iter(self._rows)
-
-    def __getitem__(self, which: Any) -> Any:
-        return self._rows[which]
+        super().__init__([{key: MeshMean(*value) if isinstance(value, tuple) else value
+                           for key, value in row.items()} for row in data.rows()])
 
     def __repr__(self) -> str:
         return f"<morsel.Landmarks: {len(self):,} rows, {self.mesh_count:,} meshes, seed {self.seed}>"

@@ -11,7 +11,7 @@ _own: dict[tuple[str, str], tuple[Any, ...]] = {}
 
 
 def registry() -> _library.Registry:
-    """What names stand for now. It is not changed, but replaced, when users add something."""
+    """What names stand for. It is not changed, but replaced, when users add something."""
     return _registry
 
 

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, Mapping, Sequence, Union
+from typing import Any, Mapping, Sequence, Union
 
 import numpy as np
 
 from . import _library
-from ._arguments import Immutable, target_of, whole
+from ._arguments import target_of, whole
 from ._comparison import input_of
 from ._field import Field, warn
 from ._made import Named, mesh_file, name_of, number_text
 from ._mesh import PathLike, path_bytes
 from ._progress import Progress, reporting
 from ._registry import registry
+from ._rows import Rows
 
 Values = Union[str, Sequence[Union[str, float, bool]], range]
 
@@ -36,21 +37,12 @@ def _variation(key: str, values: Values) -> str:
     return f"{key}={values}"
 
 
-class Sweep(Immutable, Sequence[Dict[str, Any]]):
+class Sweep(Rows):
     """The results of a sweep, a dict for each combination; made by sweep()."""
 
     def __init__(self, data: _library.Sweep) -> None:
         self._data = data
-        self._rows = [data.row(i) for i in range(len(data))]
-
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        return iter(self._rows)
-
-    def __getitem__(self, which: Any) -> Any:
-        return self._rows[which]
+        super().__init__([data.row(i) for i in range(len(data))])
 
     def __repr__(self) -> str:
         return f"<morsel.Sweep over {', '.join(self.keys)}: {len(self):,} combinations>"
@@ -142,7 +134,7 @@ def _estimate(mean: float, half_width: float | None, count: int) -> Estimate:
 _ESTIMATES = ("recall", "precision", "f_score", "chance", "drift", "found")
 
 
-class Stability(Immutable, Sequence[Dict[str, Any]]):
+class Stability(Rows):
     """How well critical points repeat on perturbed surfaces; made by stability().
 
     A dict for each field, method, count and perturbation: field, method, target, perturbation, amount,
@@ -154,17 +146,8 @@ class Stability(Immutable, Sequence[Dict[str, Any]]):
 
     def __init__(self, data: _library.Stability) -> None:
         self._data = data
-        self._rows = [{key: _estimate(*value) if key in _ESTIMATES else value for key, value in row.items()}
-                      for row in data.rows()]
-
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        return iter(self._rows)
-
-    def __getitem__(self, which: Any) -> Any:
-        return self._rows[which]
+        super().__init__([{key: _estimate(*value) if key in _ESTIMATES else value
+                           for key, value in row.items()} for row in data.rows()])
 
     def __repr__(self) -> str:
         return f"<morsel.Stability: {len(self):,} rows, seed {self.seed}>"
