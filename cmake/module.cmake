@@ -5,9 +5,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND MORSEL_WARNINGS -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
 endif()
 
+# Parts that an option MORSEL_WITH_PART leaves out, with the packages that they need.
+set(MORSEL_PARTS FORMATS GEOTIFF MOLECULES PICTURES)
+
 # morsel_add_module(NAME [WITHIN FOLDER] [PROGRAM] PUBLIC_HEADERS … SOURCES … DEPENDS …
 #                   PRIVATE_DEPENDS … PRECOMPILED …
-#                   [PART NAME SOURCES_OF_PART … [REPLACED_BY SOURCE] DEPENDS_OF_PART …])
+#                   [PART_SOURCES … PART_DEPENDS … [PART_REPLACEMENT SOURCE]]…)
 # The library target morsel_NAME, alias morsel::NAME, whose headers are included as "morsel/NAME/….h", or as
 # "morsel/FOLDER/NAME/….h" if it is a room of that folder, in the build tree and after installation alike.
 #   PROGRAM          it serves the program alone and is not installed
@@ -19,24 +22,31 @@ endif()
 #   PRECOMPILED      headers that most of its sources read, or the module whose precompiled headers it
 #                    shares. Sources include what they use all the same: tools/lint compiles them without
 #                    precompiled headers and one by one.
-#   PART             MOLECULES or PICTURES. With MORSEL_WITH_NAME it has SOURCES_OF_PART, which need the
-#                    packages DEPENDS_OF_PART privately; without, in their place, REPLACED_BY
-#                    (without_name.cpp if not given), which defines the same functions
+#   PART_SOURCES     PART is one of MORSEL_PARTS. With MORSEL_WITH_PART it has these, which need the packages
+#                    PART_DEPENDS privately; without, in their place, PART_REPLACEMENT (without_part.cpp if
+#                    not given), which defines the same functions
 function(morsel_add_module name)
-  cmake_parse_arguments(
-    PARSE_ARGV 1 arg "PROGRAM" "WITHIN;PART;REPLACED_BY"
-    "PUBLIC_HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS;PRECOMPILED;SOURCES_OF_PART;DEPENDS_OF_PART")
-  if(arg_PART AND MORSEL_WITH_${arg_PART})
-    list(APPEND arg_SOURCES ${arg_SOURCES_OF_PART})
-    list(APPEND arg_PRIVATE_DEPENDS ${arg_DEPENDS_OF_PART})
-    # Files of their own in the library, for which tests/cli links the replacement.
-    set_source_files_properties(${arg_SOURCES_OF_PART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  elseif(arg_REPLACED_BY)
-    list(APPEND arg_SOURCES ${arg_REPLACED_BY})
-  elseif(arg_PART)
-    string(TOLOWER without_${arg_PART}.cpp replacement)
-    list(APPEND arg_SOURCES ${replacement})
-  endif()
+  set(lists PUBLIC_HEADERS SOURCES DEPENDS PRIVATE_DEPENDS PRECOMPILED)
+  foreach(part IN LISTS MORSEL_PARTS)
+    list(APPEND lists ${part}_SOURCES ${part}_DEPENDS)
+  endforeach()
+  list(TRANSFORM MORSEL_PARTS APPEND _REPLACEMENT OUTPUT_VARIABLE replacements)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "PROGRAM" "WITHIN;${replacements}" "${lists}")
+  foreach(part IN LISTS MORSEL_PARTS)
+    if(NOT arg_${part}_SOURCES)
+      continue()
+    elseif(MORSEL_WITH_${part})
+      list(APPEND arg_SOURCES ${arg_${part}_SOURCES})
+      list(APPEND arg_PRIVATE_DEPENDS ${arg_${part}_DEPENDS})
+      # Files of their own in the library, for which tests/cli links the replacement.
+      set_source_files_properties(${arg_${part}_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    elseif(arg_${part}_REPLACEMENT)
+      list(APPEND arg_SOURCES ${arg_${part}_REPLACEMENT})
+    else()
+      string(TOLOWER without_${part}.cpp replacement)
+      list(APPEND arg_SOURCES ${replacement})
+    endif()
+  endforeach()
   set(target morsel_${name})
   set(outer ${name})
   set(folder ${name})

@@ -71,7 +71,8 @@ LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const Build
   try {
     BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
     return {std::move(built.mesh),
-            {std::move(built.numbering), std::move(file.properties), std::move(built.repairs)}};
+            {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
+             std::move(file.warnings)}};
   } catch (const MeshError& error) {
     throw error.about("\"" + path.string() + "\"");
   } catch (const BadInput& error) {

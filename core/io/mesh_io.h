@@ -11,7 +11,8 @@
 
 namespace morsel::core {
 
-/// A scalar that the file gives for each of its vertices (a PLY property), by input vertex.
+/// A scalar that the file gives for each of its vertices, such as a PLY property, by input vertex; or for each
+/// of its faces.
 struct VertexProperty {
   std::string name;
   std::vector<double> values;
@@ -22,6 +23,7 @@ struct MeshSource {
   VertexNumbering numbering;
   std::vector<VertexProperty> properties;
   std::vector<Repair> repairs;
+  std::vector<std::string> warnings = {};  ///< what was read tolerantly, guessed or left out, a sentence each
 };
 
 struct LoadedMesh {
@@ -34,7 +36,9 @@ struct LoadedMesh {
 /// appears (equal positions are one vertex).
 struct LoadedSoup {
   PolygonSoup soup;
-  std::vector<VertexProperty> properties;  ///< in the file's order, without x, y, z
+  std::vector<VertexProperty> properties;            ///< in the file's order, without x, y, z
+  std::vector<VertexProperty> face_properties = {};  ///< likewise, by polygon
+  std::vector<std::string> warnings = {};            ///< what was read tolerantly, a sentence each
 };
 
 enum class MeshFormat { off, obj, ply, stl };

@@ -47,7 +47,7 @@ PerturbedMesh with_noise(const core::LoadedMesh& clean, double deviation, NoiseK
 
 PerturbedMesh subdivided(const core::LoadedMesh& clean, int pieces) {
   TriangleMesh mesh = core::subdivided(clean.mesh, pieces);
-  core::MeshSource source{clean.source.numbering, {}, clean.source.repairs};
+  core::MeshSource source{clean.source.numbering, {}, clean.source.repairs, clean.source.warnings};
   core::VertexNumbering& numbering = source.numbering;
   if (numbering.to_input.empty()) {
     numbering.input_count = mesh.vertex_count();

@@ -1,0 +1,16 @@
+// In place of the reading of files by libraries, in a library without the part FORMATS.
+
+#include <string>
+
+#include "morsel/core/error.h"
+#include "morsel/core/io/file_formats.h"
+
+namespace morsel::core {
+
+void require_formats(std::string_view what) {
+  throw InvalidArgument("this morsel was built without the kinds of files that libraries read, which " +
+                        std::string(what) + " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
+                        "package zlib1g-dev is needed");
+}
+
+}  // namespace morsel::core
