@@ -60,6 +60,11 @@ HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::Build
   return read_hashed_mesh(MeshFile{path}, options, progress);
 }
 
+HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path, const core::BuildOptions& options,
+                                       const core::Progress& progress) {
+  return read_hashed_whole_mesh(MeshFile{path}, options, progress);
+}
+
 HashedWholeMesh read_hashed_whole_mesh(const MeshFile& file, const core::BuildOptions& options,
                                        const core::Progress& progress) {
   return read_hashed<HashedWholeMesh>(file, [&] {

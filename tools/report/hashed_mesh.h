@@ -40,6 +40,9 @@ struct HashedWholeMesh {
 };
 
 /// core::read_whole_mesh() and, meanwhile, sha256_of_file().
+HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path,
+                                       const core::BuildOptions& options = {},
+                                       const core::Progress& progress = {});
 HashedWholeMesh read_hashed_whole_mesh(const MeshFile& file, const core::BuildOptions& options = {},
                                        const core::Progress& progress = {});
 
