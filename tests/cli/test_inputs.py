@@ -41,6 +41,17 @@ class Inputs(ProgramTest):
         self.piped(data, "field", "-", "--format", "off", "--field", "height:axis=z", "-o", "z.txt")
         self.assertIn("morsel field - --format off", (self.folder / "z.txt").read_text())
 
+    def test_a_field_goes_from_standard_input_to_standard_output(self):
+        output, said = self.piped(OCTAHEDRON.encode(), "field", "-", "--format", "off", "--field",
+                                  "height:axis=z", "-o", "-")
+        self.assertEqual(said, "")
+        self.assertEqual([line for line in output.splitlines() if not line.startswith("#")],
+                         ["1", "-1", "0", "0", "0", "0"])
+        with open(self.folder / "o.txt", "w") as stream:
+            subprocess.run([PROGRAM, "field", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "-o",
+                            "-"], stdout=stream, check=True, timeout=60)
+        self.assertEqual((self.folder / "o.txt").read_text().splitlines()[-6:], ["1", "-1", "0", "0", "0", "0"])
+
     def test_info_describes_standard_input(self):
         self.file("o.off", OCTAHEDRON)
         self.morsel("cut", "o.off", "--field", "height:axis=z", "-o", "cut.off")
