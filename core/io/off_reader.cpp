@@ -205,7 +205,14 @@ class OffNumbers {
 
   PolygonSoup read() {
     read_vertices();
-    if (auto soup = with_one_number_after_another()) return std::move(*soup);
+    const bool is_at_line_end = scanner_.at_line_end();
+    try {
+      return with_one_number_after_another();
+    } catch (const BadInput& error) {
+      if (!is_at_line_end)
+        throw BadInput(std::string(error.what()) +
+                       " (faces with colours are read only where the vertices end with a line)");
+    }
     return with_faces_at_line_starts();
   }
 
@@ -227,24 +234,18 @@ class OffNumbers {
     }
   }
 
-  /// Faces without colours, whose numbers are all that follow. Nothing if they are not.
-  std::optional<PolygonSoup> with_one_number_after_another() const {
+  /// Faces without colours, whose numbers are all that follow.
+  PolygonSoup with_one_number_after_another() const {
     OffNumbers faces(scanner_, header_, 0);
-    try {
-      for (std::uint64_t f = 0; f < header_.faces; ++f) faces.read_face(f);
-      if (!faces.scanner_.at_line_end() || faces.scanner_.next_line()) return std::nullopt;
-    } catch (const BadInput&) {
-      return std::nullopt;
-    }
+    for (std::uint64_t f = 0; f < header_.faces; ++f) faces.read_face(f);
+    if (!faces.scanner_.at_line_end() || faces.scanner_.next_line())
+      faces.scanner_.fail("the file goes on after the " + header_.announced());
     faces.soup_.positions = soup_.positions;
     return std::move(faces.soup_);
   }
 
   /// Each face begins a line. Colours follow the corners of one that ends in that line.
   PolygonSoup with_faces_at_line_starts() {
-    if (!scanner_.at_line_end())
-      scanner_.fail("the vertices end within this line, and what follows is not " +
-                    std::to_string(header_.faces) + " faces without colours and nothing else");
     for (std::uint64_t f = 0; f < header_.faces; ++f) {
       if (!scanner_.next_line()) scanner_.fail_at_end(ends_after(f, header_.faces, "faces"));
       const std::size_t line = scanner_.line();
