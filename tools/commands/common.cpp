@@ -33,11 +33,14 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
         .in_detail(
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");
-  if (with_repair && takes_mesh(command))
+  if (with_repair && takes_mesh(command)) {
     command.text("--format", common.format, "Read the mesh as this, whatever its name; needed where it is -")
         .value("FORMAT")
         .among(core::mesh_format_names())
         .in_detail("The mesh - is standard input; a compressed file is read as what it holds");
+    if (command.name != "info")
+      for (const char* option : {"--repair", "--format"}) command.option(option).told_by = "info";
+  }
   command.flag("--quiet", common.quiet, "No progress, no messages, no warnings").shapes_nothing();
 }
 
