@@ -19,7 +19,8 @@ class ValueFile {
  public:
   /// Throws BadInput, naming the file as `name`, the line and its text, if a line is not one number.
   ValueFile(std::istream& stream, std::string name, const core::Progress& progress);
-  /// Throws BadInput also if the file is missing, unreadable or not a regular file.
+  /// Of a file, which may be compressed (gzip, xz, zstd) or UTF-16. Throws BadInput also if it is missing,
+  /// unreadable or not a regular file.
   static ValueFile read(const std::filesystem::path& path, const core::Progress& progress);
 
   std::span<const double> values() const { return values_; }

@@ -17,11 +17,32 @@ namespace {
 
 /// One whole file of each kind.
 std::vector<CorpusFile> whole_files() {
-  const std::set<std::string> names = {
-      "tetrahedron.off",        "coff.off",       "stcnoff.off",     "tetrahedron.obj",
-      "attributes.obj",         "relative.obj",   "quality.ply",     "other_elements.ply",
-      "binary_little.ply",      "binary_big.ply", "tetrahedron.stl", "binary.stl",
-      "binary_solid_header.stl"};
+  const std::set<std::string> names = {"tetrahedron.off",
+                                       "coff.off",
+                                       "stcnoff.off",
+                                       "tetrahedron.obj",
+                                       "attributes.obj",
+                                       "relative.obj",
+                                       "quality.ply",
+                                       "other_elements.ply",
+                                       "binary_little.ply",
+                                       "binary_big.ply",
+                                       "tetrahedron.stl",
+                                       "binary.stl",
+                                       "binary_solid_header.stl",
+                                       "numbers_on_any_lines.off",
+                                       "vertices_on_any_lines_colored_faces.off",
+                                       "coff_on_any_lines.off",
+                                       "strip_restarts.ply",
+                                       "binary_strips.ply",
+                                       "faces_and_strip.ply",
+                                       "longer_face_lines.ply",
+                                       "whole_with_decimals.ply",
+                                       "face_values.ply",
+                                       "glued_backslash.obj",
+                                       "gzip.off.gz",
+                                       "xz.OFF.XZ",
+                                       "zstd.ply.zst"};
   std::vector<CorpusFile> result;
   for (const CorpusFile& file : mesh_corpus())
     if (names.contains(file.name)) result.push_back(file);

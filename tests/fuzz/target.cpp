@@ -9,6 +9,7 @@ std::span<const Target> targets() {
                                                {"obj", "meshes", ".obj", obj},
                                                {"ply", "meshes", ".ply", ply},
                                                {"stl", "meshes", ".stl", stl},
+                                               {"compressed", "compressed", "", compressed},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
                                                {"values", "values", "", values},
