@@ -22,7 +22,10 @@ struct Format {
 constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, read_off},
                                                  {".obj", MeshFormat::obj, read_obj},
                                                  {".ply", MeshFormat::ply, read_ply},
-                                                 {".stl", MeshFormat::stl, read_stl}});
+                                                 {".stl", MeshFormat::stl, read_stl},
+                                                 {".vtk", MeshFormat::vtk, read_vtk},
+                                                 {".vtp", MeshFormat::vtp, read_vtk_xml},
+                                                 {".vtu", MeshFormat::vtu, read_vtk_xml}});
 
 const Format* find_format(const std::filesystem::path& path) {
   const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);

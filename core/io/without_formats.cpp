@@ -4,13 +4,20 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_formats.h"
+#include "morsel/core/io/mesh_formats.h"
 
 namespace morsel::core {
 
 void require_formats(std::string_view what) {
   throw InvalidArgument("this morsel was built without the kinds of files that libraries read, which " +
-                        std::string(what) + " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
-                        "package zlib1g-dev is needed");
+                        std::string(what) +
+                        " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
+                        "packages zlib1g-dev and libpugixml-dev are needed");
+}
+
+LoadedSoup read_vtk_xml(std::string_view, const std::string&, const Progress&) {
+  require_formats("a VTP or VTU file");
+  return {};
 }
 
 }  // namespace morsel::core
