@@ -31,6 +31,10 @@ void check_soup(const LoadedSoup& loaded) {
     require(!property.name.empty(), "a property without a name");
     require(property.values.size() == soup.positions.size(), "size of a property");
   }
+  for (const VertexProperty& property : loaded.face_properties) {
+    require(!property.name.empty(), "a property of faces without a name");
+    require(property.values.size() == soup.polygon_count(), "size of a property of faces");
+  }
 }
 
 bool same_positions(const std::vector<Point>& a, const std::vector<Point>& b) {
