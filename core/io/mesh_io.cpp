@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
@@ -17,19 +19,50 @@ namespace {
 struct Format {
   std::string_view extension;
   MeshFormat format;
+  std::string_view kind;  ///< as file_kind() names it
   LoadedSoup (*read)(std::string_view bytes, const std::string& file, const Progress& progress);
 };
-constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, read_off},
-                                                 {".obj", MeshFormat::obj, read_obj},
-                                                 {".ply", MeshFormat::ply, read_ply},
-                                                 {".stl", MeshFormat::stl, read_stl},
-                                                 {".vtk", MeshFormat::vtk, read_vtk},
-                                                 {".vtp", MeshFormat::vtp, read_vtk_xml},
-                                                 {".vtu", MeshFormat::vtu, read_vtk_xml}});
+constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, "an OFF file", read_off},
+                                                 {".obj", MeshFormat::obj, "an OBJ file", read_obj},
+                                                 {".ply", MeshFormat::ply, "a PLY file", read_ply},
+                                                 {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
+                                                 {".vtk", MeshFormat::vtk, "a legacy VTK file", read_vtk},
+                                                 {".vtp", MeshFormat::vtp, "a VTK XML file", read_vtk_xml},
+                                                 {".vtu", MeshFormat::vtu, "a VTK XML file", read_vtk_xml}});
 
-const Format* find_format(const std::filesystem::path& path) {
-  const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);
+const Format* find_extension(std::string_view extension) {
+  const auto* found = std::ranges::find(kFormats, extension, &Format::extension);
   return found == kFormats.end() ? nullptr : found;
+}
+const Format* find_format(const std::filesystem::path& path) {
+  return find_extension(content_extension(path));
+}
+
+/// " (…): name it .obj or use --format obj" of a kind that is read; "" of others.
+std::string remedy_for(std::string_view kind) {
+  const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
+  if (format == kFormats.end()) return "";
+  const std::string extension(format->extension);
+  return ": name it " + extension + " or use --format " + extension.substr(1);
+}
+
+/// Throws what the reader of `format` says of a file, with what the file is if that is another kind.
+[[noreturn]] void fail_by_kind(std::string_view content, const Format& format, const std::string& name,
+                               const BadInput& error) {
+  const std::string_view kind = file_kind(content);
+  if (kind.empty() || kind == format.kind) throw error;
+  const std::string head = "cannot read \"" + name + "\": ";
+  std::string text = error.what();
+  if (text.starts_with(head)) text.erase(0, head.size());
+  fail_reading(name, "it is " + std::string(kind) + ", though read as " + std::string(format.extension) +
+                         " (" + text + ")" + remedy_for(kind));
+}
+
+/// Why a file's name does not say how to read it.
+std::string unknown_extension(const std::filesystem::path& path) {
+  const std::string extension = content_extension(path);
+  return extension.empty() ? "its name has no extension: use " + mesh_extensions()
+                           : "meshes are read from " + mesh_extensions(" and ") + " files, not " + extension;
 }
 
 }  // namespace
@@ -44,10 +77,19 @@ std::string mesh_extensions(std::string_view last) {
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (const Format* found = find_format(path)) return found->format;
-  const std::string extension = file_extension(path);
-  fail_reading(path.string(), extension.empty() ? "its name has no extension: use " + mesh_extensions()
-                                                : "meshes are read from " + mesh_extensions(" and ") +
-                                                      " files, not " + extension);
+  fail_reading(path.string(), unknown_extension(path));
+}
+
+std::vector<std::string> mesh_format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) names.emplace_back(format.extension.substr(1));
+  return names;
+}
+
+MeshFormat mesh_format_named(std::string_view name) {
+  if (const Format* found = find_extension("." + std::string(name))) return found->format;
+  throw InvalidArgument("there is no mesh format " + shown(name) + ", only " +
+                        listed(mesh_format_names(), " and "));
 }
 
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
@@ -56,45 +98,64 @@ LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const s
   if (found == kFormats.end())
     throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
   progress.update("reading the mesh", 0);
-  return found->read(bytes, name, progress);
+  const DecodedBytes decoded(bytes, name, progress);
+  std::string_view content = decoded.view();
+  std::string converted;
+  const bool is_converted = is_utf16(content);
+  if (is_converted) content = converted = utf8_of_utf16(content, name);
+  try {
+    LoadedSoup soup = found->read(content, name, progress);
+    if (is_converted) soup.warnings.insert(soup.warnings.begin(), kUtf16Warning);
+    return soup;
+  } catch (const BadInput& error) {
+    fail_by_kind(content, *found, name, error);
+  }
 }
 
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress) {
   const std::string name = path.string();
   // A missing file is reported as such, whatever its extension.
   const FileBytes bytes(path, name);
-  return parse_polygon_soup(bytes.view(), mesh_format(path), name, progress);
+  if (const Format* format = find_format(path))
+    return parse_polygon_soup(bytes.view(), format->format, name, progress);
+  const std::string_view kind = file_kind(bytes.view());
+  fail_reading(name, unknown_extension(path) +
+                         (kind.empty() ? "" : "; it is " + std::string(kind) + remedy_for(kind)));
 }
 
-namespace {
+LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat format, const Progress& progress) {
+  const std::string name = path.string();
+  return parse_polygon_soup(FileBytes(path, name).view(), format, name, progress);
+}
 
-/// build_mesh(), with the file named in its errors.
-LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const BuildOptions& options,
-                 const Progress& progress) {
+LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options,
+                     const Progress& progress) {
   try {
     BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
     return {std::move(built.mesh),
             {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
              std::move(file.warnings)}};
   } catch (const MeshError& error) {
-    throw error.about("\"" + path.string() + "\"");
+    throw error.about("\"" + name + "\"");
   } catch (const BadInput& error) {
-    throw BadInput("cannot use \"" + path.string() + "\": " + error.what());
+    throw BadInput("cannot use \"" + name + "\": " + error.what());
   }
 }
 
-}  // namespace
+WholeMesh make_whole_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options,
+                          const Progress& progress) {
+  std::vector<Point> positions = file.soup.positions;
+  return {make_mesh(std::move(file), name, options, progress), std::move(positions)};
+}
 
 LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options,
                      const Progress& progress) {
-  return build(path, read_polygon_soup(path, progress), options, progress);
+  return make_mesh(read_polygon_soup(path, progress), path.string(), options, progress);
 }
 
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options,
                           const Progress& progress) {
-  LoadedSoup file = read_polygon_soup(path, progress);
-  std::vector<Point> positions = file.soup.positions;
-  return {build(path, std::move(file), options, progress), std::move(positions)};
+  return make_whole_mesh(read_polygon_soup(path, progress), path.string(), options, progress);
 }
 
 }  // namespace morsel::core

@@ -11,8 +11,8 @@
 
 namespace morsel::core {
 
-/// A scalar that the file gives for each of its vertices, such as a PLY property, by input vertex; or for each
-/// of its faces.
+/// A scalar that the file gives for each of its vertices, such as a PLY property, by input vertex; or for
+/// each of its faces.
 struct VertexProperty {
   std::string name;
   std::vector<double> values;
@@ -43,19 +43,29 @@ struct LoadedSoup {
 
 enum class MeshFormat { off, obj, ply, stl, vtk, vtp, vtu };
 
-/// By the file's extension, any case. Throws BadInput, listing the known ones, if it is another one.
+/// By the file's extension, any case; of a compressed file's name (.gz, .xz, .zst) by the one before. Throws
+/// BadInput, listing the known ones, if it is another one.
 MeshFormat mesh_format(const std::filesystem::path& path);
 /// Whether the extension is that of a known format.
 bool has_mesh_extension(const std::filesystem::path& path);
 /// The extensions as a sentence lists them: ".off, .obj or .ply".
 std::string mesh_extensions(std::string_view last = " or ");
+/// The formats by name: "off", … ; and the one of a name. Throws InvalidArgument, listing them, if there is
+/// none.
+std::vector<std::string> mesh_format_names();
+MeshFormat mesh_format_named(std::string_view name);
 
-/// Reads the polygons of a file, whose format is that of its extension, in double precision.
-/// Corners are checked to name vertices that exist; coordinates may be non-finite. Throws BadInput, naming
-/// the file and where possible the line, if it is missing, unreadable, damaged or of another kind. Memory:
-/// the file's size and twice the soup's; wrong counts in a header do not increase it. Independent of locales;
-/// about 200 MB of text a second and thread (OFF and OBJ are read in parallel), and 500 MB of binary PLY.
+/// Reads the polygons of a file, whose format is that of its extension, in double precision. gzip, xz and
+/// zstd data are decompressed, whatever the file's name; UTF-16 text with a byte-order mark is converted.
+/// What was odd in a file whose content is complete is said in the result's warnings. Corners are checked to
+/// name vertices that exist; coordinates may be non-finite. Throws BadInput, naming the file and where
+/// possible the line, if it is missing, unreadable, damaged or of another kind. Memory: the file's size and
+/// twice the soup's; wrong counts in a header do not increase it. Independent of locales; about 200 MB of
+/// text a second and thread (OFF and OBJ are read in parallel), and 500 MB of binary PLY.
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress = {});
+/// The same of a file of this format, whatever its name.
+LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat format,
+                             const Progress& progress = {});
 
 /// The same for a file that is in memory; errors call it `name`.
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
@@ -73,6 +83,13 @@ struct WholeMesh {
 
 /// read_mesh() for callers that write in the input's vertex numbers.
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
+                          const Progress& progress = {});
+
+/// The second half of read_mesh() and read_whole_mesh(): the mesh of what was read from the file that errors
+/// call `name`.
+LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},
+                     const Progress& progress = {});
+WholeMesh make_whole_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},
                           const Progress& progress = {});
 
 }  // namespace morsel::core

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/value_file.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
@@ -78,12 +79,15 @@ struct Collector {
                              : " is not one number"));
 }
 
-/// A text without its byte-order mark, and what ends its lines: \r only where there is no \n.
+/// A text without its byte-order mark, UTF-16 as UTF-8, and what ends its lines: \r only where there is no \n.
 struct Lines {
-  explicit Lines(std::string_view bytes) : text(bytes) {
+  explicit Lines(std::string_view bytes, const std::string& file = {}) : text(bytes) {
+    if (is_utf16(bytes)) text = converted = utf8_of_utf16(bytes, file);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     if (text.find('\n') == std::string_view::npos) terminator = '\r';
   }
+  Lines(const Lines&) = delete;
+  std::string converted;
   std::string_view text;
   char terminator = '\n';
 };
@@ -250,7 +254,7 @@ class Records {
 class ColumnReader {
  public:
   ColumnReader(std::string_view bytes, const ValueRequest& request, bool only_separators)
-      : request_(request), lines_(bytes), only_separators_(only_separators) {}
+      : request_(request), lines_(bytes, request.file), only_separators_(only_separators) {}
 
   ValueFile read() {
     Records records(request_, only_separators_);
@@ -377,7 +381,7 @@ ValueFile read_csv_values(std::string_view bytes, const ValueRequest& request) {
 ValueFile read_text_values(std::string_view bytes, const ValueRequest& request) {
   using namespace value_text;
   if (!request.column.empty()) return ColumnReader(bytes, request, false).read();
-  const Lines lines(bytes);
+  const Lines lines(bytes, request.file);
   Collector collector;
   std::size_t header = 0;  // lines before the first number
   std::size_t header_line = 0;

@@ -8,7 +8,8 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_bytes.h"
-#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_content.h"
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/text/text_scanner.h"
 
@@ -40,10 +41,18 @@ constexpr auto kKinds = std::to_array<ValueKind>({
 ValueFile parse_value_file(std::string_view bytes, const std::string& file, const std::string& column,
                            const Progress& progress) {
   const ValueRequest request{file, column, progress};
-  const std::string extension = file_extension(file);
+  const DecodedBytes decoded(bytes, file, progress);
+  const std::string_view content = decoded.view();
+  const std::string extension = content_extension(file);
   for (const ValueKind& kind : kKinds)
-    if (kind.is_it(bytes, extension)) return kind.read(bytes, request);
-  return read_text_values(bytes, request);
+    if (kind.is_it(content, extension)) return kind.read(content, request);
+  try {
+    return read_text_values(content, request);
+  } catch (const BadInput& error) {
+    const std::string_view kind = file_kind(content);
+    if (kind.empty()) throw;
+    throw BadInput(std::string(error.what()) + " (it is " + std::string(kind) + ")");
+  }
 }
 
 ValueFile read_value_file(const std::filesystem::path& path, const std::string& column,

@@ -42,7 +42,21 @@ std::vector<CorpusFile> whole_files() {
                                        "appended_raw.vtp",
                                        "appended_base64.vtp",
                                        "appended_raw_zlib_big.vtp",
-                                       "grid_zlib.vtu"};
+                                       "grid_zlib.vtu",
+                                       "numbers_on_any_lines.off",
+                                       "vertices_on_any_lines_colored_faces.off",
+                                       "coff_on_any_lines.off",
+                                       "strip_restarts.ply",
+                                       "binary_strips.ply",
+                                       "faces_and_strip.ply",
+                                       "longer_face_lines.ply",
+                                       "whole_with_decimals.ply",
+                                       "face_values.ply",
+                                       "glued_backslash.obj",
+                                       "utf16_little.off",
+                                       "gzip.off.gz",
+                                       "xz.OFF.XZ",
+                                       "zstd.ply.zst"};
   std::vector<CorpusFile> result;
   for (const CorpusFile& file : mesh_corpus())
     if (names.contains(file.name)) result.push_back(file);

@@ -11,6 +11,7 @@ std::span<const Target> targets() {
                                                {"stl", "meshes", ".stl", stl},
                                                {"vtk", "meshes", ".vtk", vtk},
                                                {"vtp", "meshes", ".vtp", vtp},
+                                               {"compressed", "compressed", "", compressed},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
                                                {"values", "values", "", values},
