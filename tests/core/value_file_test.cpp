@@ -108,7 +108,8 @@ TEST_CASE("a column of a CSV file goes by name or number") {
   CHECK(values_in("\"say \"\"a, b\"\"\",\"two\nlines\"\n1,2\n3,4\n", "t.csv", "say \"a, b\"") ==
         Values{1, 3});
   CHECK(parse_value_file("a,\"two\nlines\"\n1,2\n3,4\n", "t.csv", "a").place(1) == "line 4");
-  CHECK(values_in("2,1\n5,6\n7,8\n", "t.csv", "1") == Values{5, 7});  // a name before a number
+  CHECK(values_in("2,1\n5,6\n7,8\n", "t.csv", "1") == Values{2, 5, 7});  // numbers are no names
+  CHECK(values_in("2,a\n5,6\n7,8\n", "t.csv", "2") == Values{5, 7});
 }
 
 TEST_CASE("CSV files that are damaged or leave a choice are refused") {
