@@ -38,7 +38,7 @@ const Format* find_format(const std::filesystem::path& path) {
   return find_extension(content_extension(path));
 }
 
-/// " (…): name it .obj or use --format obj" of a kind that is read; "" of others.
+/// ": name it .obj or use --format obj" of a kind that is read; "" of others.
 std::string remedy_for(std::string_view kind) {
   const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
   if (format == kFormats.end()) return "";
@@ -51,11 +51,14 @@ std::string remedy_for(std::string_view kind) {
                                const BadInput& error) {
   const std::string_view kind = file_kind(content);
   if (kind.empty() || kind == format.kind) throw error;
-  const std::string head = "cannot read \"" + name + "\": ";
-  std::string text = error.what();
-  if (text.starts_with(head)) text.erase(0, head.size());
-  fail_reading(name, "it is " + std::string(kind) + ", though read as " + std::string(format.extension) +
-                         " (" + text + ")" + remedy_for(kind));
+  const std::string remedy = remedy_for(kind);
+  std::string what = "it is " + std::string(kind) + ", though read as " + std::string(format.extension);
+  if (!remedy.empty()) {  // which a reader may know better
+    const std::string head = "cannot read \"" + name + "\": ";
+    const std::string text = error.what();
+    what += " (" + (text.starts_with(head) ? text.substr(head.size()) : text) + ")" + remedy;
+  }
+  fail_reading(name, what);
 }
 
 /// Why a file's name does not say how to read it.

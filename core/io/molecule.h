@@ -81,7 +81,7 @@ struct Molecule {
 /// (MORSEL_WITH_MOLECULES=OFF); `what` needs them ("atomic-density").
 void require_molecules(std::string_view what);
 
-/// Reads a .pdb or .ent, or a .cif or .mmcif file (by extension, any case; not compressed ones), by gemmi. Of
+/// Reads a .pdb or .ent, or a .cif or .mmcif file (by extension, any case; compressed ones, too), by gemmi. Of
 /// an mmCIF file, the first block with atoms counts.
 ///
 /// Throws BadInput, naming the file and, where there is one, line or row, if it is missing, unreadable,

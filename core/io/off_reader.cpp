@@ -164,6 +164,7 @@ class OffLines {
         scanner_.fail("vertex " + std::to_string(v) + " has " + std::to_string(3 + more) +
                       " numbers, which is not what this kind of OFF file has on the line of a vertex");
       has_lines_ = true;
+      if (v == 0) has_undeclared_color_ = plain && color > 0;
     }
   }
 
@@ -182,9 +183,15 @@ class OffLines {
     }
   }
 
-  /// Whether a line was read of what was being read last, vertices or faces: an error is then that of a file
-  /// of lines.
-  bool has_lines() const { return has_lines_; }
+  /// Whether the file seems to have a line for each vertex and face, though there is an error: a line was
+  /// read of what was being read last, vertices or faces. What may be the colour of the first vertex may be
+  /// the second vertex, too; then there are lines enough. `start` is at the end of the header.
+  bool has_lines(TextScanner start) const {
+    if (!has_lines_ || !has_undeclared_color_) return has_lines_;
+    std::uint64_t lines = 0;
+    while (start.next_line()) ++lines;
+    return lines >= header_.vertices + header_.faces;
+  }
   PolygonSoup take() { return std::move(result_.soup); }
 
  private:
@@ -192,6 +199,7 @@ class OffLines {
   const OffHeader& header_;
   LoadedSoup result_;
   bool has_lines_ = false;
+  bool has_undeclared_color_ = false;  // the first vertex
 };
 
 /// Reads what follows the header where numbers may be on any lines.
@@ -348,7 +356,7 @@ LoadedSoup read_off(std::string_view bytes, const std::string& file, const Progr
     return result;
   } catch (const BadInput&) {
     // A file of lines has the error of its lines; one without has that of its numbers.
-    const bool has_lines = lines.has_lines();
+    const bool has_lines = lines.has_lines(scanner);
     try {
       return {.soup = read_numbers(scanner, header), .properties = {}};
     } catch (const BadInput&) {

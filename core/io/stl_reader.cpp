@@ -109,7 +109,7 @@ class TextReader {
       const std::string_view word = scanner_.word_on_any_line();
       if (word.empty()) {
         if (inside) scanner_.fail_at_end("before its endsolid");
-        add_left_out(result_.warnings, other_lines, "line", "an endsolid and no solid");
+        add_left_out(result_.warnings, other_lines, "line", "an endsolid");
         return std::move(result_);
       }
       if (!inside && is_keyword(word, "solid")) {

@@ -53,7 +53,6 @@ std::vector<CorpusFile> whole_files() {
                                        "whole_with_decimals.ply",
                                        "face_values.ply",
                                        "glued_backslash.obj",
-                                       "utf16_little.off",
                                        "gzip.off.gz",
                                        "xz.OFF.XZ",
                                        "zstd.ply.zst"};
