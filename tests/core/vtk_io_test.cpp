@@ -145,3 +145,34 @@ TEST_CASE("pieces of a VTP file are joined, and arrays that are not in all of th
   CHECK(loaded.warnings ==
         std::vector<std::string>{"the array \"b\" of its points is not in all pieces and was left out"});
 }
+
+TEST_CASE("very many arrays, pieces, attributes and levels of a VTK file take time in proportion") {
+  constexpr std::size_t kMany = 100'000;
+  const std::string start = "<VTKFile type=\"PolyData\"><PolyData>";
+  const std::string piece =
+      "<Points><DataArray type=\"Int8\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray></Points>"
+      "<Polys><DataArray type=\"Int8\" Name=\"connectivity\">0 1 2</DataArray>"
+      "<DataArray type=\"Int8\" Name=\"offsets\">3</DataArray></Polys></Piece>";
+  const std::string open = "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\">";
+  const std::string end = "</PolyData></VTKFile>";
+  const auto parsed_vtp = [](const std::string& text) {
+    return core::parse_polygon_soup(text, core::MeshFormat::vtp, "test.vtp");
+  };
+  std::string arrays = start + open + "<PointData>";
+  std::string pieces = start;
+  std::string attributes = kHead + std::string(kTriangle) + "POINT_DATA 3\n";
+  for (std::size_t i = 0; i < kMany; ++i) {
+    const std::string name = "a" + std::to_string(i);
+    arrays += "<DataArray type=\"Int8\" Name=\"" + name + "\">1 2 3</DataArray>";
+    pieces += open + piece;
+    attributes += "SCALARS " + name + " int\nLOOKUP_TABLE default\n1 2 3\n";
+  }
+  CHECK(parsed_vtp(arrays + "</PointData>" + piece + end).properties.size() == kMany);
+  CHECK(parsed_vtp(pieces + end).soup.polygon_count() == kMany);
+  CHECK(core::parse_polygon_soup(attributes, core::MeshFormat::vtk, "test.vtk").properties.size() == kMany);
+  std::string deep = start;
+  for (std::size_t i = 0; i < 10 * kMany; ++i) deep += "<a>";
+  CHECK_THROWS_WITH(parsed_vtp(deep), Catch::Contains("no whole XML document"));
+  for (std::size_t i = 0; i < 10 * kMany; ++i) deep += "</a>";
+  CHECK(parsed_vtp(deep + end).soup.polygon_count() == 0);
+}
