@@ -37,7 +37,14 @@ class BlockReader {
     const std::uint64_t length = word();
     if (length > stream_.room())
       fail("is said to have " + std::to_string(length) + " bytes, but the file is too short for them");
-    return bytes(length);
+    std::string result;
+    result.reserve(length);
+    constexpr std::uint64_t kPart = std::uint64_t{1} << 24;
+    for (std::uint64_t left = length; left > 0; left -= std::min(left, kPart)) {
+      progress_.throw_if_cancelled();
+      if (!stream_.read(std::min(left, kPart), result)) fail_short();
+    }
+    return result;
   }
 
   std::string inflated() {
@@ -136,7 +143,6 @@ bool ByteStream::read(std::size_t count, std::string& out) {
     text_.remove_prefix(count);
     return true;
   }
-  out.reserve(out.size() + count);
   while (count > 0) {
     if (pending_count_ == 0 && !next_group()) return false;
     const std::size_t some = std::min(count, pending_count_);
