@@ -25,7 +25,10 @@ struct Format {
 constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, "an OFF file", read_off},
                                                  {".obj", MeshFormat::obj, "an OBJ file", read_obj},
                                                  {".ply", MeshFormat::ply, "a PLY file", read_ply},
-                                                 {".stl", MeshFormat::stl, "an ASCII STL file", read_stl}});
+                                                 {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
+                                                 {".vtk", MeshFormat::vtk, "a legacy VTK file", read_vtk},
+                                                 {".vtp", MeshFormat::vtp, "a VTK XML file", read_vtk_xml},
+                                                 {".vtu", MeshFormat::vtu, "a VTK XML file", read_vtk_xml}});
 
 const Format* find_extension(std::string_view extension) {
   const auto* found = std::ranges::find(kFormats, extension, &Format::extension);

@@ -41,7 +41,7 @@ struct LoadedSoup {
   std::vector<std::string> warnings = {};            ///< what was read tolerantly, a sentence each
 };
 
-enum class MeshFormat { off, obj, ply, stl };
+enum class MeshFormat { off, obj, ply, stl, vtk, vtp, vtu };
 
 /// By the file's extension, any case; of a compressed file's name (.gz, .xz, .zst) by the one before. Throws
 /// BadInput, listing the known ones, if it is another one.

@@ -5,6 +5,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/io/decompression.h"
 #include "morsel/core/io/file_formats.h"
+#include "morsel/core/io/mesh_formats.h"
 
 namespace morsel::core {
 
@@ -12,12 +13,17 @@ void require_formats(std::string_view what) {
   throw InvalidArgument("this morsel was built without the kinds of files that libraries read, which " +
                         std::string(what) +
                         " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
-                        "packages zlib1g-dev, liblzma-dev and libzstd-dev are needed");
+                        "packages zlib1g-dev, liblzma-dev, libzstd-dev and libpugixml-dev are needed");
 }
 
 GrowingBytes decompress(std::string_view, Compression, const std::string& file, const Progress&,
                         const DecompressionLimit&) {
   require_formats("the compressed file \"" + file + "\"");
+  return {};
+}
+
+LoadedSoup read_vtk_xml(std::string_view, const std::string&, const Progress&) {
+  require_formats("a VTP or VTU file");
   return {};
 }
 

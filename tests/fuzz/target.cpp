@@ -9,6 +9,8 @@ std::span<const Target> targets() {
                                                {"obj", "meshes", ".obj", obj},
                                                {"ply", "meshes", ".ply", ply},
                                                {"stl", "meshes", ".stl", stl},
+                                               {"vtk", "meshes", ".vtk", vtk},
+                                               {"vtp", "meshes", ".vtp", vtp},
                                                {"compressed", "compressed", "", compressed},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
