@@ -20,9 +20,10 @@ persistence diagrams, Morse-Smale complexes, hierarchies, segments, cuts and qua
 # What its headers and libraries are used with.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmorsel-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev, libboost-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libeigen3-dev, libtbb-dev, libboost-dev, zlib1g-dev, liblzma-dev, libzstd-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
-    "nlohmann-json3-dev, libssl-dev, libopenvdb-dev, libembree-dev, libpng-dev, libcairo2-dev, zlib1g-dev")
+    "nlohmann-json3-dev, libssl-dev, libopenvdb-dev, libembree-dev, libpng-dev, libcairo2-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "critical points of scalar fields on triangle meshes (development)
 The C++20 library of the program morsel: static libraries, headers, the CMake package and pkg-config files.

@@ -19,8 +19,7 @@ constexpr std::size_t kMagic = 3;
 constexpr std::size_t kMorphometryHeader = kMagic + 12;
 
 bool begins_with(std::string_view bytes, FreeSurferMagic magic) {
-  return bytes.size() >= kMagic &&
-         BigEndianReader(bytes).unsigned24() == static_cast<std::uint32_t>(magic);
+  return bytes.size() >= kMagic && BigEndianReader(bytes).unsigned24() == static_cast<std::uint32_t>(magic);
 }
 
 /// The sizes of a file's parts, of which the counts are still to be compared with its length.
@@ -167,9 +166,9 @@ bool is_freesurfer_surface(std::string_view bytes) {
 }
 
 bool is_named_like_freesurfer_surface(const std::filesystem::path& path) {
-  constexpr auto kSurfaces = std::to_array<std::string_view>(
-      {"white", "pial", "orig", "smoothwm", "inflated", "sphere", "qsphere", "midthickness", "graymid",
-       "pial-outer-smoothed", "pial_semi_inflated"});
+  constexpr auto kSurfaces = std::to_array<std::string_view>({"white", "pial", "orig", "smoothwm", "inflated",
+                                                              "sphere", "qsphere", "midthickness", "graymid",
+                                                              "pial-outer-smoothed", "pial_semi_inflated"});
   constexpr auto kSuffixes = std::to_array<std::string_view>(
       {"reg", "nofix", "premesh", "preaparc", "deformed", "left_right", "T1", "T2", "FLAIR"});
   const std::string name = path.filename().string();

@@ -27,17 +27,17 @@ constexpr std::string_view kPoints = "NIFTI_INTENT_POINTSET";
 constexpr std::string_view kTriangles = "NIFTI_INTENT_TRIANGLE";
 
 std::optional<NumberType> number_type(std::string_view name) {
-  constexpr auto kTypes = std::to_array<std::pair<std::string_view, NumberType>>(
-      {{"NIFTI_TYPE_UINT8", NumberType::uint8},
-       {"NIFTI_TYPE_INT32", NumberType::int32},
-       {"NIFTI_TYPE_FLOAT32", NumberType::float32},
-       {"NIFTI_TYPE_INT8", NumberType::int8},
-       {"NIFTI_TYPE_INT16", NumberType::int16},
-       {"NIFTI_TYPE_UINT16", NumberType::uint16},
-       {"NIFTI_TYPE_UINT32", NumberType::uint32},
-       {"NIFTI_TYPE_INT64", NumberType::int64},
-       {"NIFTI_TYPE_UINT64", NumberType::uint64},
-       {"NIFTI_TYPE_FLOAT64", NumberType::float64}});
+  constexpr auto kTypes =
+      std::to_array<std::pair<std::string_view, NumberType>>({{"NIFTI_TYPE_UINT8", NumberType::uint8},
+                                                              {"NIFTI_TYPE_INT32", NumberType::int32},
+                                                              {"NIFTI_TYPE_FLOAT32", NumberType::float32},
+                                                              {"NIFTI_TYPE_INT8", NumberType::int8},
+                                                              {"NIFTI_TYPE_INT16", NumberType::int16},
+                                                              {"NIFTI_TYPE_UINT16", NumberType::uint16},
+                                                              {"NIFTI_TYPE_UINT32", NumberType::uint32},
+                                                              {"NIFTI_TYPE_INT64", NumberType::int64},
+                                                              {"NIFTI_TYPE_UINT64", NumberType::uint64},
+                                                              {"NIFTI_TYPE_FLOAT64", NumberType::float64}});
   const auto* found = std::ranges::find(kTypes, name, &std::pair<std::string_view, NumberType>::first);
   return found == kTypes.end() ? std::nullopt : std::optional(found->second);
 }
@@ -156,8 +156,8 @@ GiftiFile::GiftiFile(std::string_view bytes, const std::string& file, const Prog
     for (int axis = 1; axis < static_cast<int>(*dimensions); ++axis) {
       const std::uint64_t size = dimension(axis);
       if (size != 0 && array.columns > std::numeric_limits<std::uint32_t>::max() / size)
-        fail_reading(file, "data array " + std::to_string(document_->arrays.size()) +
-                               " is larger than any file");
+        fail_reading(file,
+                     "data array " + std::to_string(document_->arrays.size()) + " is larger than any file");
       array.columns *= size;
     }
     arrays_.push_back(std::move(array));
@@ -215,8 +215,8 @@ std::vector<double> GiftiFile::values(std::size_t i) const {
     throw BadInput(what + "its encoding " + shown(encoding) +
                    " is none of ASCII, Base64Binary and GZipBase64Binary");
   }
-  if (array.columns < 2 || std::string_view(node.attribute("ArrayIndexingOrder").value()) !=
-                               "ColumnMajorOrder")
+  if (array.columns < 2 ||
+      std::string_view(node.attribute("ArrayIndexingOrder").value()) != "ColumnMajorOrder")
     return numbers;
   std::vector<double> by_row(numbers.size());
   for (std::uint64_t row = 0; row < array.rows; ++row)

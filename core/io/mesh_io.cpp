@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_kind.h"
+#include "morsel/core/io/freesurfer.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
@@ -17,21 +20,86 @@ namespace {
 struct Format {
   std::string_view extension;
   MeshFormat format;
+  std::string_view kind;  ///< as file_kind() names it
   LoadedSoup (*read)(std::string_view bytes, const std::string& file, const Progress& progress);
 };
-constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, read_off},
-                                                 {".obj", MeshFormat::obj, read_obj},
-                                                 {".ply", MeshFormat::ply, read_ply},
-                                                 {".stl", MeshFormat::stl, read_stl}});
+/// FreeSurfer's files have no extension; in its place is what lists of extensions say of them.
+constexpr std::string_view kFreeSurfer = "FreeSurfer's lh.pial";
+constexpr auto kFormats =
+    std::to_array<Format>({{".off", MeshFormat::off, "an OFF file", read_off},
+                           {".obj", MeshFormat::obj, "an OBJ file", read_obj},
+                           {".ply", MeshFormat::ply, "a PLY file", read_ply},
+                           {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
+                           {".gii", MeshFormat::gifti, "a GIFTI file", read_gifti},
+                           {kFreeSurfer, MeshFormat::freesurfer, "a FreeSurfer surface", read_freesurfer}});
 
-const Format* find_format(const std::filesystem::path& path) {
-  const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);
+const Format* find_extension(std::string_view extension) {
+  const auto* found = std::ranges::find(kFormats, extension, &Format::extension);
   return found == kFormats.end() ? nullptr : found;
+}
+/// As --format takes it.
+std::string_view name_of(const Format& format) {
+  return format.format == MeshFormat::freesurfer ? "freesurfer" : format.extension.substr(1);
+}
+/// The name without an extension of a compression.
+std::filesystem::path content_name(const std::filesystem::path& path) {
+  return content_extension(path) == file_extension(path) ? path.filename() : path.stem();
+}
+const Format* find_format(const std::filesystem::path& path) {
+  if (const Format* found = find_extension(content_extension(path))) return found;
+  return find_extension(is_named_like_freesurfer_surface(content_name(path)) ? kFreeSurfer : "");
+}
+
+/// Whether a GIFTI file has values for the vertices of another file, by the extensions of the standard.
+bool has_extension_of_values(const std::filesystem::path& path) {
+  constexpr auto kValues = std::to_array<std::string_view>(
+      {".shape", ".func", ".label", ".time", ".rgba", ".tensor", ".vector", ".dset", ".coord", ".topo"});
+  const std::filesystem::path name = content_name(path);
+  return file_extension(name) == ".gii" &&
+         std::ranges::find(kValues, file_extension(name.stem())) != kValues.end();
+}
+
+/// " (…): name it .obj or use --format obj" of a kind that is read; "" of others.
+std::string remedy_for(std::string_view kind) {
+  const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
+  if (format == kFormats.end()) return "";
+  return ": name it " + std::string(format->extension) + " or use --format " + std::string(name_of(*format));
+}
+
+/// Throws what the reader of `format` says of a file, with what the file is if that is another kind.
+[[noreturn]] void fail_by_kind(std::string_view content, const Format& format, const std::string& name,
+                               const BadInput& error) {
+  const std::string_view kind = file_kind(content);
+  if (kind.empty() || kind == format.kind) throw error;
+  const std::string head = "cannot read \"" + name + "\": ";
+  std::string text = error.what();
+  if (text.starts_with(head)) text.erase(0, head.size());
+  fail_reading(name, "it is " + std::string(kind) + ", though read as " + std::string(format.extension) +
+                         " (" + text + ")" + remedy_for(kind));
+}
+
+/// Why a file's name does not say how to read it.
+std::string unknown_extension(const std::filesystem::path& path) {
+  const std::string extension = content_extension(path);
+  return extension.empty() ? "its name has no extension: use " + mesh_extensions()
+                           : "meshes are read from " + mesh_extensions(" and ") + " files, not " + extension;
 }
 
 }  // namespace
 
-bool has_mesh_extension(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+bool has_mesh_extension(const std::filesystem::path& path) {
+  return find_format(path) != nullptr && !has_extension_of_values(path);
+}
+
+std::optional<MeshFormat> recognised_format(const std::filesystem::path& path) {
+  if (find_format(path) != nullptr) return std::nullopt;
+  try {
+    const FileBytes bytes(path, path.string());
+    if (is_freesurfer_surface(bytes.view())) return MeshFormat::freesurfer;
+  } catch (const BadInput&) {  // reading it as a mesh says why
+  }
+  return std::nullopt;
+}
 
 std::string mesh_extensions(std::string_view last) {
   std::vector<std::string> names(kFormats.size());
@@ -41,10 +109,20 @@ std::string mesh_extensions(std::string_view last) {
 
 MeshFormat mesh_format(const std::filesystem::path& path) {
   if (const Format* found = find_format(path)) return found->format;
-  const std::string extension = file_extension(path);
-  fail_reading(path.string(), extension.empty() ? "its name has no extension: use " + mesh_extensions()
-                                                : "meshes are read from " + mesh_extensions(" and ") +
-                                                      " files, not " + extension);
+  fail_reading(path.string(), unknown_extension(path));
+}
+
+std::vector<std::string> mesh_format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) names.emplace_back(name_of(format));
+  return names;
+}
+
+MeshFormat mesh_format_named(std::string_view name) {
+  const auto* found = std::ranges::find(kFormats, name, name_of);
+  if (found != kFormats.end()) return found->format;
+  throw InvalidArgument("there is no mesh format " + shown(name) + ", only " +
+                        listed(mesh_format_names(), " and "));
 }
 
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
@@ -53,14 +131,31 @@ LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const s
   if (found == kFormats.end())
     throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
   progress.update("reading the mesh", 0);
-  return found->read(bytes, name, progress);
+  const DecodedBytes decoded(bytes, name, progress);
+  std::string_view content = decoded.view();
+  std::string converted;
+  const bool is_converted = is_utf16(content);
+  if (is_converted) content = converted = utf8_of_utf16(content, name);
+  try {
+    LoadedSoup soup = found->read(content, name, progress);
+    if (is_converted) soup.warnings.insert(soup.warnings.begin(), kUtf16Warning);
+    return soup;
+  } catch (const BadInput& error) {
+    fail_by_kind(content, *found, name, error);
+  }
 }
 
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress) {
   const std::string name = path.string();
   // A missing file is reported as such, whatever its extension.
   const FileBytes bytes(path, name);
-  return parse_polygon_soup(bytes.view(), mesh_format(path), name, progress);
+  if (const Format* format = find_format(path))
+    return parse_polygon_soup(bytes.view(), format->format, name, progress);
+  if (is_freesurfer_surface(bytes.view()))
+    return parse_polygon_soup(bytes.view(), MeshFormat::freesurfer, name, progress);
+  const std::string_view kind = file_kind(bytes.view());
+  fail_reading(name, unknown_extension(path) +
+                         (kind.empty() ? "" : "; it is " + std::string(kind) + remedy_for(kind)));
 }
 
 namespace {

@@ -8,8 +8,8 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/atom_records.h"
-#include "morsel/core/io/file_bytes.h"
-#include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/file_content.h"
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -19,14 +19,24 @@ constexpr std::array<const char*, 3> kHeteroNames = {"none", "residues", "all"};
 
 AtomRecords read_records(const std::filesystem::path& path, const Progress& progress) {
   const std::string name = path.string();
-  const FileBytes bytes(path, name);
-  const std::string extension = file_extension(path);
-  if (extension == ".pdb" || extension == ".ent") return read_pdb(bytes.view(), name, progress);
-  if (extension == ".cif" || extension == ".mmcif") return read_mmcif(bytes.view(), name, progress);
-  fail_reading(name, "molecules are read from .pdb, .ent, .cif and .mmcif files, not " +
-                         (extension.empty()    ? "from one without an extension"
-                          : extension == ".gz" ? std::string("from compressed ones: decompress it first")
-                                               : "from " + extension));
+  const TextContent content(path, name, progress);
+  const std::string extension = content_extension(path);
+  const bool pdb = extension == ".pdb" || extension == ".ent";
+  if (!pdb && extension != ".cif" && extension != ".mmcif")
+    fail_reading(name, "molecules are read from .pdb, .ent, .cif and .mmcif files, not " +
+                           (extension.empty() ? "from one without an extension" : "from " + extension));
+  const std::string_view kind = file_kind(content.view());
+  const bool other = !kind.empty() && kind != (pdb ? "a PDB file" : "a CIF file");
+  const std::string read_as = ", though read as " + extension;
+  AtomRecords all;
+  try {
+    all = pdb ? read_pdb(content.view(), name, progress) : read_mmcif(content.view(), name, progress);
+  } catch (const BadInput& error) {
+    if (other) throw BadInput(std::string(error.what()) + " (it is " + std::string(kind) + read_as + ")");
+    throw;
+  }
+  if (other && all.records.empty()) fail_reading(name, "it is " + std::string(kind) + read_as);
+  return all;
 }
 
 /// Chains in the order of the file, each once.

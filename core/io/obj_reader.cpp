@@ -114,7 +114,7 @@ class ObjReader {
     for (;; scanner_.skip()) {
       const char c = scanner_.peek();
       if (c == '/' ? ++slashes <= 2 : slashes > 0 && ((c >= '0' && c <= '9') || c == '-')) continue;
-      if (c == '\0' || c == ' ' || c == '\t' || c == '\r' || c == '#') return;
+      if (scanner_.at_word_end()) return;
       scanner_.fail("expected a corner such as 7 or 7/1/3, found " + shown(std::string_view(&c, 1)) +
                     " in it");
     }

@@ -94,7 +94,6 @@ class HeaderReader {
     property.is_list = word == "list";
     if (property.is_list) {
       property.count_type = type(scanner_.word());
-      if (!is_whole(property.count_type)) scanner_.fail("the length of a list must have a whole type");
       word = scanner_.word();
     }
     property.type = type(word);
@@ -130,14 +129,10 @@ void check_describes_mesh(const Header& header, const std::string& file) {
                          [&](const Property& p) { return !p.is_list && p.name == axis; }))
           fail_reading(file, std::string("its vertices have no property ") + axis);
     }
-    if (element.name == "face" && element.count > 0) {
-      const auto lists =
-          std::count_if(element.properties.begin(), element.properties.end(),
-                        [](const Property& p) { return is_corner_list(p) && is_whole(p.type); });
-      if (lists != 1) fail_reading(file, "its faces need one list of whole numbers called vertex_indices");
-    }
-    if (element.name == "tristrips" && element.count > 0)
-      fail_reading(file, "it holds triangle strips, which are not supported: export it as triangles");
+    if ((element.name == "face" || element.name == "tristrips") && element.count > 0 &&
+        std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) != 1)
+      fail_reading(file, (element.name == "face" ? "its faces need" : "its triangle strips need") +
+                             std::string(" one list of whole numbers called vertex_indices"));
   }
   if (!has_vertices) fail_reading(file, "its header declares no vertices");
 }

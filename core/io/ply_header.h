@@ -38,7 +38,9 @@ struct Element {
   std::uint64_t count = 0;
   std::vector<Property> properties;
 
-  std::string plural() const { return name == "vertex" ? "vertices" : name + "s"; }
+  std::string plural() const {
+    return name == "vertex" ? "vertices" : name.ends_with('s') ? name : name + "s";
+  }
 };
 
 enum class Encoding { ascii, little_endian, big_endian };

@@ -1,20 +1,25 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/io/oddities.h"
 #include "morsel/core/io/ply_header.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
 namespace ply {
 namespace {
+
+constexpr const char* kAnnounced = "the elements that its header announces";
 
 /// Values of a text body: one element a line.
 class TextBody {
@@ -27,14 +32,21 @@ class TextBody {
                     ", but the file is too short for them");
   }
   void begin(const Element& element, std::uint64_t i) {
+    element_ = &element;
     if (!scanner_.next_line())
       scanner_.fail_at_end("after " + std::to_string(i) + " of " + std::to_string(element.count) + " " +
                            element.plural());
   }
+  /// Which number of a vertex's line is which coordinate cannot be told where there are more than announced;
+  /// of other elements the first ones are those of the header: programs wrote such files.
   void end() {
-    if (!scanner_.at_line_end())
+    if (scanner_.at_line_end()) return;
+    if (element_->name == "vertex")
       scanner_.fail("the line has more numbers than the header's properties, from " + shown(scanner_.word()) +
                     " on");
+    while (!scanner_.at_line_end()) scanner_.number("a number");
+    if (longer_.empty() || longer_.back().name != element_->name) longer_.push_back({element_->name, 0});
+    ++longer_.back().lines;
   }
   double scalar(Type type) {
     if (type == Type::float64) return scanner_.number("a number");
@@ -42,7 +54,9 @@ class TextBody {
     return static_cast<double>(whole(type));
   }
   std::int64_t whole(Type type) {
-    const std::int64_t value = scanner_.integer("a whole number");
+    const auto [value, has_decimals] = scanner_.whole_number("a whole number");
+    if (has_decimals) ++with_decimals_;
+    if (!is_whole(type)) return value;
     const auto bits = static_cast<int>(8 * size_of(type));
     const bool is_signed = type == Type::int8 || type == Type::int16 || type == Type::int32;
     const std::int64_t low = is_signed ? -(std::int64_t{1} << (bits - 1)) : 0;
@@ -53,13 +67,30 @@ class TextBody {
   }
   void check_list(std::uint64_t, Type) {}
   void count_values(std::size_t) {}  // the scanner does
-  void finish() {
-    if (scanner_.next_line()) scanner_.fail("the file goes on after the elements that its header announces");
+  void finish(std::vector<std::string>& warnings) {
+    for (const Longer& element : longer_)
+      warnings.push_back(counted(element.lines, element.name + " line") +
+                         (element.lines == 1 ? " goes on" : " go on") +
+                         " after the header's properties; what follows there is left out");
+    if (with_decimals_ > 0)
+      warnings.push_back(counted(with_decimals_, "whole number") + (with_decimals_ == 1 ? " is" : " are") +
+                         " written with decimals, all of them 0");
+    std::uint64_t lines = 0;
+    while (scanner_.next_line()) ++lines;
+    add_left_out(warnings, lines, "line", kAnnounced);
   }
   [[noreturn]] void fail(const std::string& what) const { scanner_.fail(what); }
 
  private:
+  struct Longer {
+    std::string name;
+    std::uint64_t lines;
+  };
+
   TextScanner& scanner_;
+  const Element* element_ = nullptr;
+  std::vector<Longer> longer_;  // elements whose lines are longer than they should be
+  std::uint64_t with_decimals_ = 0;
 };
 
 constexpr std::size_t kPause = 1 << 16;  // values between two reports of progress
@@ -110,8 +141,10 @@ class BinaryBody {
         return load<std::uint16_t>();
       case Type::int32:
         return load<std::int32_t>();
-      default:
+      case Type::uint32:
         return load<std::uint32_t>();
+      default:
+        return whole_of_float(type);
     }
   }
   void check_list(std::uint64_t count, Type type) {
@@ -124,10 +157,9 @@ class BinaryBody {
     values_ = 0;
     progress_.update("reading the mesh", static_cast<double>(number_) / static_cast<double>(element_->count));
   }
-  void finish() {
+  void finish(std::vector<std::string>& warnings) {
     const bool blank = std::all_of(cursor_, end_, [](char c) { return c == '\n' || c == '\r' || c == ' '; });
-    if (!blank)
-      fail_reading(file_, std::to_string(room()) + " bytes follow the elements that its header announces");
+    if (!blank) add_left_out(warnings, room(), "byte", kAnnounced);
   }
   [[noreturn]] void fail(const std::string& what) const { fail_reading(file_, place() + ": " + what); }
 
@@ -136,6 +168,13 @@ class BinaryBody {
   std::string place() const { return element_->name + " " + std::to_string(number_); }
   [[noreturn]] void fail_too_short() const {
     fail_reading(file_, "it ends within " + place() + " of " + std::to_string(element_->count));
+  }
+
+  std::int64_t whole_of_float(Type type) {
+    const double value = scalar(type);
+    if (!(std::abs(value) < 0x1p53) || std::trunc(value) != value)
+      fail("expected a whole number, found " + shortest(value));
+    return static_cast<std::int64_t>(value);
   }
 
   template <class T>
@@ -171,14 +210,26 @@ class BodyReader {
         read_vertices(element);
       else if (element.name == "face")
         read_faces(element);
+      else if (element.name == "tristrips")
+        read_strips(element);
       else
         skip(element);
     }
-    body_.finish();
+    warn_of_floating_point();
+    body_.finish(result_.warnings);
     return std::move(result_);
   }
 
  private:
+  void warn_of_floating_point() {
+    for (const Element& element : header_.elements)
+      for (const Property& p : element.properties)
+        if (element.count > 0 && (element.name == "face" || element.name == "tristrips") &&
+            is_corner_list(p) && !(is_whole(p.type) && is_whole(p.count_type)))
+          result_.warnings.push_back("the corners of its " + element.plural() +
+                                     " are declared as floating-point numbers");
+  }
+
   void skip(const Property& property) {
     if (!property.is_list) {
       body_.scalar(property.type);
@@ -240,29 +291,78 @@ class BodyReader {
 
   void read_faces(const Element& element) {
     PolygonSoup& soup = result_.soup;
-    soup.offsets.reserve(element.count + 1);
-    soup.corners.reserve(3 * element.count);
+    soup.offsets.reserve(soup.offsets.size() + element.count);
+    soup.corners.reserve(soup.corners.size() + 3 * element.count);
+    std::vector<VertexProperty> properties;  // of polygons, those of strips before them included
+    for (const Property& p : element.properties)
+      if (!p.is_list) {
+        properties.push_back({p.name, std::vector<double>(soup.polygon_count(), kNoValue)});
+        properties.back().values.reserve(soup.polygon_count() + element.count);
+      }
     const std::uint64_t vertices = vertex_count();
     for (std::uint64_t f = 0; f < element.count; ++f) {
       body_.begin(element, f);
+      auto property = properties.begin();
       for (const Property& p : element.properties) {
+        if (!p.is_list) {
+          (property++)->values.push_back(body_.scalar(p.type));
+          continue;
+        }
         if (!is_corner_list(p)) {
           skip(p);
           continue;
         }
         const std::uint64_t corners = list_length(p);
         for (std::uint64_t i = 0; i < corners; ++i) {
-          const std::int64_t v = body_.whole(p.type);
-          if (v < 0 || static_cast<std::uint64_t>(v) >= vertices)
-            body_.fail("a face names vertex " + std::to_string(v) + ", but there are only " +
-                       std::to_string(vertices) + " vertices, numbered from 0");
-          soup.corners.push_back(static_cast<Index>(v));
+          soup.corners.push_back(corner(body_.whole(p.type), vertices, "a face"));
           body_.count_values(1);
         }
       }
       soup.offsets.push_back(soup.corners.size());
       body_.end();
     }
+    result_.face_properties = std::move(properties);
+  }
+
+  /// Each three consecutive vertices are a triangle, every second one turned round; −1 begins a new strip.
+  /// Triangles with a repeated vertex only join strips and are skipped.
+  void read_strips(const Element& element) {
+    const std::uint64_t vertices = vertex_count();
+    for (std::uint64_t s = 0; s < element.count; ++s) {
+      body_.begin(element, s);
+      for (const Property& p : element.properties) {
+        if (!is_corner_list(p)) {
+          skip(p);
+          continue;
+        }
+        const std::uint64_t length = list_length(p);
+        std::size_t in_strip = 0;
+        std::array<Index, 2> before{};  // the last two vertices
+        for (std::uint64_t i = 0; i < length; ++i) {
+          const std::int64_t number = body_.whole(p.type);
+          body_.count_values(1);
+          if (number == -1) {
+            in_strip = 0;
+            continue;
+          }
+          const Index v = corner(number, vertices, "a triangle strip");
+          if (in_strip >= 2 && before[0] != before[1] && before[0] != v && before[1] != v)
+            result_.soup.add_polygon(in_strip % 2 == 0 ? std::array{before[0], before[1], v}
+                                                       : std::array{before[1], before[0], v});
+          before = {before[1], v};
+          ++in_strip;
+        }
+      }
+      body_.end();
+    }
+    for (VertexProperty& p : result_.face_properties) p.values.resize(result_.soup.polygon_count(), kNoValue);
+  }
+
+  Index corner(std::int64_t v, std::uint64_t vertices, const char* of) const {
+    if (v < 0 || static_cast<std::uint64_t>(v) >= vertices)
+      body_.fail(std::string(of) + " names vertex " + std::to_string(v) + ", but there are only " +
+                 std::to_string(vertices) + " vertices, numbered from 0");
+    return static_cast<Index>(v);
   }
 
   std::uint64_t vertex_count() const {
@@ -270,6 +370,9 @@ class BodyReader {
       if (element.name == "vertex") return element.count;
     return 0;
   }
+
+  /// Of a face property, at triangles of strips.
+  static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
   const Header& header_;
   Body body_;

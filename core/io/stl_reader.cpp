@@ -3,8 +3,11 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/io/oddities.h"
 #include "morsel/core/parallel/hash_index.h"
 #include "morsel/core/text/text_scanner.h"
 
@@ -66,9 +69,9 @@ std::uint32_t little_endian(const char* bytes) {
   return value;
 }
 
-LoadedSoup read_binary(std::string_view bytes, const Progress& progress) {
+/// `bytes` hold at least `count` triangles.
+LoadedSoup read_binary(std::string_view bytes, std::size_t count, const Progress& progress) {
   LoadedSoup result;
-  const std::size_t count = little_endian(bytes.data() + 80);
   result.soup.offsets.reserve(count + 1);
   result.soup.corners.reserve(3 * count);
   result.soup.positions.reserve(count / 2);
@@ -100,21 +103,27 @@ class TextReader {
         welder_(result_.soup.positions) {}
 
   LoadedSoup read() {
-    bool inside = false;
+    bool inside = false, began = false;
+    std::uint64_t other_lines = 0;
     for (;;) {
       const std::string_view word = scanner_.word_on_any_line();
       if (word.empty()) {
         if (inside) scanner_.fail_at_end("before its endsolid");
+        add_left_out(result_.warnings, other_lines, "line", "an endsolid and no solid");
         return std::move(result_);
       }
       if (!inside && is_keyword(word, "solid")) {
         skip_name();
         inside = true;
+        began = true;
       } else if (inside && is_keyword(word, "endsolid")) {
         skip_name();
         inside = false;
       } else if (inside && is_keyword(word, "facet")) {
         read_facet();
+      } else if (!inside && began) {  // text behind a solid
+        skip_name();
+        ++other_lines;
       } else {
         scanner_.fail(std::string("expected ") + (inside ? "facet or endsolid" : "solid") + ", found " +
                       shown(word));
@@ -158,6 +167,32 @@ class TextReader {
   Welder welder_;
 };
 
+LoadedSoup read_triangles(std::string_view bytes, std::uint64_t count, const std::string& file,
+                          const Progress& progress) {
+  if (count >= (kNone - 1) / 3) fail_reading(file, "it has more triangles than can be numbered");
+  return read_binary(bytes, count, progress);
+}
+
+/// A binary file that is longer than its header announces: with bytes behind the triangles, or with 0 for
+/// their number, as programs that stream triangles leave it. As any bytes would do for triangles, those of
+/// files of other kinds or with coordinates that are not finite are not taken for them: nothing is returned.
+std::optional<LoadedSoup> read_with_wrong_count(std::string_view bytes, std::uint64_t announced,
+                                                const std::string& file, const Progress& progress) {
+  if (!file_kind(bytes).empty()) return std::nullopt;
+  const std::size_t room = bytes.size() - kHeader;
+  if (announced == 0 && room % kRecord != 0) return std::nullopt;
+  LoadedSoup result = read_triangles(bytes, announced == 0 ? room / kRecord : announced, file, progress);
+  if (!std::ranges::all_of(result.soup.positions, [](const Point& p) { return p.allFinite(); }))
+    return std::nullopt;
+  if (announced == 0)
+    result.warnings.push_back("its header announces 0 triangles, but it has " +
+                              counted(result.soup.polygon_count(), "triangle") + ", which are read");
+  else
+    add_left_out(result.warnings, room - kRecord * announced, "byte",
+                 "the " + counted(announced, "triangle") + " that its header announces");
+  return result;
+}
+
 }  // namespace
 
 LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progress& progress) {
@@ -165,10 +200,8 @@ LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progr
   // Many binary files begin with "solid" too, but no text has the size that bytes 80 to 83 would ask for.
   const bool has_header = bytes.size() >= kHeader;
   const std::uint64_t announced = has_header ? little_endian(bytes.data() + 80) : 0;
-  if (has_header && bytes.size() == kHeader + kRecord * announced) {
-    if (announced >= (kNone - 1) / 3) fail_reading(file, "it has more triangles than can be numbered");
-    return read_binary(bytes, progress);
-  }
+  const std::uint64_t expected = kHeader + kRecord * announced;
+  if (has_header && bytes.size() == expected) return read_triangles(bytes, announced, file, progress);
   std::string_view text = bytes;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // a byte-order mark
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n\v\f"), text.size()));
@@ -176,9 +209,11 @@ LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progr
   if (is_text && is_keyword(text.substr(0, 5), "solid")) return TextReader(bytes, file, progress).read();
   if (!has_header)
     fail_reading(file, "it is neither an ASCII STL file (solid …) nor long enough for a binary one");
+  if (bytes.size() > expected && !is_text)
+    if (auto soup = read_with_wrong_count(bytes, announced, file, progress)) return std::move(*soup);
   fail_reading(file, "as a binary STL file it announces " + std::to_string(announced) +
-                         " triangles, which take " + std::to_string(kHeader + kRecord * announced) +
-                         " bytes, but it has " + std::to_string(bytes.size()));
+                         " triangles, which take " + std::to_string(expected) + " bytes, but it has " +
+                         std::to_string(bytes.size()));
 }
 
 }  // namespace morsel::core

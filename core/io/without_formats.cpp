@@ -3,14 +3,28 @@
 #include <string>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/decompression.h"
 #include "morsel/core/io/file_formats.h"
+#include "morsel/core/io/mesh_formats.h"
 
 namespace morsel::core {
 
 void require_formats(std::string_view what) {
   throw InvalidArgument("this morsel was built without the kinds of files that libraries read, which " +
-                        std::string(what) + " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
-                        "package zlib1g-dev is needed");
+                        std::string(what) +
+                        " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
+                        "packages zlib1g-dev, liblzma-dev, libzstd-dev and libpugixml-dev are needed");
+}
+
+LoadedSoup read_gifti(std::string_view, const std::string& file, const Progress&) {
+  require_formats("the GIFTI file \"" + file + "\"");
+  return {};
+}
+
+GrowingBytes decompress(std::string_view, Compression, const std::string& file, const Progress&,
+                        const DecompressionLimit&) {
+  require_formats("the compressed file \"" + file + "\"");
+  return {};
 }
 
 }  // namespace morsel::core

@@ -35,8 +35,8 @@ bool is_float(NumberType type) { return type == NumberType::float32 || type == N
 /// The range of a type of whole numbers.
 std::pair<double, double> range_of(NumberType type) {
   const auto bits = static_cast<int>(8 * size_of(type));
-  const bool is_signed = type == NumberType::int8 || type == NumberType::int16 ||
-                         type == NumberType::int32 || type == NumberType::int64;
+  const bool is_signed = type == NumberType::int8 || type == NumberType::int16 || type == NumberType::int32 ||
+                         type == NumberType::int64;
   return is_signed ? std::pair(-std::ldexp(1, bits - 1), std::ldexp(1, bits - 1) - 1)
                    : std::pair(0.0, std::ldexp(1, bits) - 1);
 }

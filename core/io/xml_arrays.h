@@ -27,8 +27,8 @@ std::vector<double> binary_numbers(std::string_view bytes, NumberType type, std:
                                    std::uint64_t count);
 
 /// The `size` bytes that are compressed in `bytes` (zlib's format or gzip's). Memory grows with what comes
-/// out, and no further than `size`. Throws BadInput, which begins with `what`, if they are damaged, or more or
-/// fewer than that.
+/// out, and no further than `size`. Throws BadInput, which begins with `what`, if they are damaged, or more
+/// or fewer than that.
 std::string inflated(std::string_view bytes, std::uint64_t size, const std::string& what,
                      const Progress& progress);
 

@@ -102,18 +102,27 @@ bool TextScanner::at_line_end() {
       cursor_ = line_end_;
       return true;
     }
-    if (!syntax_.continuation || *cursor_ != '\\') return false;
-    const char* after = cursor_ + 1;
-    while (after < line_end_ && is_blank(*after)) ++after;
-    if (after != line_end_) return false;
+    if (!is_continuation(cursor_)) return false;
     cursor_ = line_end_;
     if (!next_raw_line()) return true;
   }
 }
 
+bool TextScanner::is_continuation(const char* c) const {
+  if (!syntax_.continuation || c == line_end_ || *c != '\\') return false;
+  for (++c; c < line_end_; ++c)
+    if (!is_blank(*c)) return false;
+  return true;
+}
+
+bool TextScanner::ends_word(const char* c) const {
+  return c == line_end_ || is_blank(*c) || (*c == syntax_.comment && syntax_.comment != 0) ||
+         is_continuation(c);
+}
+
 std::string_view TextScanner::peek_word() const {
   const char* end = cursor_;
-  while (end < line_end_ && !is_blank(*end) && (*end != syntax_.comment || syntax_.comment == 0)) ++end;
+  while (!ends_word(end)) ++end;
   return {cursor_, static_cast<std::size_t>(end - cursor_)};
 }
 
@@ -137,8 +146,7 @@ double TextScanner::parse(std::string_view what) {
   if (*start == '+' && start + 1 < line_end_ && start[1] != '-') ++start;
   Float value = 0;
   const auto [stop, error] = std::from_chars(start, line_end_, value);
-  const bool whole_word = stop == line_end_ || is_blank(*stop) || (*stop == syntax_.comment && *stop != '\0');
-  if (error == std::errc::invalid_argument || !whole_word)
+  if (error == std::errc::invalid_argument || !ends_word(stop))
     fail("expected " + std::string(what) + ", found " + shown(peek_word()));
   if (error == std::errc::result_out_of_range) {
     if (!is_tiny({start, static_cast<std::size_t>(stop - start)}))
@@ -173,10 +181,26 @@ std::int64_t TextScanner::integer(std::string_view what) {
   at_line_end();
   const char* start = cursor_;
   const std::int64_t value = leading_integer(what);
-  if (cursor_ == line_end_ || is_blank(*cursor_) || (*cursor_ == syntax_.comment && *cursor_ != '\0'))
-    return value;
+  if (ends_word(cursor_)) return value;
   cursor_ = start;
   fail("expected " + std::string(what) + ", found " + shown(peek_word()));
+}
+
+TextScanner::Whole TextScanner::whole_number(std::string_view what) {
+  at_line_end();
+  const std::string_view digits = peek_word();
+  const std::size_t other = digits.find_first_not_of("+-0123456789");
+  if (other == std::string_view::npos) return {integer(what), false};
+  constexpr double kExact = 9007199254740992;  // 2⁵³
+  double value = kExact;
+  const char* const first = digits.data() + (digits.size() > 1 && digits[0] == '+' && digits[1] != '-');
+  const auto [stop, error] = std::from_chars(first, digits.data() + digits.size(), value);
+  if (error != std::errc() || stop != digits.data() + digits.size() || !(std::abs(value) < kExact) ||
+      std::trunc(value) != value)
+    fail("expected " + std::string(what) + ", found " + shown(digits));
+  cursor_ = stop;
+  advance();
+  return {static_cast<std::int64_t>(value), true};
 }
 
 void TextScanner::fail(const std::string& what) const {

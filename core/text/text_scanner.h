@@ -23,7 +23,7 @@ class TextScanner {
  public:
   struct Syntax {
     char comment = '#';         ///< starts a comment that ends with the line; 0: there are none
-    bool continuation = false;  ///< a \ at a line's end joins the next line
+    bool continuation = false;  ///< a \ at a line's end joins the next line, also without a blank before it
     char terminator = 0;        ///< of a line: \n or \r; 0: \r if the text has no \n
   };
 
@@ -47,11 +47,19 @@ class TextScanner {
   double single_number(std::string_view what);
   /// The next word as a whole number.
   std::int64_t integer(std::string_view what);
+  /// The same where one with decimals that are 0 ("3.0") is taken as well.
+  struct Whole {
+    std::int64_t value;
+    bool has_decimals;
+  };
+  Whole whole_number(std::string_view what);
   /// The whole number that follows in this line, up to the first character that is no digit, without
   /// consuming it.
   std::int64_t leading_integer(std::string_view what);
   /// The next word of this line, without consuming it.
   std::string_view peek_word() const;
+  /// Whether the word that the scanner is in ends here.
+  bool at_word_end() const { return ends_word(cursor_); }
   /// The next character of this line (0 at its end), and consuming it.
   char peek() const { return cursor_ < line_end_ ? *cursor_ : '\0'; }
   void skip() { ++cursor_; }
@@ -60,6 +68,8 @@ class TextScanner {
   std::size_t remaining() const { return static_cast<std::size_t>(end_ - next_); }
   /// The same as a view.
   std::string_view rest() const { return {next_, remaining()}; }
+  /// Characters from here to the end of the text, those of this line included.
+  std::size_t remaining_here() const { return static_cast<std::size_t>(end_ - cursor_); }
   std::size_t line() const { return line_; }
   char terminator() const { return terminator_; }  ///< of lines: \n or \r
   /// Throws BadInput naming the file and this line.
@@ -70,6 +80,10 @@ class TextScanner {
  private:
   template <class Float>
   double parse(std::string_view what);
+  /// Whether a word ends before this character of the line.
+  bool ends_word(const char* c) const;
+  /// Whether the line goes on with the next one from here.
+  bool is_continuation(const char* c) const;
   /// After each line and word.
   void advance() {
     if ((++steps_ & 0xFFFF) == 0) report();

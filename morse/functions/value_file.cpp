@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <fstream>
+#include <istream>
+#include <streambuf>
 #include <system_error>
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_content.h"
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/parallel/exhaustion.h"
 #include "morsel/core/text/text_scanner.h"
 
@@ -24,15 +26,30 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+/// A stream's source in memory.
+class MemorySource : public std::streambuf {
+ public:
+  explicit MemorySource(std::string_view text) {
+    char* const begin = const_cast<char*>(text.data());  // which is only read
+    setg(begin, begin, begin + text.size());
+  }
+};
+
 }  // namespace
 
 ValueFile ValueFile::read(const std::filesystem::path& path, const core::Progress& progress) {
-  const std::string what = "cannot read values from " + path.string();
-  core::check_regular_file(path, what);
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) core::fail_to_read(errno, what);
-  return {stream, path.string(), progress};
+  const std::string name = path.string();
+  core::check_regular_file(path, "cannot read values from " + name);
+  const core::TextContent content(path, name, progress);
+  MemorySource source(content.view());
+  std::istream stream(&source);
+  try {
+    return {stream, name, progress};
+  } catch (const BadInput& error) {
+    const std::string_view kind = core::file_kind(content.view());
+    if (kind.empty()) throw;
+    throw BadInput(std::string(error.what()) + " (it is " + std::string(kind) + ")");
+  }
 }
 
 ValueFile::ValueFile(std::istream& stream, std::string name, const core::Progress& progress)

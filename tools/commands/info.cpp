@@ -151,7 +151,7 @@ Json provenance_of(const std::string& path, bool is_mesh, Console& console) {
 
 int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
-  if (core::has_mesh_extension(options.file))
+  if (core::has_mesh_extension(options.file) || core::recognised_format(options.file))
     findings = inspect(options.file, run.common.repair, run.console.progress());
   const Json provenance = provenance_of(options.file, findings.has_value(), run.console);
   if (!findings && provenance.is_null())
