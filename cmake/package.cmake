@@ -21,7 +21,7 @@ persistence diagrams, Morse-Smale complexes, hierarchies, segments, cuts and qua
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmorsel-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, libtbb-dev, libboost-dev, zlib1g-dev, liblzma-dev, libzstd-dev")
+    "libeigen3-dev, libtbb-dev, libboost-dev, zlib1g-dev, liblzma-dev, libzstd-dev, libpugixml-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
     "nlohmann-json3-dev, libssl-dev, libopenvdb-dev, libembree-dev, libpng-dev, libcairo2-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION

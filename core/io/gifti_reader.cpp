@@ -17,6 +17,7 @@
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/io/xml_arrays.h"
 #include "morsel/core/text/base64.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {

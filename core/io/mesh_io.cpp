@@ -38,7 +38,7 @@ const Format* find_extension(std::string_view extension) {
   return found == kFormats.end() ? nullptr : found;
 }
 /// As --format takes it.
-std::string_view name_of(const Format& format) {
+std::string_view format_name(const Format& format) {
   return format.format == MeshFormat::freesurfer ? "freesurfer" : format.extension.substr(1);
 }
 /// The name without an extension of a compression.
@@ -63,7 +63,7 @@ bool has_extension_of_values(const std::filesystem::path& path) {
 std::string remedy_for(std::string_view kind) {
   const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
   if (format == kFormats.end()) return "";
-  return ": name it " + std::string(format->extension) + " or use --format " + std::string(name_of(*format));
+  return ": name it " + std::string(format->extension) + " or use --format " + std::string(format_name(*format));
 }
 
 /// Throws what the reader of `format` says of a file, with what the file is if that is another kind.
@@ -114,12 +114,12 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 std::vector<std::string> mesh_format_names() {
   std::vector<std::string> names;
-  for (const Format& format : kFormats) names.emplace_back(name_of(format));
+  for (const Format& format : kFormats) names.emplace_back(format_name(format));
   return names;
 }
 
 MeshFormat mesh_format_named(std::string_view name) {
-  const auto* found = std::ranges::find(kFormats, name, name_of);
+  const auto* found = std::ranges::find(kFormats, name, format_name);
   if (found != kFormats.end()) return found->format;
   throw InvalidArgument("there is no mesh format " + shown(name) + ", only " +
                         listed(mesh_format_names(), " and "));
