@@ -50,4 +50,13 @@ LoadedSoup read_gifti(std::string_view bytes, const std::string& file, const Pro
 /// vertex; vertices are numbered in the order in which they first appear. Normals are skipped.
 LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progress& progress);
 
+/// VTK's legacy format, ASCII and binary, versions 1 to 5: POLYDATA, and UNSTRUCTURED_GRID of faces. Arrays
+/// of points and cells become properties, one for each component; lines and vertices are left out with a
+/// warning; solid cells are refused. Numbers of a text have the precision of their type.
+LoadedSoup read_vtk(std::string_view bytes, const std::string& file, const Progress& progress);
+
+/// The same for VTK's XML formats, PolyData and UnstructuredGrid: arrays in text, in base64 and appended, raw
+/// or compressed by zlib. Needs the part FORMATS.
+LoadedSoup read_vtk_xml(std::string_view bytes, const std::string& file, const Progress& progress);
+
 }  // namespace morsel::core

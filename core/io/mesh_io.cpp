@@ -30,6 +30,9 @@ constexpr auto kFormats =
                            {".obj", MeshFormat::obj, "an OBJ file", read_obj},
                            {".ply", MeshFormat::ply, "a PLY file", read_ply},
                            {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
+                           {".vtk", MeshFormat::vtk, "a legacy VTK file", read_vtk},
+                           {".vtp", MeshFormat::vtp, "a VTK XML file", read_vtk_xml},
+                           {".vtu", MeshFormat::vtu, "a VTK XML file", read_vtk_xml},
                            {".gii", MeshFormat::gifti, "a GIFTI file", read_gifti},
                            {kFreeSurfer, MeshFormat::freesurfer, "a FreeSurfer surface", read_freesurfer}});
 
@@ -63,7 +66,8 @@ bool has_extension_of_values(const std::filesystem::path& path) {
 std::string remedy_for(std::string_view kind) {
   const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
   if (format == kFormats.end()) return "";
-  return ": name it " + std::string(format->extension) + " or use --format " + std::string(format_name(*format));
+  return ": name it " + std::string(format->extension) + " or use --format " +
+         std::string(format_name(*format));
 }
 
 /// Throws what the reader of `format` says of a file, with what the file is if that is another kind.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/value_file.h"
 #include "morsel/core/text/text_scanner.h"
-#include "morsel/morse/functions/value_file.h"
 
 namespace morsel::morse {
 namespace {
@@ -22,14 +22,15 @@ std::size_t input_vertex_count(const core::TriangleMesh& mesh, const core::Verte
   return same ? mesh.vertex_count() : numbering.input_count;
 }
 
-/// `place(i)` names the place of value i.
+/// `place(i)` names the place of value i; `remark` is for the error where the number of values is wrong.
 template <class Place>
 core::ScalarField make_field(const core::TriangleMesh& mesh, const core::VertexNumbering& numbering,
-                             std::span<const double> values, const std::string& origin, const Place& place) {
+                             std::span<const double> values, const std::string& origin, const Place& place,
+                             const std::string& remark = {}) {
   const std::size_t expected = input_vertex_count(mesh, numbering);
   if (values.size() != expected)
     throw BadInput(origin + " has " + std::to_string(values.size()) + " values, but the mesh's file has " +
-                   std::to_string(expected) + " vertices");
+                   std::to_string(expected) + " vertices" + remark);
   std::vector<double> chosen(mesh.vertex_count());
   std::size_t bad = 0;
   Index first = core::kNone;
@@ -56,7 +57,7 @@ const core::VertexProperty& find_property(const core::MeshSource* source, const 
       available += (available.empty() ? "" : ", ") + property.name;
     }
   throw BadInput("the mesh's file has no scalar property " + shown(name) + " for its vertices; it has " +
-                 (available.empty() ? "none (only PLY files have them)" : available));
+                 (available.empty() ? "none (PLY and VTK files may have them)" : available));
 }
 
 class VertexScalar final : public core::MorseFunction {
@@ -70,7 +71,10 @@ class VertexScalar final : public core::MorseFunction {
       parameters.emplace_back("property", options_.property);
     else
       parameters.emplace_back("file", options_.file.string());
-    return {vertex_scalar(mesh, context.source, options_, context.progress), std::move(parameters)};
+    if (!options_.column.empty()) parameters.emplace_back("column", options_.column);
+    std::vector<std::string> warnings;
+    core::ScalarField field = vertex_scalar(mesh, context.source, options_, context.progress, &warnings);
+    return {std::move(field), std::move(parameters), std::move(warnings)};
   }
   core::FunctionTraits traits() const override { return {.needs_input_vertices = true}; }
 
@@ -81,9 +85,12 @@ class VertexScalar final : public core::MorseFunction {
 }  // namespace
 
 core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::MeshSource* source,
-                                const VertexScalarOptions& options, const core::Progress& progress) {
+                                const VertexScalarOptions& options, const core::Progress& progress,
+                                std::vector<std::string>* warnings) {
   if (options.file.empty() == options.property.empty())
     throw core::InvalidArgument("a vertex scalar comes from a file or from a property: name one of them");
+  if (options.file.empty() && !options.column.empty())
+    throw core::InvalidArgument("a vertex scalar has a column only if it comes from a file");
   static const core::VertexNumbering kSame;
   const core::VertexNumbering& numbering = source == nullptr ? kSame : source->numbering;
   if (options.file.empty()) {
@@ -91,9 +98,13 @@ core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::Mesh
     return make_field(mesh, numbering, property.values, "the property " + shown(property.name),
                       [](std::size_t i) { return "entry " + std::to_string(i); });
   }
-  const ValueFile file = ValueFile::read(options.file, progress);
-  return make_field(mesh, numbering, file.values(), options.file.string(),
-                    [&](std::size_t i) { return file.place(i); });
+  core::ValueFile file = core::read_value_file(options.file, options.column, progress);
+  std::string remark;
+  for (const std::string& warning : file.warnings) remark += "; " + warning;
+  core::ScalarField field =
+      make_field(mesh, numbering, file.values, options.file.string(), file.place, remark);
+  if (warnings != nullptr) *warnings = std::move(file.warnings);
+  return field;
 }
 
 std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& reader) {
@@ -101,14 +112,18 @@ std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& r
   VertexScalarOptions options;
   options.file =
       reader.file("file", by_property ? "" : nullptr,
-                  "a text file with a value a line for each vertex of the mesh's file, or else a property");
-  options.property = reader.text("property", "", "a scalar property of the vertices in the mesh's PLY file");
+                  "a file with a value for each vertex of the mesh's file (text, CSV, .npy, VTK, PLY), or "
+                  "else a property");
+  options.property = reader.text("property", "", "a scalar property of the vertices in the mesh's own file");
+  options.column = reader.text("column", "", "which column or array of the file, by name or from 1");
   const bool by_file = reader.given("file");
   if (by_property && by_file)
     throw core::InvalidArgument(reader.owner() + " takes file or property, not both");
   if ((by_property && options.property.empty()) || (by_file && options.file.empty()))
     throw core::InvalidArgument(reader.owner() + ":" + (by_file ? "file" : "property") +
                                 " must not be empty");
+  if (by_property && !options.column.empty())
+    throw core::InvalidArgument(reader.owner() + " takes column with file, not with property");
   return std::make_unique<VertexScalar>(std::move(options));
 }
 

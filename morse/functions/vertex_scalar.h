@@ -1,9 +1,10 @@
 #pragma once
-/// Values that come with the mesh: from a text file, or from a property of the mesh's own file.
+/// Values that come with the mesh: from a file of values, or from a property of the mesh's own file.
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "morsel/core/field/method.h"
 #include "morsel/core/field/scalar_field.h"
@@ -13,11 +14,13 @@ namespace morsel::morse {
 
 /// Exactly one of the two.
 struct VertexScalarOptions {
-  /// One value a line for each vertex of the mesh's file, in its order. Blank lines and what follows a # do
-  /// not count.
+  /// A value for each vertex of the mesh's file, in its order: a text with a value a line (blank lines and
+  /// what follows a # do not count), CSV, NumPy's .npy, or another mesh file with values for its vertices.
   std::filesystem::path file;
-  /// Name of a scalar that the mesh's file gives for its vertices (PLY).
+  /// Name of a scalar that the mesh's file gives for its vertices (PLY, VTK).
   std::string property;
+  /// Of the file's columns or arrays, the name or the number (from 1) of one; empty: it has only one.
+  std::string column = {};
 };
 
 /// The field with the given values. They are numbered as the vertices of the mesh's *file*, so `source` maps
@@ -27,12 +30,14 @@ struct VertexScalarOptions {
 ///
 /// Throws InvalidArgument unless one of file and property is set; BadInput, naming file, line and value, if
 /// the file is missing or unreadable, a line is not one number, there are too few or too many values, a
-/// vertex of the mesh has a non-finite one, or the property does not exist (listing those that do). O(n log
-/// n).
+/// vertex of the mesh has a non-finite one, or the property or column does not exist (listing those that do).
+/// `warnings` receives what was odd in the file, a sentence each. O(n log n).
 core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::MeshSource* source,
-                                const VertexScalarOptions& options, const core::Progress& progress = {});
+                                const VertexScalarOptions& options, const core::Progress& progress = {},
+                                std::vector<std::string>* warnings = nullptr);
 
-/// Keys: file=PATH or property=NAME. The file is read when the function is evaluated.
+/// Keys: file=PATH, with column=NAME where it has several, or property=NAME. The file is read when the
+/// function is evaluated.
 std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& reader);
 
 }  // namespace morsel::morse
