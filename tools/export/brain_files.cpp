@@ -146,11 +146,13 @@ void write_annotation(const std::filesystem::path& path, const BrainLabels& labe
 void write_gifti_labels(const std::filesystem::path& path, const BrainLabels& labels,
                         const Provenance& provenance) {
   std::string table =
-      "<LabelTable>\n<Label Key=\"-1\" Red=\"1\" Green=\"1\" Blue=\"1\" Alpha=\"0\">???</Label>\n";
+      "<LabelTable>\n<Label Key=\"-1\" Red=\"1\" Green=\"1\" Blue=\"1\" Alpha=\"0\">???"
+      "</Label>\n";
   for (std::size_t i = 0; i < labels.colors.size(); ++i) {
     const auto channel = [&](int c) { return core::to_decimals(labels.colors[i][c] / 255.0, 6); };
     table += "<Label Key=\"" + std::to_string(i) + "\" Red=\"" + channel(0) + "\" Green=\"" + channel(1) +
-             "\" Blue=\"" + channel(2) + "\" Alpha=\"1\">" + markup_text(label_name(labels, i)) + "</Label>\n";
+             "\" Blue=\"" + channel(2) + "\" Alpha=\"1\">" + markup_text(label_name(labels, i)) +
+             "</Label>\n";
   }
   table += "</LabelTable>\n";
   write_gifti(path, "NIFTI_INTENT_LABEL", "NIFTI_TYPE_INT32", labels.name, labels.of_vertex.size(),
