@@ -21,6 +21,7 @@
 #include "morsel/tools/commands/parser.h"
 #include "morsel/tools/commands/signals.h"
 #include "morsel/tools/commands/stack.h"
+#include "morsel/tools/commands/standard_input.h"
 #include "morsel/tools/commands/standard_streams.h"
 #include "morsel/tools/commands/threads.h"
 #include "morsel/tools/formats/version.h"
@@ -58,7 +59,8 @@ Command* find(std::deque<Command>& commands, const std::string& name) {
 /// Whether a word in a command's place is the file to compare: there is one, or it is named like a mesh.
 bool is_file(const std::string& word) {
   std::error_code error;
-  return core::has_mesh_extension(word) || std::filesystem::is_regular_file(word, error);
+  return word == kStandardInput || core::has_mesh_extension(word) ||
+         std::filesystem::is_regular_file(word, error);
 }
 
 Command& chosen(std::deque<Command>& commands, const std::string& name) {

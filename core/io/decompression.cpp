@@ -15,7 +15,7 @@ namespace morsel::core {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;         // bytes between two checks
-constexpr std::size_t kDictionary = std::size_t{1} << 30;    // of xz and zstd
+constexpr std::size_t kDictionary = std::size_t{256} << 20;  // of xz and zstd
 constexpr std::size_t kLargestInput = std::size_t{1} << 30;  // at once, for counters of 32 bits
 
 /// What decompresses a kind of data, stream after stream.
@@ -94,7 +94,7 @@ class XzDecoder : public Decoder {
       case LZMA_MEM_ERROR:
         throw std::bad_alloc();
       case LZMA_MEMLIMIT_ERROR:
-        return {written, false, "their dictionary is larger than 1 GiB"};
+        return {written, false, "their dictionary is larger than 256 MiB"};
       case LZMA_OPTIONS_ERROR:
         return {written, false, "they use options that are not supported"};
       default:
@@ -110,7 +110,7 @@ class ZstdDecoder : public Decoder {
  public:
   ZstdDecoder() : stream_(ZSTD_createDStream()) {
     if (stream_ == nullptr) throw std::bad_alloc();
-    ZSTD_DCtx_setParameter(stream_, ZSTD_d_windowLogMax, 30);  // kDictionary
+    ZSTD_DCtx_setParameter(stream_, ZSTD_d_windowLogMax, 28);  // kDictionary
   }
   ~ZstdDecoder() override { ZSTD_freeDStream(stream_); }
 

@@ -52,7 +52,7 @@ class GrowingBytes {
 /// All members (gzip), streams (xz) or frames (zstd) one after another, checksums checked; padding by zero
 /// bytes behind them is skipped. Throws BadInput, which names `file`, if the data are truncated, damaged,
 /// followed by anything else, or expand beyond the limit; InvalidArgument in a library without the part
-/// FORMATS. Memory: twice what comes out, and for xz and zstd at most 1 GiB of dictionary. Reports progress
+/// FORMATS. Memory: twice what comes out, and for xz and zstd at most 256 MiB of dictionary. Reports progress
 /// and checks for cancellation at each megabyte that comes out.
 GrowingBytes decompress(std::string_view bytes, Compression kind, const std::string& file,
                         const Progress& progress, const DecompressionLimit& limit = {});

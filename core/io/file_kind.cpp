@@ -65,7 +65,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::ranges::find(words, word) != words.end();
 }
 
-bool is_number(std::string_view word) {
+bool is_numeral(std::string_view word) {
   return !word.empty() && word.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
          word.find_first_of("0123456789") != std::string_view::npos;
 }
@@ -114,9 +114,9 @@ std::string_view text_kind(std::string_view text) {
   const std::string_view first = next_word(rest);
   const std::string_view second = next_word(rest);
   if (first == "ply" && second.empty()) return "a PLY file";
-  if (first.ends_with("OFF") && first.size() < 10 && (second.empty() || is_number(second)))
+  if (first.ends_with("OFF") && first.size() < 10 && (second.empty() || is_numeral(second)))
     return "an OFF file";
-  if (is_one_of(first, {"v", "vt", "vn"}) && is_number(second)) return "an OBJ file";
+  if (is_one_of(first, {"v", "vt", "vn"}) && is_numeral(second)) return "an OBJ file";
   if (is_one_of(first, {"mtllib", "usemtl", "o", "g"}) && !second.empty()) return "an OBJ file";
   if (begins_with(first, "solid") && first.size() == 5) {
     rest.remove_prefix(std::min(rest.find_first_of("\r\n"), rest.size()));
@@ -126,7 +126,7 @@ std::string_view text_kind(std::string_view text) {
   if (first.starts_with("data_") && first.size() > 5) return "a CIF file";
   if (is_one_of(first, {"HEADER", "ATOM", "HETATM", "CRYST1", "REMARK", "MODEL"}) && !second.empty())
     return "a PDB file";
-  if (is_one_of(first, {"ncols", "NCOLS"}) && is_number(second)) return "an ESRI ASCII grid";
+  if (is_one_of(first, {"ncols", "NCOLS"}) && is_numeral(second)) return "an ESRI ASCII grid";
   return "";
 }
 

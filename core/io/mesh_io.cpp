@@ -162,35 +162,39 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
                          (kind.empty() ? "" : "; it is " + std::string(kind) + remedy_for(kind)));
 }
 
-namespace {
+LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat format, const Progress& progress) {
+  const std::string name = path.string();
+  return parse_polygon_soup(FileBytes(path, name).view(), format, name, progress);
+}
 
-/// build_mesh(), with the file named in its errors.
-LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const BuildOptions& options,
-                 const Progress& progress) {
+LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options,
+                     const Progress& progress) {
   try {
     BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
     return {std::move(built.mesh),
             {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
              std::move(file.warnings)}};
   } catch (const MeshError& error) {
-    throw error.about("\"" + path.string() + "\"");
+    throw error.about("\"" + name + "\"");
   } catch (const BadInput& error) {
-    throw BadInput("cannot use \"" + path.string() + "\": " + error.what());
+    throw BadInput("cannot use \"" + name + "\": " + error.what());
   }
 }
 
-}  // namespace
+WholeMesh make_whole_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options,
+                          const Progress& progress) {
+  std::vector<Point> positions = file.soup.positions;
+  return {make_mesh(std::move(file), name, options, progress), std::move(positions)};
+}
 
 LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options,
                      const Progress& progress) {
-  return build(path, read_polygon_soup(path, progress), options, progress);
+  return make_mesh(read_polygon_soup(path, progress), path.string(), options, progress);
 }
 
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options,
                           const Progress& progress) {
-  LoadedSoup file = read_polygon_soup(path, progress);
-  std::vector<Point> positions = file.soup.positions;
-  return {build(path, std::move(file), options, progress), std::move(positions)};
+  return make_whole_mesh(read_polygon_soup(path, progress), path.string(), options, progress);
 }
 
 }  // namespace morsel::core

@@ -69,6 +69,9 @@ MeshFormat mesh_format_named(std::string_view name);
 /// twice the soup's; wrong counts in a header do not increase it. Independent of locales; about 200 MB of
 /// text a second and thread (OFF and OBJ are read in parallel), and 500 MB of binary PLY.
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress = {});
+/// The same of a file of this format, whatever its name.
+LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat format,
+                             const Progress& progress = {});
 
 /// The same for a file that is in memory; errors call it `name`.
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
@@ -86,6 +89,13 @@ struct WholeMesh {
 
 /// read_mesh() for callers that write in the input's vertex numbers.
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
+                          const Progress& progress = {});
+
+/// The second half of read_mesh() and read_whole_mesh(): the mesh of what was read from the file that errors
+/// call `name`.
+LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},
+                     const Progress& progress = {});
+WholeMesh make_whole_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},
                           const Progress& progress = {});
 
 }  // namespace morsel::core

@@ -114,12 +114,12 @@ std::string ends_after(std::uint64_t number, std::uint64_t of, const char* what)
 }
 
 /// A face's number of corners, or one of them; `number` is the face's.
-std::uint64_t corner_count(TextScanner& scanner) {
+std::uint64_t off_corner_count(TextScanner& scanner) {
   const std::int64_t corners = scanner.integer("the face's number of corners");
   if (corners < 0) scanner.fail("the face's number of corners is " + std::to_string(corners));
   return static_cast<std::uint64_t>(corners);
 }
-Index corner(TextScanner& scanner, const OffHeader& header, std::uint64_t number) {
+Index off_corner(TextScanner& scanner, const OffHeader& header, std::uint64_t number) {
   const std::int64_t v = scanner.integer("a corner of the face");
   if (v < 0 || v >= static_cast<std::int64_t>(header.vertices))
     scanner.fail("face " + std::to_string(number) + " names vertex " + std::to_string(v) +
@@ -174,8 +174,8 @@ class OffLines {
     has_lines_ = false;
     for (std::uint64_t f = first; f < last; ++f) {
       if (!scanner_.next_line()) scanner_.fail_at_end(ends_after(f, header_.faces, "faces"));
-      const std::uint64_t corners = corner_count(scanner_);
-      for (std::uint64_t i = 0; i < corners; ++i) soup.corners.push_back(corner(scanner_, header_, f));
+      const std::uint64_t corners = off_corner_count(scanner_);
+      for (std::uint64_t i = 0; i < corners; ++i) soup.corners.push_back(off_corner(scanner_, header_, f));
       soup.offsets.push_back(soup.corners.size());
       while (!scanner_.at_line_end()) scanner_.number("a colour");
       has_lines_ = true;
@@ -205,7 +205,14 @@ class OffNumbers {
 
   PolygonSoup read() {
     read_vertices();
-    if (auto soup = with_one_number_after_another()) return std::move(*soup);
+    const bool is_at_line_end = scanner_.at_line_end();
+    try {
+      return with_one_number_after_another();
+    } catch (const BadInput& error) {
+      if (!is_at_line_end)
+        throw BadInput(std::string(error.what()) +
+                       " (faces with colours are read only where the vertices end with a line)");
+    }
     return with_faces_at_line_starts();
   }
 
@@ -214,7 +221,6 @@ class OffNumbers {
     auto& positions = soup_.positions;
     positions.reserve(header_.vertices);
     for (std::uint64_t v = 0; v < header_.vertices; ++v) {
-      go_to_number(v, header_.vertices, "vertices");
       Point p;
       for (int axis = 0; axis < 3; ++axis) {
         go_to_number(v, header_.vertices, "vertices");
@@ -228,24 +234,18 @@ class OffNumbers {
     }
   }
 
-  /// Faces without colours, whose numbers are all that follow. Nothing if they are not.
-  std::optional<PolygonSoup> with_one_number_after_another() const {
+  /// Faces without colours, whose numbers are all that follow.
+  PolygonSoup with_one_number_after_another() const {
     OffNumbers faces(scanner_, header_, 0);
-    try {
-      for (std::uint64_t f = 0; f < header_.faces; ++f) faces.read_face(f);
-      if (!faces.scanner_.at_line_end() || faces.scanner_.next_line()) return std::nullopt;
-    } catch (const BadInput&) {
-      return std::nullopt;
-    }
+    for (std::uint64_t f = 0; f < header_.faces; ++f) faces.read_face(f);
+    if (!faces.scanner_.at_line_end() || faces.scanner_.next_line())
+      faces.scanner_.fail("the file goes on after the " + header_.announced());
     faces.soup_.positions = soup_.positions;
     return std::move(faces.soup_);
   }
 
   /// Each face begins a line. Colours follow the corners of one that ends in that line.
   PolygonSoup with_faces_at_line_starts() {
-    if (!scanner_.at_line_end())
-      scanner_.fail("the vertices end within this line, and what follows is not " +
-                    std::to_string(header_.faces) + " faces without colours and nothing else");
     for (std::uint64_t f = 0; f < header_.faces; ++f) {
       if (!scanner_.next_line()) scanner_.fail_at_end(ends_after(f, header_.faces, "faces"));
       const std::size_t line = scanner_.line();
@@ -261,12 +261,12 @@ class OffNumbers {
 
   void read_face(std::uint64_t f) {
     go_to_number(f, header_.faces, "faces");
-    const std::uint64_t corners = corner_count(scanner_);
+    const std::uint64_t corners = off_corner_count(scanner_);
     if (corners < 3)  // would let other numbers pass for faces
       scanner_.fail("face " + std::to_string(f) + " has " + counted(corners, "corner"));
     for (std::uint64_t i = 0; i < corners; ++i) {
       go_to_number(f, header_.faces, "faces");
-      soup_.corners.push_back(corner(scanner_, header_, f));
+      soup_.corners.push_back(off_corner(scanner_, header_, f));
     }
     soup_.offsets.push_back(soup_.corners.size());
   }

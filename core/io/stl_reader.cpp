@@ -121,7 +121,7 @@ class TextReader {
         inside = false;
       } else if (inside && is_keyword(word, "facet")) {
         read_facet();
-      } else if (!inside && began) {  // text behind a solid
+      } else if (!inside && began && !is_keyword(word, "facet")) {  // text behind a solid
         skip_name();
         ++other_lines;
       } else {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/value_file.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
@@ -78,12 +80,16 @@ struct Collector {
                              : " is not one number"));
 }
 
-/// A text without its byte-order mark, and what ends its lines: \r only where there is no \n.
+/// A text without its byte-order mark, UTF-16 as UTF-8, and what ends its lines: \r only where there is no
+/// \n.
 struct Lines {
-  explicit Lines(std::string_view bytes) : text(bytes) {
+  explicit Lines(std::string_view bytes, const std::string& file = {}) : text(bytes) {
+    if (is_utf16(bytes)) text = converted = utf8_of_utf16(bytes, file);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     if (text.find('\n') == std::string_view::npos) terminator = '\r';
   }
+  Lines(const Lines&) = delete;
+  std::string converted;
   std::string_view text;
   char terminator = '\n';
 };
@@ -250,7 +256,7 @@ class Records {
 class ColumnReader {
  public:
   ColumnReader(std::string_view bytes, const ValueRequest& request, bool only_separators)
-      : request_(request), lines_(bytes), only_separators_(only_separators) {}
+      : request_(request), lines_(bytes, request.file), only_separators_(only_separators) {}
 
   ValueFile read() {
     Records records(request_, only_separators_);
@@ -286,8 +292,9 @@ class ColumnReader {
     const std::vector<Cell> comment = records.comment_names();
     width_ = first.size();
     const std::string& name = request_.column;
+    const bool has_names = std::ranges::any_of(first, [](const Cell& cell) { return !is_number(cell); });
     if (!name.empty()) {
-      if (const auto found = find(first, name)) {
+      if (const auto found = find(first, name); found && has_names) {
         column_ = *found;
         return records.next();
       }
@@ -296,7 +303,6 @@ class ColumnReader {
         return true;
       }
     }
-    const bool has_names = std::ranges::any_of(first, [](const Cell& cell) { return !is_number(cell); });
     if (!name.empty() || width_ > 1) column_ = choose_by_number(has_names ? first : comment);
     if (is_number(first[column_])) return true;
     return skip_header(records, first[column_].text);
@@ -309,10 +315,10 @@ class ColumnReader {
       for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i)
         listed_names.push_back(shown(names[i].text));
       if (names.size() > listed_names.size()) listed_names.push_back("…");
-      what += " of the columns " + listed(listed_names);
       if (request_.column.empty())
-        throw BadInput(request_.file + ": " + what + " has " + std::to_string(width_) +
-                       " columns: choose one by column=NAME or column=1 to column=" + std::to_string(width_));
+        throw BadInput(request_.file + ": " + what + " has the columns " + listed(listed_names) +
+                       ": choose one by column=NAME or column=1 to column=" + std::to_string(width_));
+      what += " of the columns " + listed(listed_names);
     }
     return numbered_column(request_, width_, what);
   }
@@ -377,7 +383,7 @@ ValueFile read_csv_values(std::string_view bytes, const ValueRequest& request) {
 ValueFile read_text_values(std::string_view bytes, const ValueRequest& request) {
   using namespace value_text;
   if (!request.column.empty()) return ColumnReader(bytes, request, false).read();
-  const Lines lines(bytes);
+  const Lines lines(bytes, request.file);
   Collector collector;
   std::size_t header = 0;  // lines before the first number
   std::size_t header_line = 0;

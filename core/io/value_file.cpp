@@ -10,6 +10,7 @@
 #include "morsel/core/io/brain_values.h"
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_content.h"
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/freesurfer.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/text/text_scanner.h"
@@ -51,14 +52,17 @@ ValueFile parse_value_file(std::string_view bytes, const std::string& file, cons
                            const Progress& progress) {
   const ValueRequest request{file, column, progress};
   const DecodedBytes decoded(bytes, file, progress);
+  const std::string_view content = decoded.view();
   const std::string extension = content_extension(file);
   for (const ValueKind& kind : kKinds)
-    if (kind.is_it(decoded.view(), extension)) return kind.read(decoded.view(), request);
-  if (!is_utf16(decoded.view())) return read_text_values(decoded.view(), request);
-  const std::string converted = utf8_of_utf16(decoded.view(), file);
-  ValueFile values = read_text_values(converted, request);
-  values.warnings.insert(values.warnings.begin(), kUtf16Warning);
-  return values;
+    if (kind.is_it(content, extension)) return kind.read(content, request);
+  try {
+    return read_text_values(content, request);
+  } catch (const BadInput& error) {
+    const std::string_view kind = file_kind(content);
+    if (kind.empty()) throw;
+    throw BadInput(std::string(error.what()) + " (it is " + std::string(kind) + ")");
+  }
 }
 
 ValueFile read_value_file(const std::filesystem::path& path, const std::string& column,

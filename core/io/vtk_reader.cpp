@@ -263,14 +263,14 @@ class LegacyReader {
     check_data_read();
     if (!points_) fail_reading(file_, "it has no POINTS");
     builder_.add_points(*points_);
-    points_->clear();
+    points_ = std::vector<double>();
     if (is_grid_) {
       if (!cells_[0] || !types_) fail_reading(file_, "it has no CELLS or no CELL_TYPES");
       builder_.add_cells(*cells_[0], *types_);
     } else {
       constexpr std::array<CellType, 4> kTypes = {kPolyVertex, kPolyLine, kPolygon, kTriangleStrip};
       for (std::size_t i = 0; i < kTypes.size(); ++i)
-        if (cells_[i]) builder_.add_cells(*cells_[i], kTypes[i]);
+        if (cells_[i]) builder_.add_cells(*std::exchange(cells_[i], {}), kTypes[i]);
     }
     check_count("POINT_DATA", point_data_, builder_.point_count());
     check_count("CELL_DATA", cell_data_, builder_.cell_count());

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/oddities.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core::vtk {
@@ -197,12 +198,9 @@ bool parse_number(std::string_view word, NumberType type, double& value) {
     const auto [stop, error] = std::from_chars(word.data() + (plus ? 1 : 0), end, number);
     good = error == std::errc() && stop == end;
     if constexpr (std::is_floating_point_v<T>) {
-      // A number below the smallest one of its type is written by some programs.
-      double wide = 0;
-      if (error == std::errc::result_out_of_range && stop == end) {
-        const auto [wide_stop, wide_error] = std::from_chars(word.data() + (plus ? 1 : 0), end, wide);
-        good = wide_stop == end && wide_error == std::errc() && std::abs(wide) < 1;
-        number = static_cast<T>(wide);
+      if (error == std::errc::result_out_of_range && stop == end && is_tiny(word)) {
+        good = true;
+        number = word.front() == '-' ? -T{0} : T{0};
       }
     }
     value = static_cast<double>(number);
@@ -379,9 +377,6 @@ std::vector<VertexProperty> SurfaceBuilder::properties(std::vector<Array> arrays
 LoadedSoup SurfaceBuilder::finish(std::vector<Array> point_arrays, std::vector<Array> cell_arrays) {
   check_kinds();
   if (vertices_ + lines_ > 0) {
-    const auto counted = [](std::size_t count, const std::string& one) {
-      return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-    };
     const std::string vertices = counted(vertices_, "vertex cell");
     const std::string lines = counted(lines_, "line");
     warn((vertices_ == 0 ? lines

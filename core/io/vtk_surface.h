@@ -86,7 +86,6 @@ class SurfaceBuilder {
   LoadedSoup result_;
   std::vector<std::size_t> cell_of_polygon_;
   std::size_t cell_count_ = 0;
-  std::size_t steps_ = 0;
   // Cells that are no faces.
   std::size_t lines_ = 0;
   std::size_t vertices_ = 0;

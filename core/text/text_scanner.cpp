@@ -13,8 +13,8 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// The number that `digits` stands for if it is too small for its type: zero or subnormal. std::from_chars
-/// calls both ends of the range an error.
+}  // namespace
+
 bool is_tiny(std::string_view digits) {
   long exponent = 0;
   const std::size_t e = digits.find_first_of("eE");
@@ -41,8 +41,6 @@ bool is_tiny(std::string_view digits) {
   }
   return exponent + place < 0;
 }
-
-}  // namespace
 
 void fail_reading(const std::string& file, const std::string& what) {
   throw BadInput("cannot read \"" + file + "\": " + what);

@@ -139,7 +139,7 @@ class Molecule(ProgramTest):
                 ("empty.cif", "data_x\n", "empty.cif has no atoms"),
                 ("cut.cif", CIF[:-10], "cut.cif, line 2: "),
                 ("bad.cif", CIF.replace(" 20 ", " twenty "), '"twenty"'),
-                ("x.gz", "", "decompress"),
+                ("x.gz", "", "without an extension"),
                 ("x.xyz", "", ".mmcif")):
             result = self.morsel("molecule", self.file(name, text), "-o", "x.off", code=3)
             self.assertIn(said, result.stderr)

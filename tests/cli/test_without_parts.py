@@ -1,5 +1,6 @@
 """A program that was built without molecules and pictures: what needs them says so, all else works."""
 
+import gzip
 import unittest
 
 from support import OCTAHEDRON, ProgramTest
@@ -21,6 +22,11 @@ class WithoutParts(ProgramTest):
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
         self.assertEqual(result.stdout, "")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+    def test_formats(self):
+        (self.folder / "o.off.gz").write_bytes(gzip.compress(OCTAHEDRON.encode()))
+        self.refused('built without the kinds of files that libraries read, which the compressed file '
+                     '"o.off.gz" needs: build it with -DMORSEL_WITH_FORMATS=ON', "info", "o.off.gz")
 
     def test_molecules(self):
         self.refused(MOLECULES.format("morsel molecule"), "molecule", "m.pdb", "-o", "m.off")

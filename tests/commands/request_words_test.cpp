@@ -35,13 +35,13 @@ bool says(const Words& words, const std::string& name) {
   return name == "--preset" ? has(words, "--field") && has(words, "--method") : has(words, name);
 }
 
-/// The names of a command's options that shape its results.
+/// The names of a command's options that shape its results, but --format, which is part of MESH.
 Words shaping_options(const std::string& command) {
   Program program;
   add_commands(program);
   Words names;
   for (const Option& row : std::ranges::find(program.commands, command, &Command::name)->options())
-    if (!row.is_argument() && row.shapes_result) names.push_back(name_of(row));
+    if (!row.is_argument() && row.shapes_result && !row.is_called("--format")) names.push_back(name_of(row));
   return names;
 }
 

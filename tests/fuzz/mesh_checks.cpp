@@ -31,6 +31,11 @@ void check_soup(const LoadedSoup& loaded) {
     require(!property.name.empty(), "a property without a name");
     require(property.values.size() == soup.positions.size(), "size of a property");
   }
+  for (const VertexProperty& property : loaded.face_properties) {
+    require(!property.name.empty(), "a property of faces without a name");
+    require(property.values.size() == soup.polygon_count(), "size of a property of faces");
+  }
+  require(std::ranges::none_of(loaded.warnings, &std::string::empty), "a warning that says nothing");
 }
 
 bool same_positions(const std::vector<Point>& a, const std::vector<Point>& b) {
@@ -136,7 +141,8 @@ void check_pieces(std::string_view bytes,
     const Outcome pieces = outcome([&] { return read(bytes, chunk); });
     require(whole.error == pieces.error, "the same error in pieces");
     require(whole.soup.has_value() == pieces.soup.has_value() &&
-                (!whole.soup || same(whole.soup->soup, pieces.soup->soup)),
+                (!whole.soup || (same(whole.soup->soup, pieces.soup->soup) &&
+                                 whole.soup->warnings == pieces.soup->warnings)),
             "the same soup in pieces");
   }
 }

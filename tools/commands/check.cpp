@@ -36,6 +36,8 @@ std::string counted(std::size_t count, const std::string& what) {
 
 /// What is said of a report in one line.
 std::string verdict(const ReportCheck& check) {
+  if (check.input_is_missing && check.input_path == "-")
+    return "the mesh was standard input, which is not kept";
   if (check.input_is_missing)
     return (check.is_of_landmarks ? "the list " : "the mesh ") + check.input_path + " is missing";
   if (check.differences.empty())

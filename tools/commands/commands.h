@@ -33,6 +33,7 @@ struct CommonOptions {
   int threads = 0;  ///< 0: as many as the machine has
   bool repair = false;
   bool quiet = false;
+  std::string format;   ///< that MESH is read as; empty: its extension's
   std::string command;  ///< the command line as a Provenance has it
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -9,6 +10,15 @@
 #include "morsel/tools/study/presets.h"
 
 namespace morsel::tools {
+
+namespace {
+
+bool takes_mesh(const Command& command) {
+  return std::ranges::any_of(
+      command.options(), [](const Option& row) { return row.is_called("MESH") || row.is_called("FILE"); });
+}
+
+}  // namespace
 
 void add_common_options(Command& command, CommonOptions& common, bool with_repair) {
   command.begin_group("General");
@@ -23,6 +33,14 @@ void add_common_options(Command& command, CommonOptions& common, bool with_repai
         .in_detail(
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");
+  if (with_repair && takes_mesh(command)) {
+    command.text("--format", common.format, "Read the mesh as this, whatever its name; needed where it is -")
+        .value("FORMAT")
+        .among(core::mesh_format_names())
+        .in_detail("The mesh - is standard input; a compressed file is read as what it holds");
+    if (command.name != "info")
+      for (const char* option : {"--repair", "--format"}) command.option(option).told_by = "info";
+  }
   command.flag("--quiet", common.quiet, "No progress, no messages, no warnings").shapes_nothing();
 }
 
@@ -105,7 +123,7 @@ Option& add_json_option(Command& command, std::string& json, std::string help) {
   return command.path("--json", json, std::move(help) + "; - is standard output").shapes_nothing();
 }
 
-std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions(); }
+std::string mesh_help() { return "Triangle mesh: " + core::mesh_extensions() + "; - is standard input"; }
 
 void add_specification_notes(Command& command) {
   command.notes +=

@@ -78,6 +78,7 @@ class SideBySide : public ComparisonSink {
 std::string page_command(const Options& options, const CommonOptions& common) {
   std::vector<std::string> words = {"morsel", "compare", options.mesh};
   add_words(words, words_of(options.request, common.repair));
+  if (!common.format.empty()) add_option(words, "--format", common.format);
   add_option(words, "--html", options.page_place.empty() ? options.page : options.page_place);
   return command_line(words);
 }
@@ -167,7 +168,7 @@ class Outputs {
   /// All files of the run; throws if two of them are the same.
   static RunFiles checked_files(const Options& options) {
     RunFiles files;
-    files.reads("MESH", options.mesh).reads_of_field(options.request.field);
+    files.reads_mesh(options.mesh).reads_of_field(options.request.field);
     reads_of_points(files, options.request.points);
     files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
     if (!options.thumbnails.empty())

@@ -28,7 +28,9 @@ void check_points(const Options& options) {
                                 options.output + " as .ply or .vtp");
 }
 
-int write(const Options& options, const Run& run) {
+int write(Options& options, const Run& run) {
+  const bool is_shown = options.output == "-";
+  if (is_shown) options.output = kStandardOutput;
   FieldRun base(options.mesh, options.request, run);
   const std::optional<PointsRequest> request = options.points.request();
   std::optional<PointsPlan> plan;
@@ -52,7 +54,7 @@ int write(const Options& options, const Run& run) {
               base.made().input.name, provenance, points ? &*points : nullptr);
   document.commit();
   document.tell("points", run.console);
-  run.console.message("field: " + options.output);
+  if (!is_shown) run.console.message("field: " + options.output);
   return kDone;
 }
 
@@ -65,9 +67,11 @@ void add_field(Program& program) {
   add_points_options(command, options->points);
   command.begin_group("What is written");
   add_output_option(command, options->output,
-                    ".txt (a value a line), .ply or .vtp (the surface with the values)")
+                    ".txt (a value a line), .ply or .vtp (the surface with the values); - is standard output")
       .shortly("The file to write")
-      .in_detail("Vertices have the input's numbers; chosen points are marked, but in .txt");
+      .in_detail(
+          "Vertices have the input's numbers; chosen points are marked, but in .txt. Standard output gets a "
+          "value a line");
   add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);
   command.examples = {

@@ -39,7 +39,7 @@ int make_hierarchy(const Options& options, const Run& run) {
   const HierarchyPlan prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
   RunFiles files;
-  files.reads("MESH", options.mesh).reads_of_field(request.field.field);
+  files.reads_mesh(options.mesh).reads_of_field(request.field.field);
   files.writes_document("-o", options.output).fills("--export", options.export_folder).check();
   const std::unique_ptr<ResultFolder> folder = open_folder(options.export_folder, files, run);
   DocumentTarget document(options.output);

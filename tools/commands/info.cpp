@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/core/text/printable.h"
-#include "morsel/tools/commands/commands.h"
-#include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/commands/steps.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -30,8 +30,8 @@ struct Findings {
   std::vector<core::Defect> defects;
 };
 
-Findings inspect(const std::string& path, bool repair, const core::Progress& progress) {
-  Findings findings{core::read_polygon_soup(path, progress), std::nullopt, {}};
+Findings inspect(const MeshFile& file, bool repair, const core::Progress& progress) {
+  Findings findings{read_polygon_soup(file, progress), std::nullopt, {}};
   try {
     findings.built = core::build_mesh(findings.file.soup, {.repair = repair}, progress);
   } catch (const core::MeshError& error) {
@@ -48,12 +48,12 @@ Json properties_section(const Findings& findings) {
 
 Json head_section() { return {{"schema", "morsel.info/1"}, {"tool", tool_section()}}; }
 
-Json as_json(const std::string& path, const Findings& findings) {
+Json as_json(const std::string& path, const MeshFile& file, const Findings& findings) {
   Json document = head_section();
   document["valid"] = findings.built.has_value();
   if (findings.built) {
     const core::TriangleMesh& mesh = findings.built->mesh;
-    document["mesh"] = mesh_section(path, sha256_of_file(path), mesh, findings.built->repairs);
+    document["mesh"] = mesh_section(path, sha256_of(file), mesh, findings.built->repairs);
     document["mesh"]["bbox_min"] = {mesh.bounding_box().min.x(), mesh.bounding_box().min.y(),
                                     mesh.bounding_box().min.z()};
     document["mesh"]["bbox_max"] = {mesh.bounding_box().max.x(), mesh.bounding_box().max.y(),
@@ -66,7 +66,7 @@ Json as_json(const std::string& path, const Findings& findings) {
     document["components"] = std::move(components);
   } else {
     document["mesh"] = {{"path", path},
-                        {"sha256", sha256_of_file(path)},
+                        {"sha256", sha256_of(file)},
                         {"vertices", findings.file.soup.positions.size()},
                         {"polygons", findings.file.soup.polygon_count()}};
   }
@@ -139,9 +139,9 @@ void print_provenance(const Json& provenance) {
 }
 
 /// A mesh is described though what it holds of its provenance is damaged.
-Json provenance_of(const std::string& path, bool is_mesh, Console& console) {
+Json provenance_of(const std::string& path, const MeshFile& file, bool is_mesh, Console& console) {
   try {
-    return read_provenance(path);
+    return file.bytes ? find_provenance(core::DecodedBytes(*file.bytes, path).view()) : read_provenance(path);
   } catch (const core::BadInput& error) {
     if (!is_mesh) throw core::BadInput(path + ": " + error.what());
     console.warning(path + ": " + error.what());
@@ -151,14 +151,15 @@ Json provenance_of(const std::string& path, bool is_mesh, Console& console) {
 
 int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
-  if (core::has_mesh_extension(options.file) || core::recognised_format(options.file))
-    findings = inspect(options.file, run.common.repair, run.console.progress());
-  const Json provenance = provenance_of(options.file, findings.has_value(), run.console);
+  const MeshFile file = mesh_file(options.file, run);
+  if (file.format || core::has_mesh_extension(options.file) || core::recognised_format(options.file))
+    findings = inspect(file, run.common.repair, run.console.progress());
+  const Json provenance = provenance_of(options.file, file, findings.has_value(), run.console);
   if (!findings && provenance.is_null())
     throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
                          ") and has no provenance");
   if (options.json) {
-    Json document = findings ? as_json(options.file, *findings) : head_section();
+    Json document = findings ? as_json(options.file, file, *findings) : head_section();
     if (!provenance.is_null()) document["provenance"] = provenance;
     std::cout << json_text(document, 2) << '\n';
     return kDone;
@@ -177,7 +178,8 @@ void add_info(Program& program) {
       "info",
       "What a mesh is: counts, topology, components, defects; and where a file that morsel wrote comes from");
   command
-      .path("FILE", options->file, "A triangle mesh (" + core::mesh_extensions() + "), or what morsel wrote")
+      .path("FILE", options->file,
+            "A triangle mesh (" + core::mesh_extensions() + "), or what morsel wrote; - is standard input")
       .required()
       .in_detail(
           "What morsel wrote may be a mesh, .png, .svg, .vtp, .html, .csv or .txt; JSON documents state "

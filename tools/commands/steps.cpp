@@ -3,9 +3,11 @@
 #include <system_error>
 #include <utility>
 
+#include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/numbers.h"
-#include "morsel/tools/report/hashed_mesh.h"
+#include "morsel/tools/commands/standard_input.h"
 
 namespace morsel::tools {
 
@@ -20,10 +22,24 @@ std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFile
                                         ResultFolder::Options{files.outputs(), run.console.stop_token()});
 }
 
+MeshFile mesh_file(const std::string& path, const Run& run) {
+  MeshFile file{path};
+  if (!run.common.format.empty()) file.format = core::mesh_format_named(run.common.format);
+  if (path != kStandardInput) return file;
+  if (!file.format)
+    throw core::InvalidArgument("of standard input (-) the format must be given: --format " +
+                                core::listed(core::mesh_format_names(), " or "));
+  file.path = "standard input";
+  file.bytes = standard_input(run.console.progress());
+  return file;
+}
+
 MeshInput read_input(const std::string& path, const Run& run, bool items) {
   const Stopwatch watch;
-  HashedMesh mesh = read_hashed_mesh(path, {.repair = run.common.repair}, run.console.progress());
-  return {std::move(mesh.loaded), {path, std::move(mesh.sha256), run.common.repair, items, watch.seconds()}};
+  HashedMesh mesh =
+      read_hashed_mesh(mesh_file(path, run), {.repair = run.common.repair}, run.console.progress());
+  return {std::move(mesh.loaded),
+          {path, std::move(mesh.sha256), run.common.repair, items, watch.seconds(), run.common.format}};
 }
 
 void tell_warnings(const FieldOutcome& field, Console& console) {
@@ -58,7 +74,7 @@ void tell_points(const MadePoints& made, const PointsRequest& request, Console& 
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
     : run_(run), plan_(prepare(request)), file_{mesh, {}} {
-  files_.reads("MESH", mesh).reads_of_field(request.field);
+  files_.reads_mesh(mesh).reads_of_field(request.field);
 }
 
 FieldRun& FieldRun::writes(const std::string& option, const std::filesystem::path& path,
@@ -94,8 +110,8 @@ void FieldRun::read() {
 
 void FieldRun::read_whole() {
   const Stopwatch watch;
-  HashedWholeMesh mesh =
-      read_hashed_whole_mesh(file_.path, {.repair = run_.common.repair}, run_.console.progress());
+  HashedWholeMesh mesh = read_hashed_whole_mesh(mesh_file(file_.path, run_), {.repair = run_.common.repair},
+                                                run_.console.progress());
   file_.sha256 = std::move(mesh.sha256);
   mesh_.emplace(std::move(mesh.input));
   load_seconds_ = watch.seconds();

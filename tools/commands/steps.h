@@ -12,6 +12,7 @@
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/report/field_document.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/output_check.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/report/report_writer.h"
@@ -35,6 +36,9 @@ struct MeshInput {
 
   HashedFile file() const { return {about.mesh_path, about.mesh_sha256}; }
 };
+/// MESH as the command line names it: a file, or - for standard input, of which all is read at its first use.
+/// Throws InvalidArgument where - has no --format, BadInput as standard_input().
+MeshFile mesh_file(const std::string& path, const Run& run);
 /// `items`: whether documents list what grows with the mesh.
 MeshInput read_input(const std::string& path, const Run& run, bool items = true);
 

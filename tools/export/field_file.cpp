@@ -12,7 +12,9 @@ namespace {
 
 constexpr const char* kChosen = "chosen";
 
+/// Standard output, which has no extension, takes text.
 std::string extension_of(const std::filesystem::path& path) {
+  if (path == kStandardOutput) return ".txt";
   return core::checked_extension(path, "a field is written", {".txt", ".ply", ".vtp"});
 }
 

@@ -11,6 +11,9 @@
 
 namespace morsel::tools {
 
+/// The path of standard output, to which a field is written as text.
+inline constexpr const char* kStandardOutput = "/dev/stdout";
+
 /// Writes `field` in the vertex numbers of the input file: .txt has one value a line, as short as reads back
 /// exactly, below lines that begin with #; .ply (binary) and .vtp have the surface with the values as vertex
 /// property `name`. An input vertex that the mesh does not have gets `nan`; one that repair split gets the

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/tools/formats/sha256.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 /// Returns the result of `read`, and the hash.
 template <class Hashed, class Read>
-Hashed read_hashed(const std::filesystem::path& path, const Read& read) {
+Hashed read_hashed(const MeshFile& file, const Read& read) {
   std::optional<std::invoke_result_t<Read>> loaded;
   std::string hash;
   std::exception_ptr hash_error;  // if a file cannot be read, the reader's error is more specific
@@ -23,7 +24,7 @@ Hashed read_hashed(const std::filesystem::path& path, const Read& read) {
       return;
     }
     try {
-      hash = sha256_of_file(path);
+      hash = sha256_of(file);
     } catch (...) {
       hash_error = std::current_exception();
     }
@@ -34,14 +35,41 @@ Hashed read_hashed(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
+core::LoadedSoup read_polygon_soup(const MeshFile& file, const core::Progress& progress) {
+  if (file.bytes && !file.format)
+    throw core::InvalidArgument(file.path.string() +
+                                " has no name that says its format, which must be given");
+  if (file.bytes) return core::parse_polygon_soup(*file.bytes, *file.format, file.path.string(), progress);
+  if (file.format) return core::read_polygon_soup(file.path, *file.format, progress);
+  return core::read_polygon_soup(file.path, progress);
+}
+
+std::string sha256_of(const MeshFile& file) {
+  return file.bytes ? sha256_of(*file.bytes) : sha256_of_file(file.path);
+}
+
+HashedMesh read_hashed_mesh(const MeshFile& file, const core::BuildOptions& options,
+                            const core::Progress& progress) {
+  return read_hashed<HashedMesh>(file, [&] {
+    return core::make_mesh(read_polygon_soup(file, progress), file.path.string(), options, progress);
+  });
+}
+
 HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::BuildOptions& options,
                             const core::Progress& progress) {
-  return read_hashed<HashedMesh>(path, [&] { return core::read_mesh(path, options, progress); });
+  return read_hashed_mesh(MeshFile{path}, options, progress);
 }
 
 HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path, const core::BuildOptions& options,
                                        const core::Progress& progress) {
-  return read_hashed<HashedWholeMesh>(path, [&] { return core::read_whole_mesh(path, options, progress); });
+  return read_hashed_whole_mesh(MeshFile{path}, options, progress);
+}
+
+HashedWholeMesh read_hashed_whole_mesh(const MeshFile& file, const core::BuildOptions& options,
+                                       const core::Progress& progress) {
+  return read_hashed<HashedWholeMesh>(file, [&] {
+    return core::make_whole_mesh(read_polygon_soup(file, progress), file.path.string(), options, progress);
+  });
 }
 
 }  // namespace morsel::tools

@@ -2,11 +2,25 @@
 /// A mesh with the hash of its file.
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "morsel/core/io/mesh_io.h"
 
 namespace morsel::tools {
+
+/// Where a mesh is read from.
+struct MeshFile {
+  std::filesystem::path path;                   ///< of the file; of bytes, what errors call them
+  std::optional<core::MeshFormat> format = {};  ///< that of the extension if none is given
+  std::optional<std::string_view> bytes = {};   ///< in place of a file, such as standard input; of `format`
+};
+
+/// core::read_polygon_soup() of it. Throws InvalidArgument for bytes without a format.
+core::LoadedSoup read_polygon_soup(const MeshFile& file, const core::Progress& progress = {});
+/// sha256_of_file() of it.
+std::string sha256_of(const MeshFile& file);
 
 struct HashedMesh {
   core::LoadedMesh loaded;
@@ -17,6 +31,9 @@ struct HashedMesh {
 HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::BuildOptions& options = {},
                             const core::Progress& progress = {});
 
+HashedMesh read_hashed_mesh(const MeshFile& file, const core::BuildOptions& options = {},
+                            const core::Progress& progress = {});
+
 struct HashedWholeMesh {
   core::WholeMesh input;
   std::string sha256;
@@ -25,6 +42,8 @@ struct HashedWholeMesh {
 /// core::read_whole_mesh() and, meanwhile, sha256_of_file().
 HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path,
                                        const core::BuildOptions& options = {},
+                                       const core::Progress& progress = {});
+HashedWholeMesh read_hashed_whole_mesh(const MeshFile& file, const core::BuildOptions& options = {},
                                        const core::Progress& progress = {});
 
 }  // namespace morsel::tools

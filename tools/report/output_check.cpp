@@ -17,6 +17,11 @@ RunFiles& RunFiles::reads(const std::string& option, const std::filesystem::path
   return *this;
 }
 
+RunFiles& RunFiles::reads_mesh(const std::filesystem::path& mesh) {
+  // Standard input may be a file, which is not to be replaced either.
+  return reads("MESH", mesh == "-" ? "/dev/stdin" : mesh);
+}
+
 RunFiles& RunFiles::reads_of_field(const std::string& specification, const std::string& option,
                                    const Registry& registry) {
   for (const auto& [key, file] : named_files(specification, registry)) add(inputs_, option + " " + key, file);

@@ -15,6 +15,8 @@ namespace morsel::tools {
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
+  /// MESH of a command, of which - is standard input.
+  RunFiles& reads_mesh(const std::filesystem::path& mesh);
   /// The files that keys of a Morse function, given by `option`, name.
   RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field",
                            const Registry& registry = Registry::standard());

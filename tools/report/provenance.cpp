@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -190,7 +190,7 @@ Json find_provenance(std::string_view bytes) {
 
 Json read_provenance(const std::filesystem::path& path) {
   const core::FileBytes bytes(path, path.string());
-  return find_provenance(bytes.view());
+  return find_provenance(core::DecodedBytes(bytes.view(), path.string()).view());
 }
 
 }  // namespace morsel::tools

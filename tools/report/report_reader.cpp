@@ -47,6 +47,7 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
   for (const JsonView& method : request["methods"].list(1, kMostMethods))
     report.request.methods.push_back(method.text());
   report.repair = request["repair"].truth();
+  if (const auto format = request.find("format")) report.format = format->text();
   if (const auto items = request.find("items")) report.items = items->truth();
   if (const auto target = request.find("target")) report.request.target = target->count();
   if (const auto snap = request.find("snap")) report.request.snap = snap->truth();

@@ -17,8 +17,9 @@ struct LoadedReport {
   ReportDocument document;
   ComparisonRequest request;
   bool repair = false;
-  bool items = true;      ///< false: left out, as requested
-  std::string mesh_path;  ///< as in the report
+  std::string format = {};  ///< of the mesh, where it is not its extension's
+  bool items = true;        ///< false: left out, as requested
+  std::string mesh_path;    ///< as in the report
   std::string mesh_sha256;
 };
 

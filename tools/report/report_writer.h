@@ -16,6 +16,7 @@ struct ReportInput {
   bool repair = false;
   bool items = true;  ///< whether to list the critical points and the diagram's pairs, or only their counts
   double load_seconds = 0;
+  std::string format = {};  ///< that the mesh was read as, where it is not its extension's
 };
 
 /// The request.

@@ -121,6 +121,7 @@ Json request_section(const StabilityRequest& request, bool repair) {
 Json trials_key(const StabilityRequest& request, const ReportInput& input, const Registry& registry) {
   Json asked = request_section(request, input.repair);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
+  if (!input.format.empty()) asked["format"] = input.format;
   return {{"schema", "morsel.stability/1"},
           {"tool", tool_section()},
           {"mesh", input.mesh_sha256},

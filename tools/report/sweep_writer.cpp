@@ -66,11 +66,13 @@ Json request_section(const SweepRequest& request, const SweepPlan& plan, bool re
 }
 
 Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files) {
-  return {{"schema", "morsel.sweep/1"},
-          {"tool", tool_section()},
-          {"mesh", input.mesh_sha256},
-          {"repair", input.repair},
-          {"files", files_section(files)}};
+  Json key = {{"schema", "morsel.sweep/1"},
+              {"tool", tool_section()},
+              {"mesh", input.mesh_sha256},
+              {"repair", input.repair},
+              {"files", files_section(files)}};
+  if (!input.format.empty()) key["format"] = input.format;
+  return key;
 }
 
 void write_sweep(JsonSink& json, const SweepReport& report) {
