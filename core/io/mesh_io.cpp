@@ -74,7 +74,9 @@ std::string remedy_for(std::string_view kind) {
 [[noreturn]] void fail_by_kind(std::string_view content, const Format& format, const std::string& name,
                                const BadInput& error) {
   const std::string_view kind = file_kind(content);
-  if (kind.empty() || kind == format.kind) throw error;
+  // FreeSurfer's reader tells its values itself, whose mark old surfaces have, too.
+  const bool is_freesurfer = format.format == MeshFormat::freesurfer && kind.starts_with("a FreeSurfer");
+  if (kind.empty() || kind == format.kind || is_freesurfer) throw error;
   const std::string head = "cannot read \"" + name + "\": ";
   std::string text = error.what();
   if (text.starts_with(head)) text.erase(0, head.size());
