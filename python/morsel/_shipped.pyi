@@ -156,6 +156,7 @@ class _vertex_scalar(_Shipped):
         *,
         file: float | str | PathLike[str] | None = None,
         property: float | str | PathLike[str] | None = None,
+        column: float | str | PathLike[str] = None,
         progress: Progress = None,
     ) -> Field: ...
 

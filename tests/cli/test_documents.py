@@ -78,7 +78,15 @@ class Depth(Documents):
             "m.txt": f"# {DEEP_PROVENANCE}\n0\n1\n",
             "m.png": "\x89PNG\r\n\x1a\n\0\0tEXtComment\0" + DEEP_PROVENANCE,
             "m.svg": f"<svg><metadata>{DEEP_PROVENANCE}</metadata></svg>",
-            "m.vtp": f"<VTKFile><Array>{DEEP_PROVENANCE}</Array></VTKFile>",
+            "m.vtk": f"# vtk DataFile Version 3.0\n# {DEEP_PROVENANCE}\nASCII\nDATASET POLYDATA\n"
+                     "POINTS 3 int\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\n",
+            "m.vtp": '<VTKFile type="PolyData"><PolyData><FieldData><Array type="String">'
+                     f'{DEEP_PROVENANCE}</Array></FieldData>'
+                     '<Piece NumberOfPoints="3" NumberOfPolys="1"><Points><DataArray type="Int8">'
+                     '0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>'
+                     '<DataArray type="Int8" Name="connectivity">0 1 2</DataArray>'
+                     '<DataArray type="Int8" Name="offsets">3</DataArray></Polys></Piece>'
+                     '</PolyData></VTKFile>',
             "m.html": f"<html></html>\n<!-- {DEEP_PROVENANCE} -->\n",
             "m.csv": f'vertex,provenance\n1,"{doubled}"\n',
             "m.stl": f"solid {DEEP_PROVENANCE}\nendsolid\n",
@@ -86,7 +94,7 @@ class Depth(Documents):
         for name, text in files.items():
             with self.subTest(name):
                 (self.folder / name).write_bytes(text.encode("latin-1"))
-                is_mesh = name in ("m.off", "m.obj", "m.ply", "m.stl")
+                is_mesh = name in ("m.off", "m.obj", "m.ply", "m.stl", "m.vtk", "m.vtp")
                 code, _, errors = self.run_any("info", name, codes=(0,) if is_mesh else (3,))
                 self.run_any("info", "--json", name, codes=(code,))
                 self.assertIn("nested deeper than 64 levels", errors)

@@ -44,6 +44,21 @@ TEST_CASE("values are read line by line") {
         std::nextafter(0.0, 1.0));
 }
 
+TEST_CASE("what is odd in a file of values is a warning, also where values are missing") {
+  const Scratch scratch;
+  std::vector<std::string> warnings;
+  const std::filesystem::path file = scratch.file("values.txt", "depth\n1\n2\n3\n4\n");
+  const TriangleMesh mesh = square_pair().mesh();
+  CHECK(values_of(morse::vertex_scalar(mesh, nullptr, {file, ""}, {}, &warnings)) ==
+        std::vector<double>{1, 2, 3, 4});
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Catch::Contains("the line before the first number") && Catch::Contains("\"depth\""));
+  CHECK(make({{"file", file.string()}})->evaluate(mesh, {}).warnings == warnings);
+  CHECK_THROWS_WITH(read(scratch, "1,\n2\n3\n4\n"),
+                    Catch::Contains("3 values, but") && Catch::Contains("skipped as a header: \"1,\""));
+}
+
 TEST_CASE("values go by the vertices of the file") {
   const Scratch scratch;
   const core::MeshSource source = repaired_source();
@@ -130,6 +145,14 @@ TEST_CASE("vertex scalar keys are checked before any file is touched") {
   CHECK(values_of(property.field) == std::vector<double>{4, 3, 2, 1});
   CHECK(property.parameters == core::Parameters{{"property", "q"}});
 
+  const std::string table = scratch.file("table.csv", "a,b\n1,5\n2,6\n3,7\n4,8\n").string();
+  const core::FunctionResult column = make({{"file", table}, {"column", "b"}})->evaluate(mesh, {});
+  CHECK(values_of(column.field) == std::vector<double>{5, 6, 7, 8});
+  CHECK(column.parameters == core::Parameters{{"file", table}, {"column", "b"}});
+  CHECK(column.warnings.empty());
+  CHECK_THROWS_AS(make({{"property", "q"}, {"column", "b"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(morse::vertex_scalar(mesh, &source, {"", "q", "b"}), core::InvalidArgument);
+
   CHECK_THROWS_WITH(make({}), Catch::Contains("file=") && Catch::Contains("property"));
   CHECK_THROWS_WITH(make({{"file", "a"}, {"property", "b"}}), Catch::Contains("not both"));
   CHECK_THROWS_AS(make({{"file", ""}}), core::InvalidArgument);
@@ -138,5 +161,5 @@ TEST_CASE("vertex scalar keys are checked before any file is touched") {
   CHECK_THROWS_AS(morse::vertex_scalar(mesh, nullptr, {"a", "b"}), core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("vertex-scalar");
   CHECK_NOTHROW(morse::make_vertex_scalar(help));
-  CHECK(help.declared().size() == 2);
+  CHECK(help.declared().size() == 3);
 }

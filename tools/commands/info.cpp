@@ -155,6 +155,8 @@ int inform(const Options& options, const Run& run) {
   if (file.format || core::has_mesh_extension(options.file) || core::recognised_format(options.file))
     findings = inspect(file, run.common.repair, run.console.progress());
   const Json provenance = provenance_of(options.file, file, findings.has_value(), run.console);
+  // The points and lines that morsel writes for ParaView are no mesh.
+  if (findings && !provenance.is_null() && findings->file.soup.polygon_count() == 0) findings.reset();
   if (!findings && provenance.is_null())
     throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
                          ") and has no provenance");
