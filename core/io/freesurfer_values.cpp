@@ -16,7 +16,7 @@ namespace morsel::core {
 namespace freesurfer {
 namespace {
 
-constexpr std::size_t kPause = 1 << 16;  // values between two looks at whether to stop
+constexpr std::size_t kValuesBetweenPauses = 1 << 16;  // values between two looks at whether to stop
 
 std::string entry_place(std::size_t i) { return "entry " + std::to_string(i); }
 
@@ -54,7 +54,7 @@ class AnnotationReader {
   [[noreturn]] void fail_short() const { fail("it ends within its colour table"); }
 
   void pause(std::size_t i) const {
-    if ((i + 1) % kPause == 0) request_.progress.throw_if_cancelled();
+    if ((i + 1) % kValuesBetweenPauses == 0) request_.progress.throw_if_cancelled();
   }
 
   /// A count of things that take at least so many bytes each.
@@ -143,7 +143,7 @@ ValueFile read_freesurfer_values(std::string_view bytes, const ValueRequest& req
     check_size(count, 15, 4);
     result.values.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      if ((i + 1) % kPause == 0) request.progress.throw_if_cancelled();
+      if ((i + 1) % kValuesBetweenPauses == 0) request.progress.throw_if_cancelled();
       result.values[i] = reader.float32();
     }
     return result;

@@ -24,8 +24,9 @@ struct Options {
 /// Points that are wanted, and that only a document can hold.
 void check_points(const Options& options) {
   if (options.points.count && options.json.empty() && !holds_points(options.output))
-    throw core::InvalidArgument("a text has the field's values alone: chosen points need --json, or " +
-                                options.output + " as .ply or .vtp");
+    throw core::InvalidArgument(
+        "a text or GIFTI file has the field's values alone: chosen points need --json, or " + options.output +
+        " as .ply or .vtp");
 }
 
 int write(Options& options, const Run& run) {
