@@ -18,6 +18,8 @@ std::string file_extension(const std::filesystem::path& path) {
 std::string checked_extension(const std::filesystem::path& path, std::string_view what,
                               std::initializer_list<std::string_view> allowed) {
   std::string extension = file_extension(path);
+  const std::string longer = file_extension(path.stem()) + extension;
+  if (std::ranges::find(allowed, longer) != allowed.end()) return longer;
   if (std::ranges::find(allowed, extension) == allowed.end())
     throw InvalidArgument(std::string(what) + " to " +
                           listed(std::vector<std::string>(allowed.begin(), allowed.end()), " or ") +

@@ -12,9 +12,9 @@ namespace morsel::core {
 /// none.
 std::string file_extension(const std::filesystem::path& path);
 
-/// The extension of an output, which must be one of `allowed`, each with its dot and in small letters. Throws
-/// InvalidArgument otherwise: "a field is written to .txt, .ply or .vtp, not to "out.png"", where `what` is
-/// "a field is written".
+/// The extension of an output, which must be one of `allowed`, each with its dot and in small letters; one of
+/// them may be longer than an extension (".label.gii"). Throws InvalidArgument otherwise: "a field is written
+/// to .txt, .ply or .vtp, not to "out.png"", where `what` is "a field is written".
 std::string checked_extension(const std::filesystem::path& path, std::string_view what,
                               std::initializer_list<std::string_view> allowed);
 

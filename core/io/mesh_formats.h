@@ -41,6 +41,15 @@ LoadedSoup read_obj(std::string_view bytes, const std::string& file, const Progr
 /// decimals that are 0, corners of a floating-point type, what follows the last element.
 LoadedSoup read_ply(std::string_view bytes, const std::string& file, const Progress& progress);
 
+/// FreeSurfer's surfaces: triangles, and the two old kinds with quads. Coordinates are those of the file
+/// ("surface RAS"): the geometry of the volume that may follow is not applied.
+LoadedSoup read_freesurfer(std::string_view bytes, const std::string& file, const Progress& progress);
+
+/// GIFTI: one array of points and one of triangles, as text, in base64, compressed, in either byte order.
+/// Coordinates are those of the file: transformations in it are not applied. Arrays of one value a vertex
+/// are properties. Of the part FORMATS.
+LoadedSoup read_gifti(std::string_view bytes, const std::string& file, const Progress& progress);
+
 /// STL, ASCII and binary (told apart by the size, not by the word "solid"). Equal positions become one
 /// vertex; vertices are numbered in the order in which they first appear. Normals are skipped. With warnings:
 /// bytes behind the triangles or the number 0 in a binary file, text behind a solid.

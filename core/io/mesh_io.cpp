@@ -9,6 +9,7 @@
 #include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_kind.h"
+#include "morsel/core/io/freesurfer.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
@@ -22,35 +23,60 @@ struct Format {
   std::string_view kind;  ///< as file_kind() names it
   LoadedSoup (*read)(std::string_view bytes, const std::string& file, const Progress& progress);
 };
-constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, "an OFF file", read_off},
-                                                 {".obj", MeshFormat::obj, "an OBJ file", read_obj},
-                                                 {".ply", MeshFormat::ply, "a PLY file", read_ply},
-                                                 {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
-                                                 {".vtk", MeshFormat::vtk, "a legacy VTK file", read_vtk},
-                                                 {".vtp", MeshFormat::vtp, "a VTK XML file", read_vtk_xml},
-                                                 {".vtu", MeshFormat::vtu, "a VTK XML file", read_vtk_xml}});
+/// FreeSurfer's files have no extension; in its place is what lists of extensions say of them.
+constexpr std::string_view kFreeSurfer = "FreeSurfer's lh.pial";
+constexpr auto kFormats =
+    std::to_array<Format>({{".off", MeshFormat::off, "an OFF file", read_off},
+                           {".obj", MeshFormat::obj, "an OBJ file", read_obj},
+                           {".ply", MeshFormat::ply, "a PLY file", read_ply},
+                           {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
+                           {".vtk", MeshFormat::vtk, "a legacy VTK file", read_vtk},
+                           {".vtp", MeshFormat::vtp, "a VTK XML file", read_vtk_xml},
+                           {".vtu", MeshFormat::vtu, "a VTK XML file", read_vtk_xml},
+                           {".gii", MeshFormat::gifti, "a GIFTI file", read_gifti},
+                           {kFreeSurfer, MeshFormat::freesurfer, "a FreeSurfer surface", read_freesurfer}});
 
 const Format* find_extension(std::string_view extension) {
   const auto* found = std::ranges::find(kFormats, extension, &Format::extension);
   return found == kFormats.end() ? nullptr : found;
 }
+/// As --format takes it.
+std::string_view format_name(const Format& format) {
+  return format.format == MeshFormat::freesurfer ? "freesurfer" : format.extension.substr(1);
+}
+/// The name without an extension of a compression.
+std::filesystem::path content_name(const std::filesystem::path& path) {
+  return content_extension(path) == file_extension(path) ? path.filename() : path.stem();
+}
 const Format* find_format(const std::filesystem::path& path) {
-  return find_extension(content_extension(path));
+  if (const Format* found = find_extension(content_extension(path))) return found;
+  return find_extension(is_named_like_freesurfer_surface(content_name(path)) ? kFreeSurfer : "");
+}
+
+/// Whether a GIFTI file has values for the vertices of another file, by the extensions of the standard.
+bool has_extension_of_values(const std::filesystem::path& path) {
+  constexpr auto kValues = std::to_array<std::string_view>(
+      {".shape", ".func", ".label", ".time", ".rgba", ".tensor", ".vector", ".dset", ".coord", ".topo"});
+  const std::filesystem::path name = content_name(path);
+  return file_extension(name) == ".gii" &&
+         std::ranges::find(kValues, file_extension(name.stem())) != kValues.end();
 }
 
 /// ": name it .obj or use --format obj" of a kind that is read; "" of others.
 std::string remedy_for(std::string_view kind) {
   const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
   if (format == kFormats.end()) return "";
-  const std::string extension(format->extension);
-  return ": name it " + extension + " or use --format " + extension.substr(1);
+  return ": name it " + std::string(format->extension) + " or use --format " +
+         std::string(format_name(*format));
 }
 
 /// Throws what the reader of `format` says of a file, with what the file is if that is another kind.
 [[noreturn]] void fail_by_kind(std::string_view content, const Format& format, const std::string& name,
                                const BadInput& error) {
   const std::string_view kind = file_kind(content);
-  if (kind.empty() || kind == format.kind) throw error;
+  // FreeSurfer's reader tells its values itself, whose mark old surfaces have, too.
+  const bool is_freesurfer = format.format == MeshFormat::freesurfer && kind.starts_with("a FreeSurfer");
+  if (kind.empty() || kind == format.kind || is_freesurfer) throw error;
   const std::string remedy = remedy_for(kind);
   std::string what = "it is " + std::string(kind) + ", though read as " + std::string(format.extension);
   if (!remedy.empty()) {  // which a reader may know better
@@ -70,7 +96,19 @@ std::string unknown_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool has_mesh_extension(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+bool has_mesh_extension(const std::filesystem::path& path) {
+  return find_format(path) != nullptr && !has_extension_of_values(path);
+}
+
+std::optional<MeshFormat> recognised_format(const std::filesystem::path& path) {
+  if (find_format(path) != nullptr) return std::nullopt;
+  try {
+    const FileBytes bytes(path, path.string());
+    if (is_freesurfer_surface(bytes.view())) return MeshFormat::freesurfer;
+  } catch (const BadInput&) {  // reading it as a mesh says why
+  }
+  return std::nullopt;
+}
 
 std::string mesh_extensions(std::string_view last) {
   std::vector<std::string> names(kFormats.size());
@@ -85,12 +123,13 @@ MeshFormat mesh_format(const std::filesystem::path& path) {
 
 std::vector<std::string> mesh_format_names() {
   std::vector<std::string> names;
-  for (const Format& format : kFormats) names.emplace_back(format.extension.substr(1));
+  for (const Format& format : kFormats) names.emplace_back(format_name(format));
   return names;
 }
 
 MeshFormat mesh_format_named(std::string_view name) {
-  if (const Format* found = find_extension("." + std::string(name))) return found->format;
+  const auto* found = std::ranges::find(kFormats, name, format_name);
+  if (found != kFormats.end()) return found->format;
   throw InvalidArgument("there is no mesh format " + shown(name) + ", only " +
                         listed(mesh_format_names(), " and "));
 }
@@ -121,6 +160,8 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
   const FileBytes bytes(path, name);
   if (const Format* format = find_format(path))
     return parse_polygon_soup(bytes.view(), format->format, name, progress);
+  if (is_freesurfer_surface(bytes.view()))
+    return parse_polygon_soup(bytes.view(), MeshFormat::freesurfer, name, progress);
   const std::string_view kind = file_kind(bytes.view());
   fail_reading(name, unknown_extension(path) +
                          (kind.empty() ? "" : "; it is " + std::string(kind) + remedy_for(kind)));

@@ -2,6 +2,7 @@
 /// Reading meshes from files, in the formats that MeshFormat lists.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,13 +42,17 @@ struct LoadedSoup {
   std::vector<std::string> warnings = {};            ///< what was read tolerantly, a sentence each
 };
 
-enum class MeshFormat { off, obj, ply, stl, vtk, vtp, vtu };
+enum class MeshFormat { off, obj, ply, stl, vtk, vtp, vtu, gifti, freesurfer };
 
 /// By the file's extension, any case; of a compressed file's name (.gz, .xz, .zst) by the one before. Throws
-/// BadInput, listing the known ones, if it is another one.
+/// BadInput, listing the known ones, if it is another one. FreeSurfer's surfaces have no extension: they go
+/// by names such as lh.white and rh.sphere.reg.
 MeshFormat mesh_format(const std::filesystem::path& path);
-/// Whether the extension is that of a known format.
+/// Whether mesh_format() knows the name, and it is not that of a GIFTI file with values alone (.shape.gii).
 bool has_mesh_extension(const std::filesystem::path& path);
+/// The format of a file whose extension is no known one, by its first bytes: FreeSurfer's surfaces. None if
+/// it is no such file or cannot be read.
+std::optional<MeshFormat> recognised_format(const std::filesystem::path& path);
 /// The extensions as a sentence lists them: ".off, .obj or .ply".
 std::string mesh_extensions(std::string_view last = " or ");
 /// The formats by name: "off", … ; and the one of a name. Throws InvalidArgument, listing them, if there is
@@ -55,7 +60,8 @@ std::string mesh_extensions(std::string_view last = " or ");
 std::vector<std::string> mesh_format_names();
 MeshFormat mesh_format_named(std::string_view name);
 
-/// Reads the polygons of a file, whose format is that of its extension, in double precision. gzip, xz and
+/// Reads the polygons of a file, whose format is that of its name or recognised_format(), in double
+/// precision. gzip, xz and
 /// zstd data are decompressed, whatever the file's name; UTF-16 text with a byte-order mark is converted.
 /// What was odd in a file whose content is complete is said in the result's warnings. Corners are checked to
 /// name vertices that exist; coordinates may be non-finite. Throws BadInput, naming the file and where

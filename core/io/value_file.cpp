@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/brain_values.h"
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_kind.h"
+#include "morsel/core/io/freesurfer.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/text/text_scanner.h"
 
@@ -24,6 +26,14 @@ struct ValueKind {
 
 /// The first that fits; a file of none is text.
 constexpr auto kKinds = std::to_array<ValueKind>({
+    {[](std::string_view bytes, std::string_view extension) {
+       return bytes.starts_with("\xFF\xFF\xFF") ||
+              (extension != ".annot" && is_freesurfer_morphometry(bytes));
+     },
+     read_freesurfer_values},
+    {[](std::string_view, std::string_view extension) { return extension == ".annot"; },
+     read_annotation_values},
+    {[](std::string_view, std::string_view extension) { return extension == ".gii"; }, read_gifti_values},
     {[](std::string_view bytes, std::string_view extension) {
        return bytes.starts_with("\x93NUMPY") || extension == ".npy";
      },

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/brain_values.h"
 #include "morsel/core/io/decompression.h"
 #include "morsel/core/io/file_formats.h"
 #include "morsel/core/io/mesh_formats.h"
@@ -16,14 +17,24 @@ void require_formats(std::string_view what) {
                         "packages zlib1g-dev, liblzma-dev, libzstd-dev and libpugixml-dev are needed");
 }
 
-GrowingBytes decompress(std::string_view, Compression, const std::string& file, const Progress&,
-                        const DecompressionLimit&) {
-  require_formats("the compressed file \"" + file + "\"");
+LoadedSoup read_gifti(std::string_view, const std::string& file, const Progress&) {
+  require_formats("the GIFTI file \"" + file + "\"");
+  return {};
+}
+
+ValueFile read_gifti_values(std::string_view, const ValueRequest& request) {
+  require_formats("the GIFTI file \"" + request.file + "\"");
   return {};
 }
 
 LoadedSoup read_vtk_xml(std::string_view, const std::string&, const Progress&) {
   require_formats("a VTP or VTU file");
+  return {};
+}
+
+GrowingBytes decompress(std::string_view, Compression, const std::string& file, const Progress&,
+                        const DecompressionLimit&) {
+  require_formats("the compressed file \"" + file + "\"");
   return {};
 }
 

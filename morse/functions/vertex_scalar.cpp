@@ -57,7 +57,7 @@ const core::VertexProperty& find_property(const core::MeshSource* source, const 
       available += (available.empty() ? "" : ", ") + property.name;
     }
   throw BadInput("the mesh's file has no scalar property " + shown(name) + " for its vertices; it has " +
-                 (available.empty() ? "none (PLY and VTK files may have them)" : available));
+                 (available.empty() ? "none (PLY, VTK and GIFTI files may have them)" : available));
 }
 
 class VertexScalar final : public core::MorseFunction {
@@ -110,10 +110,9 @@ core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::Mesh
 std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& reader) {
   const bool by_property = reader.given("property");
   VertexScalarOptions options;
-  options.file =
-      reader.file("file", by_property ? "" : nullptr,
-                  "a file with a value for each vertex of the mesh's file (text, CSV, .npy, VTK, PLY), or "
-                  "else a property");
+  options.file = reader.file("file", by_property ? "" : nullptr,
+                             "a file with a value for each vertex of the mesh's file (text, CSV, .npy, "
+                             "FreeSurfer, GIFTI, VTK, PLY), or else a property");
   options.property = reader.text("property", "", "a scalar property of the vertices in the mesh's own file");
   options.column = reader.text("column", "", "which column or array of the file, by name or from 1");
   const bool by_file = reader.given("file");

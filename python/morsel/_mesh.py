@@ -243,7 +243,7 @@ def _restored(state: tuple[Any, ...]) -> Mesh:
 
 
 def read(path: PathLike, *, repair: bool = False, progress: Progress = None) -> Mesh:
-    """Reads a mesh: .off, .obj, .ply, .stl, .vtk, .vtp or .vtu.
+    """Reads a mesh: .off, .obj, .ply, .stl, .vtk, .vtp, .vtu, .gii or a surface of FreeSurfer.
 
     Raises MeshError, with all defects, for a mesh that breaks a rule (repair=True mends what can be mended),
     InputError for a file that is missing, damaged or of another kind.

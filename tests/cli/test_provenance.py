@@ -61,7 +61,14 @@ def of_html(path):
     return json.loads(re.findall(r"<!-- ([^\n]*) -->\n$", path.read_text())[-1])
 
 
-READERS = {".png": of_png, ".svg": of_svg, ".vtp": of_vtp, ".ply": lambda path: of_lines(path, b"comment "),
+def of_object(path):
+    """The object as it is among other bytes."""
+    text = path.read_bytes().decode("latin-1")
+    return json.JSONDecoder().raw_decode(text, text.index('{"schema":"morsel.provenance/1"'))[0]
+
+
+READERS = {".annot": of_object, ".gii": of_object, ".png": of_png, ".svg": of_svg, ".vtp": of_vtp,
+           ".ply": lambda path: of_lines(path, b"comment "),
            ".off": lambda path: of_lines(path, b"# "), ".obj": lambda path: of_lines(path, b"# "),
            ".txt": lambda path: of_lines(path, b"# "), ".html": of_html}
 
@@ -167,7 +174,7 @@ class Provenance(ProgramTest):
         self.check(files, "compare", [self.mesh], methods, shown)
 
     def test_field(self):
-        for kind in ("txt", "ply", "vtp"):
+        for kind in ("txt", "ply", "vtp", "shape.gii"):
             files = self.written_twice("field", self.octahedron, "--field",
                                        f"vertex-scalar:file={self.values}", "--method",
                                        "salient:iterations=2", "-o", f"{{out}}/f.{kind}",
@@ -185,7 +192,8 @@ class Provenance(ProgramTest):
         self.assertEqual(of_vtp(files["surface.1.vtp"])["request"]["levels"], "0,2")
 
     def test_segment(self):
-        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}),
+        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("annot", {"s.annot"}),
+                            ("label.gii", {"s.label.gii"}),
                             ("txt", {"s.vertices.txt", "s.faces.txt"})):
             files = self.written_twice("segment", self.mesh, "--persistence", "1%", "-o", f"{{out}}/s.{kind}",
                                        "--json",

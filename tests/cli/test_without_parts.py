@@ -28,6 +28,11 @@ class WithoutParts(ProgramTest):
         self.refused('built without the kinds of files that libraries read, which the compressed file '
                      '"o.off.gz" needs: build it with -DMORSEL_WITH_FORMATS=ON', "info", "o.off.gz")
 
+        self.file("s.gii", "<GIFTI/>")
+        self.refused('which the GIFTI file "s.gii" needs', "info", "s.gii")
+        self.refused('which the GIFTI file "s.gii" needs', "compare", "o.off", "--field",
+                     "vertex-scalar:file=s.gii")
+
     def test_molecules(self):
         self.refused(MOLECULES.format("morsel molecule"), "molecule", "m.pdb", "-o", "m.off")
         self.refused(MOLECULES.format("atomic-density"), "compare", "o.off", "--field",

@@ -11,6 +11,8 @@ std::span<const Target> targets() {
                                                {"stl", "meshes", ".stl", stl},
                                                {"vtk", "meshes", ".vtk", vtk},
                                                {"vtp", "meshes", ".vtp", vtp},
+                                               {"freesurfer", "meshes", ".pial", freesurfer},
+                                               {"gifti", "meshes", ".gii", gifti},
                                                {"compressed", "compressed", "", compressed},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},

@@ -25,6 +25,8 @@ void off(std::string_view bytes);
 void obj(std::string_view bytes);
 void ply(std::string_view bytes);
 void stl(std::string_view bytes);
+void freesurfer(std::string_view bytes);
+void gifti(std::string_view bytes);
 void vtk(std::string_view bytes);
 void vtp(std::string_view bytes);
 void compressed(std::string_view bytes);

@@ -43,7 +43,7 @@ void check_values(std::string_view bytes, const std::string& name, const std::st
 }  // namespace
 
 void values(std::string_view bytes) {
-  for (const char* name : {"fuzz.txt", "fuzz.csv", "fuzz.npy"})
+  for (const char* name : {"fuzz.txt", "fuzz.csv", "fuzz.npy", "fuzz.annot", "fuzz.gii"})
     for (const char* column : {"", "2", "value"}) check_values(bytes, name, column);
 }
 

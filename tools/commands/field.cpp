@@ -24,8 +24,9 @@ struct Options {
 /// Points that are wanted, and that only a document can hold.
 void check_points(const Options& options) {
   if (options.points.count && options.json.empty() && !holds_points(options.output))
-    throw core::InvalidArgument("a text has the field's values alone: chosen points need --json, or " +
-                                options.output + " as .ply or .vtp");
+    throw core::InvalidArgument(
+        "a text or GIFTI file has the field's values alone: chosen points need --json, or " + options.output +
+        " as .ply or .vtp");
 }
 
 int write(Options& options, const Run& run) {
@@ -66,12 +67,13 @@ void add_field(Program& program) {
   add_field_options(command, options->mesh, options->request);
   add_points_options(command, options->points);
   command.begin_group("What is written");
-  add_output_option(command, options->output,
-                    ".txt (a value a line), .ply or .vtp (the surface with the values); - is standard output")
+  add_output_option(
+      command, options->output,
+      ".txt (a value a line), .ply or .vtp (with the surface), .shape.gii; - is standard output")
       .shortly("The file to write")
       .in_detail(
-          "Vertices have the input's numbers; chosen points are marked, but in .txt. Standard output gets a "
-          "value a line");
+          "Vertices have the input's numbers; chosen points are marked, but in .txt and GIFTI (.shape.gii, "
+          ".func.gii: values in single precision). Standard output gets a value a line");
   add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);
   command.examples = {

@@ -152,7 +152,7 @@ Json provenance_of(const std::string& path, const MeshFile& file, bool is_mesh, 
 int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
   const MeshFile file = mesh_file(options.file, run);
-  if (file.format || core::has_mesh_extension(options.file))
+  if (file.format || core::has_mesh_extension(options.file) || core::recognised_format(options.file))
     findings = inspect(file, run.common.repair, run.console.progress());
   const Json provenance = provenance_of(options.file, file, findings.has_value(), run.console);
   // The points and lines that morsel writes for ParaView are no mesh.

@@ -3,6 +3,7 @@
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
+#include "morsel/tools/export/brain_files.h"
 #include "morsel/tools/export/input_numbers.h"
 #include "morsel/tools/export/points_file.h"
 #include "morsel/tools/formats/vtp_writer.h"
@@ -15,7 +16,8 @@ constexpr const char* kChosen = "chosen";
 /// Standard output, which has no extension, takes text.
 std::string extension_of(const std::filesystem::path& path) {
   if (path == kStandardOutput) return ".txt";
-  return core::checked_extension(path, "a field is written", {".txt", ".ply", ".vtp"});
+  return core::checked_extension(path, "a field is written",
+                                 {".txt", ".ply", ".vtp", ".shape.gii", ".func.gii"});
 }
 
 void write_text(const std::filesystem::path& path, std::span<const double> values,
@@ -43,7 +45,10 @@ std::vector<std::int32_t> chosen_order(const MadePoints& chosen, const core::Tri
 
 void check_field_path(const std::filesystem::path& path) { extension_of(path); }
 
-bool holds_points(const std::filesystem::path& field_path) { return extension_of(field_path) != ".txt"; }
+bool holds_points(const std::filesystem::path& field_path) {
+  const std::string extension = extension_of(field_path);
+  return extension == ".ply" || extension == ".vtp";
+}
 
 void write_field(const std::filesystem::path& path, const core::ScalarField& field,
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
@@ -52,6 +57,11 @@ void write_field(const std::filesystem::path& path, const core::ScalarField& fie
   const std::vector<double> values = by_input_vertex(field, numbering);
   if (extension == ".txt") {
     write_text(path, values, provenance);
+    return;
+  }
+  if (extension.ends_with(".gii")) {
+    write_gifti_values(path, values, extension == ".shape.gii" ? "NIFTI_INTENT_SHAPE" : "NIFTI_INTENT_NONE",
+                       name, provenance);
     return;
   }
   std::vector<std::int32_t> order;

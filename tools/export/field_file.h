@@ -1,5 +1,5 @@
 #pragma once
-/// One field as a file: text, PLY or VTP.
+/// One field as a file: text, PLY, VTP or GIFTI.
 
 #include <filesystem>
 #include <string>
@@ -16,9 +16,10 @@ inline constexpr const char* kStandardOutput = "/dev/stdout";
 
 /// Writes `field` in the vertex numbers of the input file: .txt has one value a line, as short as reads back
 /// exactly, below lines that begin with #; .ply (binary) and .vtp have the surface with the values as vertex
-/// property `name`. An input vertex that the mesh does not have gets `nan`; one that repair split gets the
-/// value of its first copy. Chosen points, if there are any, are a property `chosen` (chosen_order()), which
-/// .txt does not have. Throws InvalidArgument on another ending, WriteFailed where writing fails.
+/// property `name`; .shape.gii and .func.gii (GIFTI) have the values in single precision. An input vertex
+/// that the mesh does not have gets `nan`; one that repair split gets the value of its first copy. Chosen
+/// points, if there are any, are a property `chosen` (chosen_order()), which .txt and .gii do not have.
+/// Throws InvalidArgument on another ending, WriteFailed where writing fails.
 void write_field(const std::filesystem::path& path, const core::ScalarField& field,
                  const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
                  const std::string& name, const Provenance& provenance, const MadePoints* chosen = nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-/// Labels of vertices and triangles as files: PLY, VTP or text.
+/// Labels of vertices and triangles as files: PLY, VTP, text, and for FreeSurfer and GIFTI.
 
 #include <filesystem>
 #include <span>
@@ -26,6 +26,7 @@ struct Labels {
 ///         points
 ///   .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and NAME.faces.txt in
 ///         the order of the faces of the others
+///   .annot, .label.gii  the labels of vertices, for FreeSurfer and GIFTI (brain_files.h)
 /// Faces are the mesh's triangles: the input's faces in its order, polygons cut into triangles, without those
 /// that repair dropped. Returns what was written. Throws InvalidArgument on another ending, WriteFailed where
 /// writing fails; of the two text files then none or, should the second fail as it is finished, the first

@@ -1,0 +1,6 @@
+#include "mesh_checks.h"
+#include "target.h"
+
+void morsel::fuzz::freesurfer(std::string_view bytes) {
+  check_mesh_format(bytes, core::MeshFormat::freesurfer);
+}
