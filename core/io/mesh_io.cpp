@@ -5,10 +5,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "morsel/core/io/face_values.h"
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/listed.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -65,33 +68,66 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
 
 namespace {
 
-/// build_mesh(), with the file named in its errors.
-LoadedMesh build(const std::filesystem::path& path, LoadedSoup file, const BuildOptions& options,
-                 const Progress& progress) {
-  try {
-    BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
-    return {std::move(built.mesh),
-            {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
-             std::move(file.warnings)}};
-  } catch (const MeshError& error) {
-    throw error.about("\"" + path.string() + "\"");
-  } catch (const BadInput& error) {
-    throw BadInput("cannot use \"" + path.string() + "\": " + error.what());
+/// Per vertex of the input the one whose place it takes in the mesh; itself where it does not.
+std::vector<Index> representatives(const VertexNumbering& numbering) {
+  std::vector<Index> result(numbering.input_count);
+  for (Index v = 0; v < result.size(); ++v) {
+    const Index at = numbering.mesh_vertex(v);
+    result[v] = at == kNone ? v : numbering.input_vertex(at);
   }
+  return result;
+}
+
+/// Joined vertices should have had the same values. Empty if they had.
+std::string difference_warning(const MeshSource& source) {
+  std::vector<std::string> differences;
+  for (const VertexProperty& property : source.properties)
+    if (const JoinedDifference d = compare_joined(source.numbering, property.values); d.count > 0)
+      differences.push_back(shown(property.name) + " at " + grouped(d.count) + " (by up to " +
+                            shortest(d.largest) + ")");
+  if (differences.empty()) return {};
+  return "joined vertices have different values of " + listed(differences, " and ") +
+         "; that of the first vertex is taken";
 }
 
 }  // namespace
 
+LoadedMesh make_mesh(LoadedSoup file, const BuildOptions& options, const std::string& name,
+                     const Progress& progress) {
+  try {
+    LoadedSoup faces;  // what face properties need of the file
+    if (!file.face_properties.empty()) faces = {file.soup, file.properties, std::move(file.face_properties)};
+    BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
+    LoadedMesh loaded{std::move(built.mesh),
+                      {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
+                       std::move(file.warnings)}};
+    MeshSource& source = loaded.source;
+    const auto warn = [&](std::string text) {
+      if (!text.empty()) source.warnings.push_back(std::move(text));
+    };
+    for (std::string& text : built.warnings) warn(std::move(text));
+    warn(difference_warning(source));
+    for (VertexProperty& made : face_values_at_vertices(faces, representatives(source.numbering)))
+      source.properties.push_back(std::move(made));
+    warn(unwelded_warning(loaded.mesh, source.numbering));
+    return loaded;
+  } catch (const MeshError& error) {
+    throw error.about("\"" + name + "\"");
+  } catch (const BadInput& error) {
+    throw BadInput("cannot use \"" + name + "\": " + error.what());
+  }
+}
+
 LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options,
                      const Progress& progress) {
-  return build(path, read_polygon_soup(path, progress), options, progress);
+  return make_mesh(read_polygon_soup(path, progress), options, path.string(), progress);
 }
 
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options,
                           const Progress& progress) {
   LoadedSoup file = read_polygon_soup(path, progress);
   std::vector<Point> positions = file.soup.positions;
-  return {build(path, std::move(file), options, progress), std::move(positions)};
+  return {make_mesh(std::move(file), options, path.string(), progress), std::move(positions)};
 }
 
 }  // namespace morsel::core

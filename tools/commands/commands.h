@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
 #include "morsel/tools/render/request_text.h"
@@ -30,8 +31,8 @@ enum ExitCode : int {
 
 /// Options that every command takes.
 struct CommonOptions {
-  int threads = 0;  ///< 0: as many as the machine has
-  bool repair = false;
+  int threads = 0;                ///< 0: as many as the machine has
+  core::BuildOptions build = {};  ///< of the commands that read a mesh
   bool quiet = false;
   std::string command;  ///< the command line as a Provenance has it
 };
@@ -63,8 +64,8 @@ void set_action(Program& program, Command& command, std::shared_ptr<Options> opt
   };
 }
 
-/// --threads, --repair and --quiet, after the command's own.
-void add_common_options(Command& command, CommonOptions& common, bool with_repair = true);
+/// --threads, --repair, --weld and --quiet, after the command's own.
+void add_common_options(Command& command, CommonOptions& common, bool with_mesh = true);
 
 /// --target K
 Option& add_target_option(Command& command, std::optional<std::size_t>& target);

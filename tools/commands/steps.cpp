@@ -22,8 +22,13 @@ std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFile
 
 MeshInput read_input(const std::string& path, const Run& run, bool items) {
   const Stopwatch watch;
-  HashedMesh mesh = read_hashed_mesh(path, {.repair = run.common.repair}, run.console.progress());
-  return {std::move(mesh.loaded), {path, std::move(mesh.sha256), run.common.repair, items, watch.seconds()}};
+  HashedMesh mesh = read_hashed_mesh(path, run.common.build, run.console.progress());
+  tell_warnings(mesh.loaded.source, run.console);
+  return {std::move(mesh.loaded), {path, std::move(mesh.sha256), run.common.build, items, watch.seconds()}};
+}
+
+void tell_warnings(const core::MeshSource& source, Console& console) {
+  for (const std::string& warning : source.warnings) console.warning(warning);
 }
 
 void tell_warnings(const FieldOutcome& field, Console& console) {
@@ -94,8 +99,8 @@ void FieldRun::read() {
 
 void FieldRun::read_whole() {
   const Stopwatch watch;
-  HashedWholeMesh mesh =
-      read_hashed_whole_mesh(file_.path, {.repair = run_.common.repair}, run_.console.progress());
+  HashedWholeMesh mesh = read_hashed_whole_mesh(file_.path, run_.common.build, run_.console.progress());
+  tell_warnings(mesh.input.loaded.source, run_.console);
   file_.sha256 = std::move(mesh.sha256);
   mesh_.emplace(std::move(mesh.input));
   load_seconds_ = watch.seconds();

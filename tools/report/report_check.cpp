@@ -18,9 +18,9 @@ namespace {
 /// The report that the same request gives now.
 ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
                          const Registry& registry, const core::Progress& progress) {
-  const HashedMesh input = read_hashed_mesh(mesh_path, {.repair = report.repair}, progress);
+  const HashedMesh input = read_hashed_mesh(mesh_path, report.build, progress);
   ReportCollector again;
-  ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.repair, report.items},
+  ReportWriter writer(again, input.loaded, {report.mesh_path, input.sha256, report.build, report.items},
                       report.request);
   run_comparison(input.loaded, prepare(report.request, registry), {&writer}, progress);
   writer.finish();
