@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/mesh/welding.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 #include "morsel/morse/functions/value_file.h"
 
@@ -59,6 +61,28 @@ const core::VertexProperty& find_property(const core::MeshSource* source, const 
                  (available.empty() ? "none (only PLY files have them)" : available));
 }
 
+core::ScalarField scalar_of(const core::TriangleMesh& mesh, const core::MeshSource* source,
+                            const VertexScalarOptions& options, const core::Progress& progress,
+                            std::vector<std::string>& warnings) {
+  if (options.file.empty() == options.property.empty())
+    throw core::InvalidArgument("a vertex scalar comes from a file or from a property: name one of them");
+  static const core::VertexNumbering kSame;
+  const core::VertexNumbering& numbering = source == nullptr ? kSame : source->numbering;
+  if (options.file.empty()) {
+    const core::VertexProperty& property = find_property(source, options.property);
+    return make_field(mesh, numbering, property.values, "the property " + shown(property.name),
+                      [](std::size_t i) { return "entry " + std::to_string(i); });
+  }
+  const ValueFile file = ValueFile::read(options.file, progress);
+  core::ScalarField field = make_field(mesh, numbering, file.values(), options.file.string(),
+                                       [&](std::size_t i) { return file.place(i); });
+  if (const core::JoinedDifference d = core::compare_joined(numbering, file.values()); d.count > 0)
+    warnings.push_back("joined vertices have different values in " + options.file.string() + " at " +
+                       core::grouped(d.count) + " (by up to " + core::shortest(d.largest) +
+                       "); that of the first vertex is taken");
+  return field;
+}
+
 class VertexScalar final : public core::MorseFunction {
  public:
   explicit VertexScalar(VertexScalarOptions options) : options_(std::move(options)) {}
@@ -70,7 +94,9 @@ class VertexScalar final : public core::MorseFunction {
       parameters.emplace_back("property", options_.property);
     else
       parameters.emplace_back("file", options_.file.string());
-    return {vertex_scalar(mesh, context.source, options_, context.progress), std::move(parameters)};
+    std::vector<std::string> warnings;
+    core::ScalarField field = scalar_of(mesh, context.source, options_, context.progress, warnings);
+    return {std::move(field), std::move(parameters), std::move(warnings)};
   }
   core::FunctionTraits traits() const override { return {.needs_input_vertices = true}; }
 
@@ -82,18 +108,8 @@ class VertexScalar final : public core::MorseFunction {
 
 core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::MeshSource* source,
                                 const VertexScalarOptions& options, const core::Progress& progress) {
-  if (options.file.empty() == options.property.empty())
-    throw core::InvalidArgument("a vertex scalar comes from a file or from a property: name one of them");
-  static const core::VertexNumbering kSame;
-  const core::VertexNumbering& numbering = source == nullptr ? kSame : source->numbering;
-  if (options.file.empty()) {
-    const core::VertexProperty& property = find_property(source, options.property);
-    return make_field(mesh, numbering, property.values, "the property " + shown(property.name),
-                      [](std::size_t i) { return "entry " + std::to_string(i); });
-  }
-  const ValueFile file = ValueFile::read(options.file, progress);
-  return make_field(mesh, numbering, file.values(), options.file.string(),
-                    [&](std::size_t i) { return file.place(i); });
+  std::vector<std::string> warnings;
+  return scalar_of(mesh, source, options, progress, warnings);
 }
 
 std::unique_ptr<core::MorseFunction> make_vertex_scalar(core::ParameterReader& reader) {

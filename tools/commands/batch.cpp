@@ -137,6 +137,8 @@ int compare_all(Options& options, const Run& run) {
   const auto tell = [&](const batch::MeshOutcome& outcome) {
     console.message(outcome.mesh.name + ": " +
                     (outcome.state.error ? "failed: " + outcome.state.error->message : "done"));
+    for (const std::string& warning : mesh_warnings(outcome.state))
+      console.warning(outcome.mesh.name + ": " + warning);
   };
   std::vector<batch::MeshOutcome> outcomes =
       options.summary_only

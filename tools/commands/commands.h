@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
@@ -60,7 +61,12 @@ void add_commands(Program& program);
 template <class Options, class Action>
 void set_action(Program& program, Command& command, std::shared_ptr<Options> options, Action action) {
   command.action = [&program, options = std::move(options), action](Console& console) {
-    return action(*options, Run{program.common, console});
+    try {
+      return action(*options, Run{program.common, console});
+    } catch (const core::BadInput& error) {
+      if (console.cause().empty()) throw;
+      throw core::BadInput(std::string(error.what()) + "; the cause may be that " + console.cause());
+    }
   };
 }
 

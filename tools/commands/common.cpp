@@ -14,7 +14,7 @@ namespace morsel::tools {
 namespace {
 
 void add_weld_option(Command& command, std::optional<core::Length>& weld) {
-  Option row{"--weld", "Join vertices at the same position, or within a length, before anything else"};
+  Option row{"--weld", "First join vertices at the same position, or within a length"};
   row.value_name = "LENGTH";
   row.implied = "0";
   row.details =

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "morsel/core/io/file_writer.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/tools/report/hashed_mesh.h"
 
@@ -23,12 +24,14 @@ std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFile
 MeshInput read_input(const std::string& path, const Run& run, bool items) {
   const Stopwatch watch;
   HashedMesh mesh = read_hashed_mesh(path, run.common.build, run.console.progress());
-  tell_warnings(mesh.loaded.source, run.console);
+  tell_warnings(mesh.loaded, run.console);
   return {std::move(mesh.loaded), {path, std::move(mesh.sha256), run.common.build, items, watch.seconds()}};
 }
 
-void tell_warnings(const core::MeshSource& source, Console& console) {
-  for (const std::string& warning : source.warnings) console.warning(warning);
+void tell_warnings(const core::LoadedMesh& loaded, Console& console) {
+  if (loaded.source.warnings.empty()) return;
+  for (const std::string& warning : loaded.source.warnings) console.warning(warning);
+  console.set_cause(core::unwelded_warning(loaded.mesh, loaded.source.numbering));
 }
 
 void tell_warnings(const FieldOutcome& field, Console& console) {
@@ -100,7 +103,7 @@ void FieldRun::read() {
 void FieldRun::read_whole() {
   const Stopwatch watch;
   HashedWholeMesh mesh = read_hashed_whole_mesh(file_.path, run_.common.build, run_.console.progress());
-  tell_warnings(mesh.input.loaded.source, run_.console);
+  tell_warnings(mesh.input.loaded, run_.console);
   file_.sha256 = std::move(mesh.sha256);
   mesh_.emplace(std::move(mesh.input));
   load_seconds_ = watch.seconds();
