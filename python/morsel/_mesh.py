@@ -206,8 +206,8 @@ class Mesh(Immutable):
 
     @property
     def properties(self) -> dict[str, NDArray[np.float64]]:
-        """Scalars that the file has for its vertices, and means of those that it has for its faces, by name; in
-        the file's numbers."""
+        """Scalars that the file has for its vertices, and means of those that it has for its faces, by name;
+        in the file's numbers."""
         return self._data.properties()
 
     @property
