@@ -5,13 +5,16 @@
 #include <cstddef>
 #include <utility>
 
+#include "morsel/core/io/face_values.h"
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/freesurfer.h"
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/listed.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -172,13 +175,51 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat forma
   return parse_polygon_soup(FileBytes(path, name).view(), format, name, progress);
 }
 
+namespace {
+
+/// Per vertex of the input the one whose place it takes in the mesh; itself where it does not.
+std::vector<Index> representatives(const VertexNumbering& numbering) {
+  std::vector<Index> result(numbering.input_count);
+  for (Index v = 0; v < result.size(); ++v) {
+    const Index at = numbering.mesh_vertex(v);
+    result[v] = at == kNone ? v : numbering.input_vertex(at);
+  }
+  return result;
+}
+
+/// Joined vertices should have had the same values. Empty if they had.
+std::string difference_warning(const MeshSource& source) {
+  std::vector<std::string> differences;
+  for (const VertexProperty& property : source.properties)
+    if (const JoinedDifference d = compare_joined(source.numbering, property.values); d.count > 0)
+      differences.push_back(shown(property.name) + " at " + grouped(d.count) + " (by up to " +
+                            shortest(d.largest) + ")");
+  if (differences.empty()) return {};
+  return "joined vertices have different values of " + listed(differences, " and ") +
+         "; that of the first vertex is taken";
+}
+
+}  // namespace
+
 LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options,
                      const Progress& progress) {
   try {
+    LoadedSoup faces;  // what face properties need of the file
+    if (!file.face_properties.empty()) faces = {file.soup, file.properties, std::move(file.face_properties)};
     BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
-    return {std::move(built.mesh),
-            {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
-             std::move(file.warnings)}};
+    LoadedMesh loaded{std::move(built.mesh),
+                      {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
+                       std::move(file.warnings)}};
+    MeshSource& source = loaded.source;
+    const auto warn = [&](std::string text) {
+      if (!text.empty()) source.warnings.push_back(std::move(text));
+    };
+    for (std::string& text : built.warnings) warn(std::move(text));
+    warn(difference_warning(source));
+    for (VertexProperty& made : face_values_at_vertices(faces, representatives(source.numbering)))
+      source.properties.push_back(std::move(made));
+    warn(unwelded_warning(loaded.mesh, source.numbering));
+    return loaded;
   } catch (const MeshError& error) {
     throw error.about("\"" + name + "\"");
   } catch (const BadInput& error) {

@@ -22,7 +22,7 @@ struct VertexProperty {
 /// What the mesh's file has besides the mesh.
 struct MeshSource {
   VertexNumbering numbering;
-  std::vector<VertexProperty> properties;
+  std::vector<VertexProperty> properties;  ///< those of the vertices, then means of those of the faces
   std::vector<Repair> repairs;
   std::vector<std::string> warnings = {};  ///< what was read tolerantly, guessed or left out, a sentence each
 };
@@ -77,7 +77,7 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat forma
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
                               const Progress& progress = {});
 
-/// read_polygon_soup() and build_mesh(). A MeshError names the file.
+/// read_polygon_soup() and make_mesh(). A MeshError names the file.
 LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
                      const Progress& progress = {});
 
@@ -91,10 +91,14 @@ struct WholeMesh {
 WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
                           const Progress& progress = {});
 
-/// The second half of read_mesh() and read_whole_mesh(): the mesh of what was read from the file that errors
-/// call `name`.
+/// The second half of read_mesh(): build_mesh() of a file that was read; errors call it `name`. Properties of
+/// faces become properties of vertices: the mean over the faces at each, weighted by their areas, called as
+/// the property or, if the vertices have one of that name, "face:" and the name. Warns where joined vertices
+/// (BuildOptions::weld) have different values, of which the first vertex's is taken, and where vertices
+/// coincide that are not joined.
 LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},
                      const Progress& progress = {});
+/// Likewise of read_whole_mesh().
 WholeMesh make_whole_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},
                           const Progress& progress = {});
 

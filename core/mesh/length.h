@@ -37,6 +37,8 @@ struct Length {
 
   /// The length in the unit of `mesh`. O(1), or O(n) in edges and roots of the area.
   double on(const TriangleMesh& mesh) const;
+
+  friend bool operator==(const Length&, const Length&) = default;
 };
 
 /// "8eps", "3edges", "5%", "0.02rootarea" or "0.25"; parse_length() reads it back exactly.

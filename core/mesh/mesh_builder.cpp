@@ -1,5 +1,6 @@
 #include "morsel/core/mesh/mesh_builder.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -7,12 +8,14 @@
 
 #include "morsel/core/mesh/mesh_repair.h"
 #include "morsel/core/mesh/polygon_triangulation.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/parallel/interruptible.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::core {
 namespace {
 
-enum class PolygonState : unsigned char { sound, out_of_range, degenerate, duplicate };
+enum class PolygonState : unsigned char { sound, out_of_range, degenerate, duplicate, collapsed };
 
 bool has_repeated_corner(std::span<const Index> polygon) {
   for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -32,11 +35,11 @@ void merge_repeated(std::span<const Index> polygon, std::vector<Index>& result) 
 /// find_defects() reports it, or is repaired.
 class Triangulation {
  public:
-  Triangulation(PolygonSoup soup, const BuildOptions& options, const Progress& progress)
-      : soup_(std::move(soup)), repair_(options.repair), progress_(progress) {}
+  /// `collapsed`: polygons that are no face any more; empty if there are none.
+  Triangulation(PolygonSoup soup, const std::vector<bool>& collapsed, bool repair, const Progress& progress)
+      : soup_(std::move(soup)), collapsed_(collapsed), repair_(repair), progress_(progress) {}
 
   TriangleSoup run(RepairCounts& counts) {
-    check_soup();
     const std::size_t count = soup_.polygon_count();
     bool only_triangles = true;
     for (std::size_t p = 0; p < count && only_triangles; ++p) only_triangles = soup_.polygon(p).size() == 3;
@@ -59,16 +62,6 @@ class Triangulation {
   }
 
  private:
-  void check_soup() const {
-    const auto& offsets = soup_.offsets;
-    if (offsets.empty() || offsets.front() != 0 || offsets.back() != soup_.corners.size() ||
-        !std::is_sorted(offsets.begin(), offsets.end()))
-      throw InvalidArgument("the offsets of a polygon soup must ascend from 0 to the number of its corners");
-    if (soup_.positions.size() >= kNone || soup_.polygon_count() >= kNone)
-      throw BadInput("the mesh is too large: " + std::to_string(soup_.positions.size()) + " vertices and " +
-                     std::to_string(soup_.polygon_count()) + " faces");
-  }
-
   void merge_corners(RepairCounts& counts) {
     std::vector<Index> merged;
     std::vector<Index> corners;
@@ -88,7 +81,9 @@ class Triangulation {
     state_.assign(soup_.polygon_count(), PolygonState::sound);
     for (std::size_t p = 0; p < state_.size(); ++p) {
       const auto polygon = soup_.polygon(p);
-      if (std::any_of(polygon.begin(), polygon.end(), [&](Index v) { return v >= n; }))
+      if (!collapsed_.empty() && collapsed_[p])
+        state_[p] = PolygonState::collapsed;
+      else if (std::any_of(polygon.begin(), polygon.end(), [&](Index v) { return v >= n; }))
         state_[p] = PolygonState::out_of_range;
       else if (polygon.size() < 3 || has_repeated_corner(polygon))
         state_[p] = PolygonState::degenerate;
@@ -167,11 +162,14 @@ class Triangulation {
         first_triangle_[p] = first_triangle_[twin_of_[p]];
         triangles.push_back(Triangle(triangles[first_triangle_[p]]));
         break;
+      case PolygonState::collapsed:
+        break;
     }
     result_.faces.resize(triangles.size(), static_cast<Index>(p));
   }
 
   PolygonSoup soup_;
+  const std::vector<bool>& collapsed_;
   bool repair_;
   const Progress& progress_;
   std::vector<PolygonState> state_;
@@ -183,14 +181,41 @@ class Triangulation {
   TriangleSoup result_;
 };
 
-/// Defects of repaired triangles, in the input's numbers.
-std::vector<Defect> remaining(std::vector<Defect> defects, const VertexNumbering& numbering) {
-  // A non-orientable component implies edges between faces of opposite orientation.
-  const auto is = [](DefectKind kind) { return [kind](const Defect& d) { return d.kind == kind; }; };
-  if (std::any_of(defects.begin(), defects.end(), is(DefectKind::non_orientable)))
-    std::erase_if(defects, is(DefectKind::inconsistent_orientation));
+void check_soup(const PolygonSoup& soup) {
+  const auto& offsets = soup.offsets;
+  if (offsets.empty() || offsets.front() != 0 || offsets.back() != soup.corners.size() ||
+      !std::is_sorted(offsets.begin(), offsets.end()))
+    throw InvalidArgument("the offsets of a polygon soup must ascend from 0 to the number of its corners");
+  if (soup.positions.size() >= kNone || soup.polygon_count() >= kNone)
+    throw BadInput("the mesh is too large: " + std::to_string(soup.positions.size()) + " vertices and " +
+                   std::to_string(soup.polygon_count()) + " faces");
+}
+
+WeldedSoup welded(PolygonSoup soup, const std::optional<Length>& length, const Progress& progress) {
+  if (length) {
+    progress.update("joining vertices", 0);
+    const double within = length_on(*length, soup);
+    return weld(std::move(soup), within, progress);
+  }
+  WeldedSoup unwelded;
+  unwelded.numbering.input_count = soup.positions.size();
+  unwelded.soup = std::move(soup);
+  return unwelded;
+}
+
+/// `second` numbers the vertices that `first` leaves.
+VertexNumbering composed(VertexNumbering first, VertexNumbering second) {
+  if (first.to_input.empty()) return second;
+  if (second.to_input.empty()) return first;
+  for (Index& v : second.to_input) v = first.input_vertex(v);
+  for (Index& v : first.from_input) v = second.from_input[v];
+  return {first.input_count, std::move(second.to_input), std::move(first.from_input)};
+}
+
+/// Defects in the input's numbers.
+std::vector<Defect> numbered(std::vector<Defect> defects, const VertexNumbering& numbering) {
   for (Defect& d : defects)
-    if (d.kind == DefectKind::non_finite_position)
+    if (names_vertices(d.kind))
       for (Index& v : d.first) v = numbering.input_vertex(v);
   return defects;
 }
@@ -202,19 +227,32 @@ void PolygonSoup::add_polygon(std::span<const Index> polygon) {
   offsets.push_back(corners.size());
 }
 
+double PolygonSoup::area(std::size_t p) const {
+  const std::span<const Index> ring = polygon(p);
+  Point sum = Point::Zero();
+  for (std::size_t i = 2; i < ring.size(); ++i)
+    sum += (positions[ring[i - 1]] - positions[ring[0]]).cross(positions[ring[i]] - positions[ring[0]]);
+  return sum.norm() / 2;
+}
+
 BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progress& progress) {
   progress.update("building the mesh", 0);
+  check_soup(input);
+  WeldedSoup joined = welded(std::move(input), options.weld, progress);
   RepairCounts counts;
-  TriangleSoup soup = Triangulation(std::move(input), options, progress).run(counts);
-  VertexNumbering numbering;
-  numbering.input_count = soup.positions.size();
+  counts.welded_vertices = joined.joined;
+  counts.removed_collapsed_faces = joined.collapsed_count;
+  TriangleSoup soup =
+      Triangulation(std::move(joined.soup), joined.collapsed, options.repair, progress).run(counts);
+  VertexNumbering numbering = std::move(joined.numbering);
   if (options.repair) {
     const bool is_damaged = std::any_of(soup.triangles.begin(), soup.triangles.end(), [&](const Triangle& t) {
       return *std::max_element(t.begin(), t.end()) >= soup.positions.size();
     });
-    if (is_damaged) throw MeshError(find_defects(soup.positions, soup.triangles, soup.faces));
+    if (is_damaged)
+      throw MeshError(numbered(find_defects(soup.positions, soup.triangles, soup.faces), numbering));
     progress.update("repairing the mesh", 0.2);
-    numbering = repair_triangles(soup, counts);
+    numbering = composed(std::move(numbering), repair_triangles(soup, counts));
   }
   progress.update("building the mesh", 0.5);
   const bool is_renumbered = !soup.faces.empty();
@@ -222,12 +260,17 @@ BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progr
     // If triangles are not the input's faces, they are needed again to describe an error.
     TriangleMesh mesh = is_renumbered ? TriangleMesh(soup.positions, soup.triangles)
                                       : TriangleMesh(std::move(soup.positions), std::move(soup.triangles));
-    return {std::move(mesh), std::move(numbering), counts.listed()};
+    BuiltMesh built{std::move(mesh), std::move(numbering), counts.listed()};
+    if (const std::size_t gone = counts.removed_collapsed_faces; gone > 0)
+      built.warnings.push_back(grouped(gone) +
+                               (gone == 1 ? " face was removed, of which joined vertices leave"
+                                          : " faces were removed, of which joined vertices leave") +
+                               " fewer than three corners");
+    return built;
   } catch (const MeshError& error) {
     std::vector<Defect> defects =
         is_renumbered ? find_defects(soup.positions, soup.triangles, soup.faces) : error.defects();
-    if (options.repair) throw MeshError(remaining(std::move(defects), numbering), true);
-    throw MeshError(std::move(defects));
+    throw MeshError(numbered(std::move(defects), numbering), options.repair);
   }
 }
 

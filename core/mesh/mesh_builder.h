@@ -2,11 +2,13 @@
 /// From a polygon soup to a TriangleMesh: triangulation, repair, and the map to the input's vertices.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "morsel/core/mesh/length.h"
 #include "morsel/core/mesh/mesh.h"
 #include "morsel/core/mesh/mesh_defects.h"
 #include "morsel/core/parallel/progress.h"
@@ -25,12 +27,15 @@ struct PolygonSoup {
     return std::span<const Index>(corners).subspan(offsets[p], offsets[p + 1] - offsets[p]);
   }
   void add_polygon(std::span<const Index> polygon);
+  /// The length of the vector area of polygon p, half the sum of its corners' cross products: the area of a
+  /// flat one. Its corners must exist.
+  double area(std::size_t p) const;
 };
 
 /// One kind of repair that was done, and on how many elements of the input: faces are its polygons, not the
 /// triangles that they are cut into.
 struct Repair {
-  std::string action;  ///< "removed_degenerate_faces", …, as the report lists it
+  std::string action;  ///< "welded_vertices", "removed_degenerate_faces", …, as the report lists it
   std::size_t count = 0;
 };
 
@@ -52,21 +57,31 @@ struct BuiltMesh {
   TriangleMesh mesh;
   VertexNumbering numbering;
   std::vector<Repair> repairs;
+  std::vector<std::string> warnings = {};  ///< what was left out, a sentence each
 };
 
 struct BuildOptions {
   bool repair = false;  ///< repair what can be repaired instead of refusing it
+  /// Join vertices first, within this length (welding.h); at the same position if it is 0.
+  std::optional<Length> weld = {};
+
+  friend bool operator==(const BuildOptions&, const BuildOptions&) = default;
 };
 
 /// Makes the mesh: cuts polygons of four and more corners into triangles (polygon_triangulation.h), keeping
-/// their order, and checks every rule of TriangleMesh. Positions are never moved nor welded. Throws MeshError
-/// with every defect if a rule is broken; faces in it are numbered as the soup's polygons are. A polygon with
+/// their order, and checks every rule of TriangleMesh. Positions are never moved. Throws MeshError with every
+/// defect if a rule is broken; vertices and faces in it are numbered as those of the soup. A polygon with
 /// fewer than three corners, or with two consecutive ones on the same vertex, is degenerate; polygons with
 /// the same sides are duplicates whichever way round they run.
 ///
-/// With `options.repair` it does these repairs, in this order, lists those that changed anything, and throws
-/// MeshError only for what remains (faces that name missing vertices, non-finite positions in use, components
-/// that cannot be oriented, no face left):
+/// With `options.weld` vertices are joined first, as weld() does it: a joined vertex has the position of the
+/// one that it joins, and VertexNumbering::from_input of both is the same mesh vertex. That is listed as
+/// `welded_vertices`, and as `removed_collapsed_faces` the faces of which it left fewer than three different
+/// vertices. Throws InvalidArgument if the length is negative.
+///
+/// With `options.repair` it then does these repairs, in this order, lists those that changed anything, and
+/// throws MeshError only for what remains (faces that name missing vertices, non-finite positions in use,
+/// components that cannot be oriented, no face left):
 ///
 /// | action | what |
 /// | --- | --- |

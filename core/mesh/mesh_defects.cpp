@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "morsel/core/mesh/edge_sides.h"
@@ -118,6 +119,40 @@ std::vector<bool> sound_faces(std::size_t vertices, std::span<const Triangle> tr
   return sound;
 }
 
+/// Marks the vertices that faces will use after repair: those of sound and damaged faces, and of degenerate
+/// ones that have three different vertices when repeated corners are merged. Returns whether there is any.
+bool mark_used(std::span<const Triangle> triangles, std::span<const Index> faces,
+               const std::vector<bool>& sound, std::vector<bool>& used) {
+  bool any = false;
+  const auto mark = [&](const Triangle& t) {
+    any = true;
+    for (const Index v : t)
+      if (v < used.size()) used[v] = true;
+  };
+  std::vector<Index> corners;
+  for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
+    last = first + 1;
+    while (!faces.empty() && last < triangles.size() && faces[last] == faces[first]) ++last;
+    bool is_degenerate = false;
+    for (std::size_t t = first; t < last; ++t) {
+      const auto& [a, b, c] = triangles[t];
+      const bool is_damaged = std::max({a, b, c}) >= used.size();
+      if (sound[t] || is_damaged)
+        mark(triangles[t]);
+      else
+        is_degenerate = is_degenerate || a == b || b == c || c == a;
+    }
+    if (!is_degenerate || last - first < 2) continue;
+    corners.clear();
+    for (std::size_t t = first; t < last; ++t)
+      corners.insert(corners.end(), triangles[t].begin(), triangles[t].end());
+    std::sort(corners.begin(), corners.end(), interruptible());
+    if (std::unique(corners.begin(), corners.end()) - corners.begin() < 3) continue;
+    for (std::size_t t = first; t < last; ++t) mark(triangles[t]);
+  }
+  return any;
+}
+
 /// Edges, and what is wrong with them; `joins` gets the pairs of half-edges of edges with two faces.
 void check_edges(std::span<const Triangle> triangles, std::span<const Index> faces,
                  const std::vector<bool>& sound, std::vector<std::pair<Index, Index>>& joins,
@@ -128,7 +163,7 @@ void check_edges(std::span<const Triangle> triangles, std::span<const Index> fac
       halfedges.push_back(edge_side(triangles[t][i], triangles[t][(i + 1) % 3], 3 * t + i));
   std::sort(halfedges.begin(), halfedges.end(), interruptible());
   Tally non_manifold(DefectKind::non_manifold_edge);
-  Tally inconsistent(DefectKind::inconsistent_orientation);
+  std::vector<std::pair<EdgeSide, Index>> turned;  // edges of faces that run the same way, and one of these
   const auto origin = [&](Index h) { return triangles[h / 3][h % 3]; };
   // Parity union-find over the faces: a contradiction marks its component as non-orientable.
   UnionFind components(static_cast<Index>(triangles.size()));
@@ -142,12 +177,15 @@ void check_edges(std::span<const Triangle> triangles, std::span<const Index> fac
     const Index b = halfedges[first + 1].halfedge;
     joins.emplace_back(a, b);
     const bool same_way = origin(a) == origin(b);
-    if (same_way) inconsistent.add(side.smaller, side.larger);
+    if (same_way) turned.emplace_back(side, a / 3);
     components.unite(a / 3, b / 3);
     if (!orientation.unite(a / 3, b / 3, same_way)) contradictions.push_back(a / 3);
   });
   std::vector<bool> bad(triangles.size(), false);
   for (const Index t : contradictions) bad[components.find(t)] = true;
+  Tally inconsistent(DefectKind::inconsistent_orientation);
+  for (const auto& [side, face] : turned)
+    if (!bad[components.find(face)]) inconsistent.add(side.smaller, side.larger);
   FaceTally non_orientable(DefectKind::non_orientable, faces);
   for (Index t = 0; !contradictions.empty() && t < triangles.size(); ++t)
     if (sound[t] && bad[components.find(t)]) non_orientable.add(t);
@@ -183,6 +221,19 @@ std::string_view defect_name(DefectKind kind) { return words(kind).name; }
 
 std::string_view repair_of(DefectKind kind) { return words(kind).repair; }
 
+bool names_vertices(DefectKind kind) {
+  switch (kind) {
+    case DefectKind::non_finite_position:
+    case DefectKind::unreferenced_vertex:
+    case DefectKind::non_manifold_edge:
+    case DefectKind::inconsistent_orientation:
+    case DefectKind::non_manifold_vertex:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::string describe(const Defect& defect) {
   const Words& w = words(defect.kind);
   if (defect.kind == DefectKind::empty) return std::string(w.singular);
@@ -201,16 +252,18 @@ std::string describe(const Defect& defect) {
 
 std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles,
                                  std::span<const Index> faces) {
+  std::vector<Defect> of_faces;
+  const std::vector<bool> sound = sound_faces(positions.size(), triangles, faces, of_faces);
+  std::vector<bool> used(positions.size(), false);
   std::vector<Defect> defects;
-  if (triangles.empty()) defects.push_back({DefectKind::empty, 1, {}});
+  if (!mark_used(triangles, faces, sound, used)) defects.push_back({DefectKind::empty, 1, {}});
   Tally non_finite(DefectKind::non_finite_position);
   for (Index v = 0; v < positions.size(); ++v)
-    if (!positions[v].allFinite()) non_finite.add(v);
+    if (used[v] && !positions[v].allFinite()) non_finite.add(v);
   std::move(non_finite).append_to(defects);
+  std::move(of_faces.begin(), of_faces.end(), std::back_inserter(defects));
 
-  const std::vector<bool> sound = sound_faces(positions.size(), triangles, faces, defects);
   Tally unreferenced(DefectKind::unreferenced_vertex);
-  std::vector<bool> used(positions.size(), false);
   for (const Triangle& t : triangles)
     for (const Index v : t)
       if (v < positions.size()) used[v] = true;
@@ -236,23 +289,14 @@ std::string sentence(const std::vector<Defect>& defects, bool repair_tried, std:
   for (const Defect& d : defects) {
     found.push_back(describe(d));
     if (!words(d.kind).lasting.empty()) lasting.emplace_back(words(d.kind).lasting);
-    // Orienting other components does not help while one cannot be oriented.
-    if (d.kind == DefectKind::inconsistent_orientation && has(DefectKind::non_orientable)) continue;
     if (!repair_of(d.kind).empty()) fixes.emplace_back(repair_of(d.kind));
   }
   std::string text = std::string(subject) + " cannot be used: " + (repair_tried ? "after repair it " : "it ");
   text += repair_tried && !has(DefectKind::empty) ? "still has " : "has ";
   text += listed(found, " and ");
   if (repair_tried || has(DefectKind::empty)) return text;
-  // Repair removes a vertex with a non-finite coordinate if no face uses it, which is not known here.
-  const bool may_go = has(DefectKind::unreferenced_vertex) && has(DefectKind::non_finite_position);
-  if (lasting.empty() || (may_go && lasting.size() == 1)) {
-    text += "; repair (--repair) would fix this by " + listed(fixes, " and ");
-    if (may_go) text += ", if no face uses the vertices with non-finite coordinates";
-  } else {
-    text += "; repair cannot fix " + listed(lasting, " and ");
-  }
-  return text;
+  if (lasting.empty()) return text + "; repair (--repair) would fix this by " + listed(fixes, " and ");
+  return text + "; repair cannot fix " + listed(lasting, " and ");
 }
 
 }  // namespace

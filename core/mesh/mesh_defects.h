@@ -14,15 +14,15 @@ namespace morsel::core {
 
 /// The rules of a TriangleMesh that a triangle soup can break.
 enum class DefectKind {
-  empty,                     ///< no triangle at all
-  non_finite_position,       ///< a vertex with an infinite or NaN coordinate (elements: vertices)
+  empty,                     ///< no triangle at all, or only ones that repair removes as degenerate
+  non_finite_position,       ///< a vertex in use with an infinite or NaN coordinate (elements: vertices)
   index_out_of_range,        ///< a face that names a vertex that does not exist (elements: faces)
   degenerate_face,           ///< a face that names a vertex twice (elements: faces)
   duplicate_face,            ///< a face on the same three vertices as an earlier one (elements: faces)
   unreferenced_vertex,       ///< a vertex that no face uses (elements: vertices)
   non_manifold_edge,         ///< an edge of three or more faces (elements: pairs of vertices)
-  inconsistent_orientation,  ///< an edge whose two faces run along it the same way (elements: pairs of
-                             ///< vertices)
+  inconsistent_orientation,  ///< an edge whose two faces run along it the same way, in a component that can
+                             ///< be oriented (elements: pairs of vertices)
   non_orientable,      ///< a component with no consistent orientation, e.g. a Möbius band (elements: faces)
   non_manifold_vertex  ///< a vertex whose faces do not form one fan (elements: vertices)
 };
@@ -46,9 +46,13 @@ std::string describe(const Defect& defect);
 /// nothing.
 std::string_view repair_of(DefectKind kind);
 
+/// Whether its elements are vertices or pairs of them; otherwise they are faces.
+bool names_vertices(DefectKind kind);
+
 /// All defects that keep these triangles from being a TriangleMesh, in the order of DefectKind; empty if
 /// there are none. A face with one defect (out of range, degenerate, duplicate: the first that applies) does
-/// not count towards others. If the triangles are parts of larger faces, `faces` has the face of each,
+/// not count towards others; a vertex that repair would remove, since no other face uses it, may have a
+/// non-finite coordinate. If the triangles are parts of larger faces, `faces` has the face of each,
 /// ascending, and faces are counted and named by those numbers. Time O(n log n), serial, deterministic.
 std::vector<Defect> find_defects(std::span<const Point> positions, std::span<const Triangle> triangles,
                                  std::span<const Index> faces = {});

@@ -252,6 +252,8 @@ std::vector<Repair> RepairCounts::listed() const {
   const auto add = [&](const char* action, std::size_t count) {
     if (count > 0) result.push_back({action, count});
   };
+  add("welded_vertices", welded_vertices);
+  add("removed_collapsed_faces", removed_collapsed_faces);
   add("merged_repeated_corners", merged_repeated_corners);
   add("removed_degenerate_faces", removed_degenerate_faces);
   add("removed_duplicate_faces", removed_duplicate_faces);

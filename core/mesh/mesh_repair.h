@@ -22,6 +22,8 @@ struct TriangleSoup {
 
 /// Counts of repairs before and during repair_triangles().
 struct RepairCounts {
+  std::size_t welded_vertices = 0;
+  std::size_t removed_collapsed_faces = 0;
   std::size_t merged_repeated_corners = 0;
   std::size_t removed_degenerate_faces = 0;
   std::size_t removed_duplicate_faces = 0;

@@ -8,6 +8,8 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/value_file.h"
+#include "morsel/core/mesh/welding.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::morse {
@@ -103,6 +105,10 @@ core::ScalarField vertex_scalar(const core::TriangleMesh& mesh, const core::Mesh
   for (const std::string& warning : file.warnings) remark += "; " + warning;
   core::ScalarField field =
       make_field(mesh, numbering, file.values, options.file.string(), file.place, remark);
+  if (const core::JoinedDifference d = core::compare_joined(numbering, file.values); d.count > 0)
+    file.warnings.push_back("joined vertices have different values in " + options.file.string() + " at " +
+                            core::grouped(d.count) + " (by up to " + core::shortest(d.largest) +
+                            "); that of the first vertex is taken");
   if (warnings != nullptr) *warnings = std::move(file.warnings);
   return field;
 }

@@ -25,8 +25,9 @@ struct VertexScalarOptions {
 
 /// The field with the given values. They are numbered as the vertices of the mesh's *file*, so `source` maps
 /// them to mesh vertices (null: a mesh made in memory, with the numbers of its own vertices). Where several
-/// of the file's vertices became one, it has the value of its VertexNumbering::to_input; values of vertices
-/// that were dropped are not used and may be nan.
+/// of the file's vertices became one, it has the value of its VertexNumbering::to_input (and the Morse
+/// function warns where others have another one in a file of values); values of vertices that were dropped
+/// are not used and may be nan.
 ///
 /// Throws InvalidArgument unless one of file and property is set; BadInput, naming file, line and value, if
 /// the file is missing or unreadable, a line is not one number, there are too few or too many values, a

@@ -27,7 +27,7 @@ namespace morsel::python {
 struct MeshData {
   core::LoadedMesh loaded;
   std::string path = {};                           ///< of its file, as given; empty for a mesh made in memory
-  bool repair = false;                             ///< whether it was read with repair
+  core::BuildOptions build = {};                   ///< how it was made of that
   std::filesystem::file_time_type file_time = {};  ///< when the file was last changed before it was read
   std::string file = {};                           ///< `path`, made absolute when it was read
 

@@ -2,6 +2,14 @@
 
 namespace morsel::python {
 
+core::BuildOptions build_options(bool repair, const std::optional<std::string>& weld) {
+  core::BuildOptions build{.repair = repair};
+  if (!weld) return build;
+  build.weld = core::parse_length(*weld, "weld");
+  if (build.weld->value < 0) throw core::InvalidArgument("weld must not be negative");
+  return build;
+}
+
 tools::PointsRequest points_request(const py::dict& given) {
   tools::PointsRequest request;
   const RequestReader reader(given);

@@ -4,10 +4,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/tools/study/made_points.h"
 
@@ -58,6 +60,9 @@ class RequestReader {
 
   py::dict given_;
 };
+
+/// `weld`: a length within which vertices are joined. Throws InvalidArgument if it is none, or negative.
+core::BuildOptions build_options(bool repair, const std::optional<std::string>& weld);
 
 /// count, kind, rank, spacing, fill, scale, percentiles.
 tools::PointsRequest points_request(const py::dict& given);

@@ -57,7 +57,7 @@ void write_report(const ComparisonHandle& comparison, const std::string& path,
 /// `page`: the one that is written; empty for none.
 std::string comparison_command(const ComparisonData& comparison, const DocumentMesh& mesh,
                                const std::string& page = {}) {
-  std::vector<std::string> words = tools::words_of(comparison.request, mesh.repair);
+  std::vector<std::string> words = tools::words_of(comparison.request, mesh.build);
   if (!page.empty()) tools::add_option(words, "--html", page);
   return command_of("compare", mesh, words);
 }

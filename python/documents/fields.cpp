@@ -33,7 +33,7 @@ void write_field(const FieldHandle& field, const std::string& path, const tools:
     const DocumentMesh& mesh = source.mesh();
     tools::write_field(path, *field->field, mesh.loaded.source.numbering, mesh.input_positions(progress),
                        source.made().input.name,
-                       source.provenance("field", {}, tools::request_section(source.request(), mesh.repair)));
+                       source.provenance("field", {}, tools::request_section(source.request(), mesh.build)));
   });
 }
 
@@ -55,7 +55,7 @@ void write_segments(const SegmentsHandle& segments, const std::string& path,
   run_job(report, [&](const core::Progress& progress) {
     const DocumentField source(segments->field, {path, mesh_file}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
-    const tools::SegmentsRequest request{source.request(), segments->request, mesh.repair};
+    const tools::SegmentsRequest request{source.request(), segments->request, mesh.build};
     if (is_document)
       return write_document(path, [&](tools::JsonSink& json) {
         tools::write_segments(json, request, source.source(), segments->made, {});
@@ -93,7 +93,7 @@ void write_points(const PointsHandle& points, const std::string& path,
   run_job(report, [&](const core::Progress& progress) {
     const DocumentField source(points->field, {path, mesh_file}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
-    const tools::Json request = tools::request_section(source.request(), points->request, mesh.repair);
+    const tools::Json request = tools::request_section(source.request(), points->request, mesh.build);
     if (is_document)
       return write_document(path, [&](tools::JsonSink& json) {
         tools::write_points_document(json, request, source.source(), *points->made, {});

@@ -96,13 +96,15 @@ void run(LandmarksData& data, tools::MarkedMeshes& meshes, const core::Progress&
   data.seconds = watch.seconds();
 }
 
-LandmarksHandle landmarks_of_list(const std::string& list, bool repair, const py::dict& given,
+LandmarksHandle landmarks_of_list(const std::string& list, bool repair,
+                                  const std::optional<std::string>& weld, const py::dict& given,
                                   const tools::Registry& registry, const py::object& report) {
   auto data = std::make_shared<LandmarksData>();
   data->plan = tools::prepare(request_of(given), registry);
+  const core::BuildOptions build = build_options(repair, weld);
   run_job(report, [&](const core::Progress& progress) {
     const tools::LandmarksRequest& request = data->plan.request;
-    data->files = std::make_unique<tools::MarkedFiles>(list, request.first, repair);
+    data->files = std::make_unique<tools::MarkedFiles>(list, request.first, build);
     data->field_files = tools::input_files(tools::fields_of(request), registry);
     run(*data, *data->files, progress);
   });
@@ -178,6 +180,7 @@ py::list warnings(const LandmarksData& data) {
     if (!all.empty()) list.append(py::make_tuple(text(what), texts(all)));
   };
   for (std::size_t i = 0; i < data.meshes.size(); ++i) {
+    if (data.files) tell(data.names[i], data.files->warnings(i));
     tell(data.names[i], data.meshes[i].warnings);
     for (const tools::FieldSummary& field : data.meshes[i].fields)
       tell(data.names[i] + ": " + field.name, field.warnings);

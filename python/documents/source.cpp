@@ -98,14 +98,12 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
   if (place.mesh_file) {
     core::LoadedMesh loaded = has_values ? mesh_with_values(*input.values) : in_own_numbers(mesh.loaded);
     write_mesh(*place.mesh_file, loaded, has_values, progress);
-    return {std::move(loaded),
-            {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)},
-            false,
-            *place.mesh_file};
+    return {
+        std::move(loaded), {*place.mesh_file, tools::sha256_of_file(*place.mesh_file)}, {}, *place.mesh_file};
   }
   if (!mesh.path.empty() && !has_values) {
     check_unchanged(mesh);
-    return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.file)}, mesh.repair, mesh.file};
+    return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.file)}, mesh.build, mesh.file};
   }
   if (place.mesh_must_be_file)
     throw core::InvalidArgument(
@@ -113,8 +111,7 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
             ? "the report's field is of given values, which are in no file: name one for mesh and values "
               "(mesh=\"mesh.ply\")"
             : "the report's mesh is in no file: name one that it is written to (mesh=\"mesh.off\")");
-  return {
-      has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.repair, {}};
+  return {has_values ? mesh_with_values(*input.values) : mesh.loaded, in_memory(mesh.mesh()), mesh.build, {}};
 }
 
 DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& place,
@@ -126,7 +123,7 @@ DocumentField::DocumentField(const FieldHandle& field, const DocumentPlace& plac
 tools::Provenance DocumentField::provenance(const std::string& command, const std::vector<std::string>& words,
                                             const tools::Json& json) const {
   if (!is_request_) return {"", tools::Json::object(), source()};
-  std::vector<std::string> all = tools::words_of(request(), mesh_.repair);
+  std::vector<std::string> all = tools::words_of(request(), mesh_.build);
   tools::add_words(all, words);
   return {command_of(command, mesh_, all), json, source()};
 }

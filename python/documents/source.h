@@ -38,11 +38,11 @@ std::vector<std::string> paths_of(const std::vector<tools::HashedFile>& files);
 struct DocumentMesh {
   core::LoadedMesh loaded;  ///< in the vertex numbers of the file
   tools::HashedFile file;
-  bool repair = false;
+  core::BuildOptions build = {};
   std::string read_from;  ///< where `file` is, whatever the working directory has become; empty: in memory
 
   /// `items`: whether lists that grow with the mesh are written.
-  tools::ReportInput about(bool items = true) const { return {file.path, file.sha256, repair, items}; }
+  tools::ReportInput about(bool items = true) const { return {file.path, file.sha256, build, items}; }
   /// The positions of the file's vertices, those that repair dropped included.
   std::vector<core::Point> input_positions(const core::Progress& progress) const;
 };

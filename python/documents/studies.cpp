@@ -109,7 +109,7 @@ void write_hierarchy(const LevelsHandle& levels, const std::string& path,
 }
 
 std::string hierarchy_command(const tools::HierarchyRequest& request, const DocumentMesh& mesh) {
-  std::vector<std::string> words = tools::words_of(request.field, mesh.repair);
+  std::vector<std::string> words = tools::words_of(request.field, mesh.build);
   tools::add_option(words, "--by",
                     request.kind == tools::HierarchyKind::iteration ? "iteration" : "persistence");
   if (!request.levels.empty()) tools::add_option(words, "--levels", request.levels);

@@ -26,7 +26,7 @@ void write_cut(const CutHandle& cut, const std::string& path, const std::optiona
   run_job(report, [&](const core::Progress& progress) {
     const DocumentField source(cut->field, {path, mesh_file}, registry, progress);
     const core::LoadedMesh& loaded = source.mesh().loaded;
-    const tools::CutRequest request{source.request(), cut->shorten, source.mesh().repair};
+    const tools::CutRequest request{source.request(), cut->shorten, source.mesh().build};
     const tools::CutOutcome& made = cut->made;
     if (extension == ".json")
       return write_document(path, [&](tools::JsonSink& json) {
@@ -55,7 +55,7 @@ void write_quads(const QuadsHandle& quads, const std::string& path,
     throw core::InvalidArgument("quads are written to .obj or .json, not to " + path);
   run_job(report, [&](const core::Progress& progress) {
     const DocumentField source(quads->field, {path, mesh_file}, registry, progress);
-    const tools::QuadsRequest request{source.request(), quads->request, source.mesh().repair};
+    const tools::QuadsRequest request{source.request(), quads->request, source.mesh().build};
     const tools::Quadrangulation& made = quads->made;
     if (extension == ".json")
       return write_document(path, [&](tools::JsonSink& json) {

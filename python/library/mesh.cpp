@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,12 +19,14 @@
 #include "morsel/core/mesh/length.h"
 #include "morsel/core/mesh/mesh_defects.h"
 #include "morsel/core/mesh/subdivision.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/morse/operators/normals.h"
 #include "morsel/morse/operators/unit_size.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
 #include "morsel/python/binding/job.h"
+#include "morsel/python/binding/request.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
 
@@ -33,10 +36,17 @@ namespace {
 using core::Index;
 using core::TriangleMesh;
 
-MeshHandle handle_of(core::BuiltMesh built, bool repair) {
-  return std::make_shared<MeshData>(MeshData{
-      {std::move(built.mesh), {std::move(built.numbering), {}, std::move(built.repairs)}}, {}, repair});
+MeshHandle handle_of(core::BuiltMesh built, const core::BuildOptions& build) {
+  if (std::string text = core::unwelded_warning(built.mesh, built.numbering); !text.empty())
+    built.warnings.push_back(std::move(text));
+  return std::make_shared<MeshData>(
+      MeshData{{std::move(built.mesh),
+                {std::move(built.numbering), {}, std::move(built.repairs), std::move(built.warnings)}},
+               {},
+               build});
 }
+
+using Weld = std::optional<std::string>;
 
 /// Triangles that are a mesh as they are: with less memory than polygons.
 MeshHandle from_triangles(const py::array& positions, const py::array& faces, const py::object& report) {
@@ -46,26 +56,28 @@ MeshHandle from_triangles(const py::array& positions, const py::array& faces, co
     const std::size_t count = points.size();
     progress.update("building the mesh", 0);
     MeshHandle mesh =
-        handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, false);
+        handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, {});
     progress.update("building the mesh", 1);
     return mesh;
   });
 }
 
 /// From arrays of vertices (n, 3) and faces (m, k).
-MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool repair,
+MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool repair, const Weld& weld,
                        const py::object& report) {
   const bool are_triangles = faces.ndim() == 2 && faces.shape(1) == 3;
-  if (are_triangles && !repair) return from_triangles(positions, faces, report);
+  if (are_triangles && !repair && !weld) return from_triangles(positions, faces, report);
+  const core::BuildOptions build = build_options(repair, weld);
   core::PolygonSoup soup = soup_from(positions, faces);
   return compute(report, [&](const core::Progress& progress) {
-    return handle_of(core::build_mesh(std::move(soup), {repair}, progress), repair);
+    return handle_of(core::build_mesh(std::move(soup), build, progress), build);
   });
 }
 
 /// From polygons of several sizes: face i has the corners from offsets[i] on.
 MeshHandle from_polygons(const py::array& positions, const py::array& corners, const py::array& offsets,
-                         bool repair, const py::object& report) {
+                         bool repair, const Weld& weld, const py::object& report) {
+  const core::BuildOptions build = build_options(repair, weld);
   core::PolygonSoup soup;
   soup.positions = points_from(positions, "the vertices");
   soup.corners = indices_from(corners, "the corners of the faces");
@@ -75,16 +87,17 @@ MeshHandle from_polygons(const py::array& positions, const py::array& corners, c
                     std::ranges::is_sorted(places);
   if (!fits) throw py::value_error("the offsets of the faces must ascend from 0 to the number of corners");
   return compute(report, [&](const core::Progress& progress) {
-    return handle_of(core::build_mesh(std::move(soup), {repair}, progress), repair);
+    return handle_of(core::build_mesh(std::move(soup), build, progress), build);
   });
 }
 
-MeshHandle read(const std::string& path, bool repair, const py::object& report) {
+MeshHandle read(const std::string& path, bool repair, const Weld& weld, const py::object& report) {
+  const core::BuildOptions build = build_options(repair, weld);
   return compute(report, [&](const core::Progress& progress) {
     std::error_code error;  // of which reading has more to tell
     const std::filesystem::file_time_type time = std::filesystem::last_write_time(path, error);
-    return std::make_shared<MeshData>(MeshData{core::read_mesh(path, {.repair = repair}, progress), path,
-                                               repair, time, std::filesystem::absolute(path).string()});
+    return std::make_shared<MeshData>(MeshData{core::read_mesh(path, build, progress), path, build, time,
+                                               std::filesystem::absolute(path).string()});
   });
 }
 
@@ -182,7 +195,7 @@ MeshHandle with_positions(const MeshHandle& mesh, const py::array& positions) {
   const core::MeshSource& source = mesh->loaded.source;
   return compute(py::none(), [&](const core::Progress&) {
     return std::make_shared<MeshData>(
-        MeshData{{mesh->mesh().with_positions(std::move(points)), source}, {}, mesh->repair});
+        MeshData{{mesh->mesh().with_positions(std::move(points)), source}, {}, mesh->build});
   });
 }
 
@@ -190,7 +203,7 @@ MeshHandle subdivided(const MeshHandle& mesh, int pieces) {
   return compute(py::none(), [&](const core::Progress&) {
     TriangleMesh fine = core::subdivided(mesh->mesh(), pieces);
     const std::size_t count = fine.vertex_count();
-    return std::make_shared<MeshData>(MeshData{{std::move(fine), {{count, {}, {}}, {}, {}}}, {}, false});
+    return std::make_shared<MeshData>(MeshData{{std::move(fine), {{count, {}, {}}, {}, {}}}, {}, {}});
   });
 }
 
@@ -218,7 +231,9 @@ void add_mesh(py::module_& m) {
                              [](const MeshHandle& mesh) { return rows_of(mesh->mesh().positions(), mesh); })
       .def_property_readonly("faces", &faces)
       .def_property_readonly("path", [](const MeshData& mesh) { return py::bytes(mesh.path); })
-      .def_readonly("repair", &MeshData::repair)
+      .def_property_readonly("repair", [](const MeshData& mesh) { return mesh.build.repair; })
+      .def_property_readonly("warnings",
+                             [](const MeshData& mesh) { return texts(mesh.loaded.source.warnings); })
       .def_property_readonly("input_count",
                              [](const MeshData& mesh) { return mesh.loaded.source.numbering.input_count; })
       .def_property_readonly(

@@ -12,9 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/text/parameters.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
 #include "morsel/python/binding/job.h"
+#include "morsel/python/binding/request.h"
 #include "morsel/python/binding/text.h"
 #include "morsel/python/library/module.h"
 
@@ -42,9 +44,11 @@ py::tuple mesh_state(const MeshHandle& mesh) {
         py::make_tuple(text(property.name), view_of(std::span<const double>(property.values), mesh)));
   return py::make_tuple(
       rows_of(mesh->mesh().positions(), mesh), rows_of<Index, 3>(mesh->mesh().triangles(), mesh),
-      py::bytes(mesh->path), mesh->repair, std::int64_t{mesh->file_time.time_since_epoch().count()},
+      py::bytes(mesh->path), mesh->build.repair, std::int64_t{mesh->file_time.time_since_epoch().count()},
       source.numbering.input_count, taken(std::vector<Index>(source.numbering.to_input)),
-      taken(std::vector<Index>(source.numbering.from_input)), repairs, properties, py::bytes(mesh->file));
+      taken(std::vector<Index>(source.numbering.from_input)), repairs, properties, py::bytes(mesh->file),
+      mesh->build.weld ? py::object(text(core::to_string(*mesh->build.weld))) : py::none(),
+      texts(source.warnings));
 }
 
 MeshHandle restored_mesh(const py::tuple& state) {
@@ -64,11 +68,13 @@ MeshHandle restored_mesh(const py::tuple& state) {
   }
   const auto path = state[2].cast<std::string>();
   const auto file = state[10].cast<std::string>();
-  const auto repair = state[3].cast<bool>();
+  const core::BuildOptions build =
+      build_options(state[3].cast<bool>(), state[11].cast<std::optional<std::string>>());
+  source.warnings = state[12].cast<std::vector<std::string>>();
   return compute(py::none(), [&](const core::Progress&) {
     core::TriangleMesh mesh(std::move(points), std::move(triangles));
     return std::make_shared<MeshData>(
-        MeshData{{std::move(mesh), std::move(source)}, path, repair, time, file});
+        MeshData{{std::move(mesh), std::move(source)}, path, build, time, file});
   });
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings as _warnings
 from typing import Any, Union
 
 import numpy as np
@@ -10,10 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _interop, _library
 from ._arguments import Immutable, whole
-from ._errors import Defect
+from ._errors import Defect, MorselWarning
 from ._progress import Progress, reporting
 
 PathLike = Union[str, "os.PathLike[str]"]
+Weld = Union[bool, str, float, None]
 
 
 def path_bytes(path: PathLike) -> bytes:
@@ -22,6 +24,20 @@ def path_bytes(path: PathLike) -> bytes:
     if b"\0" in name:
         raise ValueError("a path has no null character")
     return name
+
+
+def weld_text(weld: Weld) -> str | None:
+    """A length within which vertices are joined, as the library takes it."""
+    if weld is None or weld is False:
+        return None
+    if weld is True:
+        return "0"
+    return weld if isinstance(weld, str) else repr(float(weld))
+
+
+def _warn(mesh: _library.Mesh, level: int) -> None:
+    for text in mesh.warnings:
+        _warnings.warn(text, MorselWarning, stacklevel=level + 1)
 
 
 class Mesh(Immutable):
@@ -36,6 +52,8 @@ class Mesh(Immutable):
         Numbers of vertices, from 0 on, counter-clockwise seen from outside. Polygons are cut into triangles.
     repair : bool
         Mend what breaks the rules instead of refusing it; `repairs` then tells what was done.
+    weld : bool, str or float
+        First join vertices at the same position (True) or within a length ("0.1eps", or a number).
     progress : bool or callable
         True shows a bar; a function is called with the step's name and the fraction done.
 
@@ -49,14 +67,14 @@ class Mesh(Immutable):
     __slots__ = ("_data", "__weakref__")
     _data: _library.Mesh
 
-    def __init__(self, vertices: Any, faces: Any = None, *, repair: bool = False,
+    def __init__(self, vertices: Any, faces: Any = None, *, repair: bool = False, weld: Weld = None,
                  progress: Progress = None) -> None:
         if faces is None:
             if isinstance(vertices, Mesh):
                 self._data = vertices._data
                 return
             if isinstance(vertices, (str, os.PathLike)):
-                self._data = read(vertices, repair=repair, progress=progress)._data
+                self._data = _read(vertices, repair, weld, progress, 2)._data
                 return
             vertices, faces = _interop.arrays_of(vertices)
         positions = _interop.array(vertices, "the vertices")
@@ -64,9 +82,11 @@ class Mesh(Immutable):
         with reporting(progress) as report:
             if isinstance(corners, _interop.Polygons):
                 self._data = _library.mesh_from_polygons(positions, corners.corners, corners.offsets,
-                                                         bool(repair), report)
+                                                         bool(repair), weld_text(weld), report)
             else:
-                self._data = _library.mesh_from_arrays(positions, corners, bool(repair), report)
+                self._data = _library.mesh_from_arrays(positions, corners, bool(repair), weld_text(weld),
+                                                       report)
+        _warn(self._data, 2)
 
     @classmethod
     def _of(cls, data: _library.Mesh) -> Mesh:
@@ -186,13 +206,19 @@ class Mesh(Immutable):
 
     @property
     def properties(self) -> dict[str, NDArray[np.float64]]:
-        """Scalars that the file has for its vertices (of a PLY file), by name; in the file's numbers."""
+        """Scalars that the file has for its vertices, and means of those that it has for its faces, by name;
+        in the file's numbers."""
         return self._data.properties()
 
     @property
     def repairs(self) -> dict[str, int]:
         """What repair did: how many elements of the input by the name of the repair."""
         return self._data.repairs
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was read tolerantly, guessed or left out, and whether vertices coincide; a sentence each."""
+        return self._data.warnings
 
     @property
     def input_vertices(self) -> NDArray[np.uint32]:
@@ -242,16 +268,24 @@ def _restored(state: tuple[Any, ...]) -> Mesh:
     return Mesh._of(_library.restored_mesh(state))
 
 
-def read(path: PathLike, *, repair: bool = False, progress: Progress = None) -> Mesh:
+def read(path: PathLike, *, repair: bool = False, weld: Weld = None, progress: Progress = None) -> Mesh:
     """Reads a mesh: .off, .obj, .ply, .stl, .vtk, .vtp, .vtu, .gii or a surface of FreeSurfer.
 
     Raises MeshError, with all defects, for a mesh that breaks a rule (repair=True mends what can be mended),
-    InputError for a file that is missing, damaged or of another kind.
+    InputError for a file that is missing, damaged or of another kind. With `weld`, vertices at the same
+    position (True) or within a length ("0.1eps", or a number) are joined first. Issues a MorselWarning for
+    each of `Mesh.warnings`.
 
     >>> mesh = ms.read("scan.ply")
     """
+    return _read(path, repair, weld, progress, 2)
+
+
+def _read(path: PathLike, repair: bool, weld: Weld, progress: Progress, level: int) -> Mesh:
     with reporting(progress) as report:
-        return Mesh._of(_library.read_mesh(path_bytes(path), bool(repair), report))
+        mesh = Mesh._of(_library.read_mesh(path_bytes(path), bool(repair), weld_text(weld), report))
+    _warn(mesh._data, level + 1)
+    return mesh
 
 
 def as_mesh(mesh: Any) -> Mesh:

@@ -56,7 +56,7 @@ Words words_that_give(const Option& row) {
       {"--preset", {"noise"}},        {"--points", {"7"}},
       {"--kind", {"saddles"}},        {"--rank", {"salience"}},
       {"--spacing", {"3%"}},          {"--fill", {"height:axis=x"}},
-      {"--salience-scale", {"5eps"}},
+      {"--salience-scale", {"5eps"}}, {"--weld", {"0.5eps"}},
   };
   const std::string name = name_of(row);
   if (row.is_flag()) return {name};
@@ -87,7 +87,7 @@ struct Asked {
     add_points_options(command, points);
     add_common_options(command, common);
     parse(command, words);
-    request.repair = common.repair;
+    request.build = common.build;
     request.comparison.points = points.request();
     request.items = !no_items;
     request.thumbnails = !no_thumbnails;
@@ -164,7 +164,8 @@ TEST_CASE("each option of render that shapes a picture is among the words of its
   camera.up = render::UpAxis::x;
   core::VertexNumbering shifted;
   shifted.to_input = {10, 11, 12, 13, 14, 15};
-  const Words words = with(words_of(field, true), render::words_of(picture, camera, "auto", shifted));
+  const Words words = with(words_of(field, {true, core::Length::absolute(0)}),
+                           render::words_of(picture, camera, "auto", shifted));
   // With a flag of the opposite meaning: whichever is not the default.
   const std::map<std::string, std::string> opposite = {
       {"--points", "--no-points"}, {"--arcs", "--no-arcs"}, {"--legend", "--no-legend"}};
@@ -195,7 +196,7 @@ TEST_CASE("each option of reproduce that shapes its results is among its words",
   request.data = "models";
   request.views = {"-30/20", "lion=left"};
   request.ups = {"x"};
-  request.repair = true;
+  request.build = {true, core::Length::epsilons(0.5)};
   const Words words = reproduce::command_words(request);
   for (const std::string& name : shaping_options("reproduce")) {
     INFO(name);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -36,7 +38,7 @@ std::string outcome(const CorpusFile& file, bool repair) {
     }
     for (const auto& p : loaded.source.properties) text << ", " << p.name;
     for (const auto& r : loaded.source.repairs) text << ", " << r.action << ' ' << r.count;
-    for (const std::string& warning : loaded.source.warnings) text << "; warning: " << warning;
+    for (const std::string& warning : loaded.source.warnings) text << "; " << warning;
   } catch (const core::BadInput& error) {
     std::string sentence = error.what();
     const std::size_t at = sentence.find(file.path);
@@ -66,4 +68,32 @@ TEST_CASE("every file of the corpus has its expected outcome") {
     CHECK(got_line == expected_line);
   }
   CHECK_FALSE(std::getline(got, got_line));
+}
+
+TEST_CASE("what is listed as repairable is repaired, and what is not is refused") {
+  using Kinds = std::set<core::DefectKind>;
+  std::size_t repaired = 0, refused = 0;
+  for (const CorpusFile& file : mesh_corpus()) {
+    INFO(file.name);
+    const auto defects = [&](bool repair) {
+      std::optional<Kinds> kinds;
+      try {
+        core::read_mesh(file.path, {.repair = repair});
+        kinds.emplace();
+      } catch (const core::MeshError& error) {
+        kinds.emplace();
+        for (const core::Defect& defect : error.defects())
+          // With faces that name missing vertices nothing is repaired.
+          if (core::repair_of(defect.kind).empty()) kinds->insert(defect.kind);
+        if (repair) CHECK_FALSE(kinds->empty());
+      } catch (const core::BadInput&) {  // no polygons
+      }
+      return kinds;
+    };
+    const std::optional<Kinds> predicted = defects(false);
+    CHECK(predicted == defects(true));
+    if (predicted) ++(predicted->empty() ? repaired : refused);
+  }
+  CHECK(repaired > 10);
+  CHECK(refused > 4);
 }

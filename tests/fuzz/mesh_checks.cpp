@@ -9,6 +9,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/mesh/mesh_builder.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/text/parameters.h"
 #include "number.h"
@@ -122,15 +123,19 @@ void check_mesh_format(std::string_view bytes, MeshFormat format) {
   if (!soup.positions.empty() || soup.polygon_count() > 0)
     require(same(soup, parse_polygon_soup(as_off(soup), MeshFormat::off, "written").soup),
             "written and read again");
-  for (const bool repair : {false, true}) {
-    try {
-      const BuiltMesh built = build_mesh(soup, {.repair = repair});
-      check_mesh(built);
-      require(repair || built.repairs.empty(), "nothing is repaired unasked");
-      check_again(built.mesh);
-    } catch (const BadInput&) {
+  for (const std::optional<Length>& weld :
+       {std::optional<Length>(), std::optional(Length::absolute(0)), std::optional(Length::edges(0.5))})
+    for (const bool repair : {false, true}) {
+      try {
+        const BuiltMesh built = build_mesh(soup, {repair, weld});
+        check_mesh(built);
+        require(repair || weld || built.repairs.empty(), "nothing is repaired unasked");
+        check_again(built.mesh);
+        if (weld && weld->value == 0 && !repair)
+          require(count_unwelded(built.mesh, built.numbering) == 0, "what is welded needs no welding");
+      } catch (const BadInput&) {
+      }
     }
-  }
 }
 
 void check_pieces(std::string_view bytes,

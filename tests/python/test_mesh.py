@@ -1,5 +1,8 @@
 """Meshes from arrays and files, and what is refused."""
 
+import json
+import pickle
+
 import numpy as np
 import pytest
 from conftest import OCTAHEDRON_F, OCTAHEDRON_V, sample
@@ -162,6 +165,38 @@ def test_repair():
     assert mesh.input_vertices.tolist() == list(range(6))
     moved = ms.Mesh(np.concatenate([[[9, 9, 9]], V]), F + 1, repair=True)
     assert moved.input_vertices.tolist() == list(range(1, 7))
+
+
+def test_vertices_that_coincide():
+    loose, faces = V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3)
+    with pytest.warns(ms.MorselWarning, match="18 of 24 vertices coincide"):
+        apart = ms.Mesh(loose, faces)
+    assert len(apart.components) > 1 or apart.boundary_loop_count == 8
+    assert len(apart.warnings) == 1
+    for weld in (True, 0, "0.1eps", 1e-6):
+        mesh = ms.Mesh(loose, faces, weld=weld)
+        assert (mesh.vertex_count, mesh.is_closed, mesh.warnings) == (6, True, [])
+        assert mesh.repairs == {"welded_vertices": 18}
+    assert np.array_equal(mesh.vertices, loose[mesh.input_vertices])
+    for wrong in (-1, "-1eps", "far"):
+        with pytest.raises(ms.ArgumentError):
+            ms.Mesh(loose, faces, weld=wrong)
+
+
+def test_a_welded_file(tmp_path):
+    loose, faces = V[F].reshape(-1, 3), np.arange(3 * len(F)).reshape(-1, 3)
+    with pytest.warns(ms.MorselWarning, match="coincide"):
+        ms.Mesh(loose, faces).save(tmp_path / "loose.off")
+    with pytest.warns(ms.MorselWarning, match="coincide") as caught:
+        ms.read(tmp_path / "loose.off")
+    assert caught[0].filename == __file__
+    mesh = ms.read(tmp_path / "loose.off", weld=True)
+    again = pickle.loads(pickle.dumps(mesh))
+    for one in (mesh, again):
+        report = tmp_path / "report.json"
+        ms.compare(ms.height(one), methods=["conventional"]).save(report)
+        assert json.loads(report.read_text())["request"]["weld"] == "0"
+        assert ms.check(report) == []
 
 
 def test_polygons():

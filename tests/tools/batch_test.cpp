@@ -376,12 +376,12 @@ TEST_CASE("the key has everything that determines a report", "[batch]") {
   REQUIRE(key["files"].size() == 1);
   CHECK(key["files"][0]["path"] == values);
   CHECK(batch::mesh_key(key, folder.path() / "absent")["sha256"].is_null());
-  std::vector<batch::BatchRequest> changed(12, request);
+  std::vector<batch::BatchRequest> changed(13, request);
   changed[0].comparison.field = "height";
   changed[1].comparison.methods.pop_back();
   changed[2].comparison.target = 10;
   changed[3].comparison.snap = true;
-  changed[4].repair = true;
+  changed[4].build.repair = true;
   changed[5].items = false;
   changed[6].thumbnails = false;
   changed[7].pages = true;
@@ -389,6 +389,7 @@ TEST_CASE("the key has everything that determines a report", "[batch]") {
   changed[9].exports = true;
   changed[10].figure.camera.view = "left";
   changed[11].figure.camera.up = render::UpAxis::z;
+  changed[12].build.weld = core::Length::absolute(0);
   for (const batch::BatchRequest& other : changed) CHECK(batch::common_key(other) != key);
   batch::BatchRequest unseen = request;  // by thumbnails
   unseen.figure.size = "10x10";

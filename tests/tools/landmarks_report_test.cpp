@@ -35,7 +35,7 @@ class Collection {
     folder.file("b.txt", "1 2 3 1\n");
     folder.file("list", "a.off a.txt\nb.off,b.txt\n");
   }
-  MarkedFiles files() const { return {folder / "list", 0, false}; }
+  MarkedFiles files() const { return {folder / "list", 0, {}}; }
 
   const Scratch folder;
 };
@@ -76,7 +76,7 @@ TEST_CASE("marked files are read with their hashes, and what is wrong with them 
   CHECK_THROWS_AS(collection.files(), core::BadInput);
   collection.folder.file("list", "a.off c.txt\n");
   CHECK_THROWS_WITH(collection.files(), Contains("c.txt"));
-  CHECK_THROWS_WITH(MarkedFiles(collection.folder / "none", 0, false), Contains("none"));
+  CHECK_THROWS_WITH(MarkedFiles(collection.folder / "none", 0, {}), Contains("none"));
 }
 
 TEST_CASE("results of landmarks are read back as they were written, and others are refused") {
@@ -110,7 +110,7 @@ TEST_CASE("results of landmarks are read back as they were written, and others a
 TEST_CASE("a journal of landmarks gives back meshes whose files are the same") {
   const Collection collection;
   const LandmarksPlan plan = tools::prepare(request());
-  const Json key = tools::landmarks_key(plan.request, false, {});
+  const Json key = tools::landmarks_key(plan.request, {}, {});
   const auto path = collection.folder / "out.json.journal";
   std::vector<Json> whole;
   {
@@ -145,7 +145,7 @@ TEST_CASE("a journal of landmarks gives back meshes whose files are the same") {
   LandmarksRequest other = request();
   other.methods = {"conventional"};
   const LandmarksPlan other_plan = tools::prepare(other);
-  tools::Journal journal(path, tools::landmarks_key(other, false, {}));
+  tools::Journal journal(path, tools::landmarks_key(other, {}, {}));
   CHECK(LandmarksJournal(journal, files, other_plan, {}).count() == 0);
   CHECK(journal.warnings().size() == 1);
 }

@@ -113,6 +113,8 @@ std::string mesh_row(const MeshOutcome& outcome, const BatchRequest& request, bo
   row += "<td class=\"text\" data-v=\"" + to_string(outcome.status) + "\">" + to_string(outcome.status);
   if (outcome.status == Status::failed)
     row += "<small>" + markup_text(valid_text(outcome.state.error->message)) + "</small>";
+  for (const std::string& warning : mesh_warnings(outcome.state))
+    row += "<small>" + markup_text(warning) + "</small>";
   row += "</td>";
   const std::size_t methods = request.comparison.methods.size();
   if (outcome.status != Status::done) {

@@ -6,6 +6,7 @@
 #include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/render/request_words.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/request_words.h"
@@ -62,24 +63,24 @@ Json common_key(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
   const render::FigureText& figure = request.figure;
   const auto if_any = [](bool any, const std::string& text) { return any ? Json(text) : Json(); };
-  const Json key = {
-      {"tool", tool_section()},
-      {"request",
-       {{"field", asked.field},
-        {"methods", asked.methods},
-        {"target", asked.target ? Json(*asked.target) : Json()},
-        {"snap", asked.snap},
-        {"repair", request.repair},
-        {"items", request.items},
-        {"thumbnails", request.thumbnails},
-        {"html", request.pages},
-        {"figures", request.figures},
-        {"export", request.exports},
-        {"view", if_any(has_pictures(request), figure.camera.view)},
-        {"up", if_any(has_pictures(request), to_string(figure.camera.up))},
-        {"size", if_any(request.figures, figure.size)},
-        {"inset", if_any(request.figures && !figure.camera.inset.empty(), figure.camera.inset)}}},
-      {"files", files_section(input_files({asked.field}))}};
+  Json key = {{"tool", tool_section()},
+              {"request",
+               {{"field", asked.field},
+                {"methods", asked.methods},
+                {"target", asked.target ? Json(*asked.target) : Json()},
+                {"snap", asked.snap},
+                {"repair", request.build.repair},
+                {"items", request.items},
+                {"thumbnails", request.thumbnails},
+                {"html", request.pages},
+                {"figures", request.figures},
+                {"export", request.exports},
+                {"view", if_any(has_pictures(request), figure.camera.view)},
+                {"up", if_any(has_pictures(request), to_string(figure.camera.up))},
+                {"size", if_any(request.figures, figure.size)},
+                {"inset", if_any(request.figures && !figure.camera.inset.empty(), figure.camera.inset)}}},
+              {"files", files_section(input_files({asked.field}))}};
+  add_welding(key["request"], request.build);
   return Json::parse(json_text(key));  // as it is read back from a state
 }
 
@@ -94,7 +95,7 @@ Json mesh_key(const Json& common, const fs::path& mesh) {
 }
 
 std::vector<std::string> request_words(const BatchRequest& request) {
-  std::vector<std::string> words = words_of(request.comparison, request.repair);
+  std::vector<std::string> words = words_of(request.comparison, request.build);
   add_flag(words, "--no-items", !request.items);
   if (!has_pictures(request)) return words;
   add_words(words, request.figures ? render::words_of(request.figure)

@@ -16,7 +16,7 @@ namespace morsel::tools::batch {
 /// Everything that determines the results besides the meshes.
 struct BatchRequest {
   ComparisonRequest comparison;
-  bool repair = false;
+  core::BuildOptions build = {};
   bool items = true;          ///< whether reports list critical points and pairs
   bool thumbnails = true;     ///< whether there is a picture of the first and of the last method
   bool pages = false;         ///< what `compare --html` writes

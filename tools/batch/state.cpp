@@ -136,6 +136,11 @@ bool MeshError::may_pass() const {
   return std::find(kCodes.begin(), kCodes.end(), exit_code) != kCodes.end();
 }
 
+std::vector<std::string> mesh_warnings(const MeshState& state) {
+  if (!state.result.contains("mesh") || !state.result["mesh"].contains("warnings")) return {};
+  return state.result["mesh"]["warnings"].get<std::vector<std::string>>();
+}
+
 std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits) {
   if (end.exit_code == 0) return std::nullopt;
   MeshError error{"exit-code", end.exit_code, end.signal, valid_text(end.message)};

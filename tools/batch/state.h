@@ -36,6 +36,9 @@ struct MeshState {                 // NOLINT(bugprone-exception-escape): of the 
   double seconds = 0;              ///< from the child's start to its end
 };
 
+/// The warnings of reading the mesh, as its report has them; none unless it is done.
+std::vector<std::string> mesh_warnings(const MeshState& state);
+
 /// The error of a child's end; none if it succeeded.
 std::optional<MeshError> error_of(const ChildEnd& end, const ChildLimits& limits);
 

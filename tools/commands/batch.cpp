@@ -108,7 +108,7 @@ int compare_all(Options& options, const Run& run) {
   if (!options.no_thumbnails) drawing::require_pictures("morsel batch without --no-thumbnails");
   if (options.request.figures) drawing::require_pictures("--figures");
   Console& console = run.console;
-  options.request.repair = run.common.repair;
+  options.request.build = run.common.build;
   options.request.items = !options.no_items;
   options.request.thumbnails = !options.no_thumbnails;
   options.run.threads = std::max(run.common.threads, 1);
@@ -137,6 +137,8 @@ int compare_all(Options& options, const Run& run) {
   const auto tell = [&](const batch::MeshOutcome& outcome) {
     console.message(outcome.mesh.name + ": " +
                     (outcome.state.error ? "failed: " + outcome.state.error->message : "done"));
+    for (const std::string& warning : mesh_warnings(outcome.state))
+      console.warning(outcome.mesh.name + ": " + warning);
   };
   std::vector<batch::MeshOutcome> outcomes =
       options.summary_only

@@ -217,7 +217,7 @@ std::string shaping_command(const Command& command, const std::vector<std::strin
         command.options(), [&](const Option& row) { return !row.is_argument() && row.is_called(name); });
     if (option == command.options().end() || option->shapes_result)
       kept.push_back(*word);
-    else if (!option->is_flag() && *word == name && word + 1 != words.end())
+    else if (option->takes_word() && *word == name && word + 1 != words.end())
       ++word;
   }
   return command_line(kept);

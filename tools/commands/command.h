@@ -28,6 +28,7 @@ struct Option {
   std::string help;               ///< a line: what --help shows
   std::string value_name = {};    ///< what stands for a value in texts; a flag has none
   std::string default_text = {};  ///< empty: none is shown
+  std::string implied = {};       ///< the value of the name alone; then one is given as --name=VALUE only
   std::string in_short = {};      ///< what completions show; empty: `help` up to the end of its first clause
   std::string details = {};       ///< what man pages say besides; line breaks are made by whoever shows it
   std::string group = {};         ///< the heading that help shows it under, with its neighbours
@@ -48,6 +49,8 @@ struct Option {
   std::function<void(const Option& option, const std::vector<std::string>& words)> take = {};
 
   bool is_flag() const { return value_name.empty(); }
+  /// Whether the word after its name is its value.
+  bool takes_word() const { return !is_flag() && implied.empty(); }
   bool is_argument() const { return !names.starts_with('-'); }
   /// Each of the names, the short one first, the negation last.
   std::vector<std::string> all_names() const;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/error.h"
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/commands/command.h"
 #include "morsel/tools/commands/console.h"
 #include "morsel/tools/render/request_text.h"
@@ -30,8 +32,8 @@ enum ExitCode : int {
 
 /// Options that every command takes.
 struct CommonOptions {
-  int threads = 0;  ///< 0: as many as the machine has
-  bool repair = false;
+  int threads = 0;                ///< 0: as many as the machine has
+  core::BuildOptions build = {};  ///< of the commands that read a mesh
   bool quiet = false;
   std::string format;   ///< that MESH is read as; empty: its extension's
   std::string command;  ///< the command line as a Provenance has it
@@ -60,12 +62,17 @@ void add_commands(Program& program);
 template <class Options, class Action>
 void set_action(Program& program, Command& command, std::shared_ptr<Options> options, Action action) {
   command.action = [&program, options = std::move(options), action](Console& console) {
-    return action(*options, Run{program.common, console});
+    try {
+      return action(*options, Run{program.common, console});
+    } catch (const core::BadInput& error) {
+      if (console.cause().empty()) throw;
+      throw core::BadInput(std::string(error.what()) + "; the cause may be that " + console.cause());
+    }
   };
 }
 
-/// --threads, --repair and --quiet, after the command's own.
-void add_common_options(Command& command, CommonOptions& common, bool with_repair = true);
+/// --threads, --repair, --weld and --quiet, after the command's own.
+void add_common_options(Command& command, CommonOptions& common, bool with_mesh = true);
 
 /// --target K
 Option& add_target_option(Command& command, std::optional<std::size_t>& target);

@@ -5,12 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/error.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/study/presets.h"
 
 namespace morsel::tools {
-
 namespace {
 
 bool takes_mesh(const Command& command) {
@@ -18,28 +19,45 @@ bool takes_mesh(const Command& command) {
       command.options(), [](const Option& row) { return row.is_called("MESH") || row.is_called("FILE"); });
 }
 
+void add_weld_option(Command& command, std::optional<core::Length>& weld) {
+  Option row{"--weld", "First join vertices at the same position, or within a length"};
+  row.value_name = "LENGTH";
+  row.implied = "0";
+  row.details =
+      "As 0.01, 0.1eps, 0.01edges: in the order of their numbers each vertex joins the first within that "
+      "length, whose position and values it gets; faces of which fewer than three corners are left go";
+  row.take = [&weld](const Option& option, const std::vector<std::string>& words) {
+    const core::Length length = core::parse_length(words.back(), option.names);
+    if (length.value < 0) throw core::InvalidArgument(option.names + " must not be negative");
+    weld = length;
+  };
+  command.add(std::move(row));
+}
+
 }  // namespace
 
-void add_common_options(Command& command, CommonOptions& common, bool with_repair) {
+void add_common_options(Command& command, CommonOptions& common, bool with_mesh) {
   command.begin_group("General");
   command.number("--threads", common.threads, "Number of threads; never changes a result")
       .between(1, 4096)
       .shows_default("all")
       .shapes_nothing();
-  if (with_repair)
+  if (with_mesh) {
     command
-        .flag("--repair", common.repair,
+        .flag("--repair", common.build.repair,
               "Repair what violates the mesh's rules, instead of refusing the mesh")
         .in_detail(
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");
-  if (with_repair && takes_mesh(command)) {
+    add_weld_option(command, common.build.weld);
+  }
+  if (with_mesh && takes_mesh(command)) {
     command.text("--format", common.format, "Read the mesh as this, whatever its name; needed where it is -")
         .value("FORMAT")
         .among(core::mesh_format_names())
         .in_detail("The mesh - is standard input; a compressed file is read as what it holds");
     if (command.name != "info")
-      for (const char* option : {"--repair", "--format"}) command.option(option).told_by = "info";
+      for (const char* option : {"--repair", "--weld", "--format"}) command.option(option).told_by = "info";
   }
   command.flag("--quiet", common.quiet, "No progress, no messages, no warnings").shapes_nothing();
 }

@@ -77,7 +77,7 @@ class SideBySide : public ComparisonSink {
 /// What makes the page again. What changes nothing in it is left out.
 std::string page_command(const Options& options, const CommonOptions& common) {
   std::vector<std::string> words = {"morsel", "compare", options.mesh};
-  add_words(words, words_of(options.request, common.repair));
+  add_words(words, words_of(options.request, common.build));
   if (!common.format.empty()) add_option(words, "--format", common.format);
   add_option(words, "--html", options.page_place.empty() ? options.page : options.page_place);
   return command_line(words);

@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "morsel/core/parallel/progress.h"
 
@@ -27,6 +28,10 @@ class Console {
   void message(std::string_view text);
   /// A line about what was guessed, left out or passed over.
   void warning(std::string_view text);
+  /// What may be the cause if the input is refused by a later step: set_action() adds it to the error. None if
+  /// empty.
+  void set_cause(std::string sentence) { cause_ = std::move(sentence); }
+  const std::string& cause() const { return cause_; }
   /// Names what the steps are part of ("salient"), shown before the step.
   void enter(std::string_view context);
 
@@ -39,6 +44,7 @@ class Console {
   bool drawn_ = false;
   std::stop_token stop_;
   std::string context_;
+  std::string cause_;
   std::chrono::steady_clock::time_point last_;
   std::string step_;                             // that is drawn
   double reached_ = 0;                           // of it

@@ -62,7 +62,7 @@ int cut(const Options& options, const Run& run) {
   const CutOutcome outcome = cut_surface(base.field(), !options.no_shorten, progress);
 
   const Stopwatch write_watch;
-  const CutRequest request{options.request, !options.no_shorten, run.common.repair};
+  const CutRequest request{options.request, !options.no_shorten, run.common.build};
   const Provenance provenance = base.provenance(request_section(request));
   write_cut_mesh(options.output, outcome.opened, base.loaded().source.numbering, provenance, progress);
   if (!options.graph.empty()) write_cut_graph(options.graph, outcome.cut, base.loaded(), provenance);

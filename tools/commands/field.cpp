@@ -46,7 +46,7 @@ int write(Options& options, const Run& run) {
   base.make();
   std::optional<MadePoints> points;
   if (plan) points = base.choose_points(*plan);
-  const Json asked = request_section(options.request, request, run.common.repair);
+  const Json asked = request_section(options.request, request, run.common.build);
   Provenance provenance = base.provenance(asked);
   if (points && points->fill) provenance.set_fill(*points->fill);
   if (document.is_wanted())

@@ -58,7 +58,10 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
 std::string option_heading(const Option& option) {
   std::string heading;
   for (const std::string& name : option.all_names()) heading += (heading.empty() ? "" : ", ") + name;
-  if (!option.is_flag() && !option.is_argument()) heading += " " + option.value_name;
+  if (!option.implied.empty())
+    heading += "[=" + option.value_name + "]";
+  else if (!option.is_flag() && !option.is_argument())
+    heading += " " + option.value_name;
   return heading + (option.is_argument() && option.is_repeated ? " ..." : "");
 }
 

@@ -1,5 +1,6 @@
 // morsel info: what a mesh is, or what is wrong with it; and where a file that the program wrote comes from.
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_content.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/commands/steps.h"
@@ -26,23 +28,54 @@ struct Options {
 /// The file as it is: a mesh, or polygons with defects.
 struct Findings {
   core::LoadedSoup file;
-  std::optional<core::BuiltMesh> built;
+  std::optional<core::LoadedMesh> loaded;
   std::vector<core::Defect> defects;
+  /// What is still wrong with the mesh when it is repaired; empty if that makes a mesh.
+  std::vector<core::Defect> lasting;
+
+  /// What repair does about a defect, or did; empty if it remains.
+  std::string_view repair_of(const core::Defect& defect) const {
+    const bool remains = std::ranges::find(lasting, defect.kind, &core::Defect::kind) != lasting.end();
+    return remains ? "" : core::repair_of(defect.kind);
+  }
+  const std::vector<std::string>& warnings() const {
+    return loaded ? loaded->source.warnings : file.warnings;
+  }
 };
 
-Findings inspect(const MeshFile& file, bool repair, const core::Progress& progress) {
-  Findings findings{read_polygon_soup(file, progress), std::nullopt, {}};
+/// The defects that refuse the mesh; none if it is one, which `loaded` then is.
+std::vector<core::Defect> try_to_make(const core::LoadedSoup& file, const core::BuildOptions& options,
+                                      const std::string& path, const core::Progress& progress,
+                                      std::optional<core::LoadedMesh>& loaded) {
   try {
-    findings.built = core::build_mesh(findings.file.soup, {.repair = repair}, progress);
+    loaded = core::make_mesh(file, path, options, progress);
+    return {};
   } catch (const core::MeshError& error) {
-    findings.defects = error.defects();
+    return error.defects();
   }
+}
+
+Findings inspect(const MeshFile& mesh, const core::BuildOptions& options, const core::Progress& progress) {
+  const std::string path = mesh.path.string();
+  Findings findings{read_polygon_soup(mesh, progress), std::nullopt, {}, {}};
+  findings.defects = try_to_make(findings.file, options, path, progress, findings.loaded);
+  if (findings.defects.empty()) return findings;
+  // What repair does is known when it is done.
+  std::optional<core::LoadedMesh> repaired;
+  findings.lasting = options.repair
+                         ? findings.defects
+                         : try_to_make(findings.file, {true, options.weld}, path, progress, repaired);
+  // With faces that name missing vertices nothing was repaired.
+  std::erase_if(findings.lasting,
+                [](const core::Defect& defect) { return !core::repair_of(defect.kind).empty(); });
   return findings;
 }
 
 Json properties_section(const Findings& findings) {
   Json names = Json::array();
-  for (const core::VertexProperty& property : findings.file.properties) names.push_back(property.name);
+  const std::vector<core::VertexProperty>& properties =
+      findings.loaded ? findings.loaded->source.properties : findings.file.properties;
+  for (const core::VertexProperty& property : properties) names.push_back(property.name);
   return names;
 }
 
@@ -50,10 +83,10 @@ Json head_section() { return {{"schema", "morsel.info/1"}, {"tool", tool_section
 
 Json as_json(const std::string& path, const MeshFile& file, const Findings& findings) {
   Json document = head_section();
-  document["valid"] = findings.built.has_value();
-  if (findings.built) {
-    const core::TriangleMesh& mesh = findings.built->mesh;
-    document["mesh"] = mesh_section(path, sha256_of(file), mesh, findings.built->repairs);
+  document["valid"] = findings.loaded.has_value();
+  if (findings.loaded) {
+    const core::TriangleMesh& mesh = findings.loaded->mesh;
+    document["mesh"] = mesh_section(path, sha256_of(file), *findings.loaded);
     document["mesh"]["bbox_min"] = {mesh.bounding_box().min.x(), mesh.bounding_box().min.y(),
                                     mesh.bounding_box().min.z()};
     document["mesh"]["bbox_max"] = {mesh.bounding_box().max.x(), mesh.bounding_box().max.y(),
@@ -69,6 +102,7 @@ Json as_json(const std::string& path, const MeshFile& file, const Findings& find
                         {"sha256", sha256_of(file)},
                         {"vertices", findings.file.soup.positions.size()},
                         {"polygons", findings.file.soup.polygon_count()}};
+    if (!findings.warnings().empty()) document["mesh"]["warnings"] = findings.warnings();
   }
   document["vertex_properties"] = properties_section(findings);
   Json defects = Json::array();
@@ -76,8 +110,9 @@ Json as_json(const std::string& path, const MeshFile& file, const Findings& find
     defects.push_back({{"kind", core::defect_name(defect.kind)},
                        {"count", defect.count},
                        {"first", defect.first},
-                       {"repair", core::repair_of(defect.kind)}});
+                       {"repair", findings.repair_of(defect)}});
   document["defects"] = std::move(defects);
+  if (!findings.defects.empty()) document["repairable"] = findings.lasting.empty();
   return document;
 }
 
@@ -88,8 +123,8 @@ void line(std::string_view name, const std::string& value) {
 }
 
 void print_text(const Findings& findings, bool repair_tried) {
-  if (findings.built) {
-    const core::TriangleMesh& mesh = findings.built->mesh;
+  if (findings.loaded) {
+    const core::TriangleMesh& mesh = findings.loaded->mesh;
     line("vertices", grouped(mesh.vertex_count()));
     line("edges", grouped(mesh.edge_count()));
     line("faces", grouped(mesh.triangle_count()));
@@ -104,21 +139,27 @@ void print_text(const Findings& findings, bool repair_tried) {
     line("bounding box", point(box.min) + " to " + point(box.max));
     line("its diagonal", core::shortest(box.diagonal()));
     line("eps (0.3 % of it)", core::shortest(mesh.epsilon()));
-    for (const core::Repair& repair : findings.built->repairs)
+    for (const core::Repair& repair : findings.loaded->source.repairs)
       line("repair", repair.action + ": " + grouped(repair.count));
   } else {
     line("vertices", grouped(findings.file.soup.positions.size()));
     line("polygons", grouped(findings.file.soup.polygon_count()));
   }
-  for (const core::VertexProperty& property : findings.file.properties)
-    line("vertex property", property.name);
+  for (const Json& name : properties_section(findings)) line("vertex property", name.get<std::string>());
+  for (const std::string& warning : findings.warnings()) line("warning", warning);
   if (findings.defects.empty()) line("defects", "none");
   for (const core::Defect& defect : findings.defects) {
-    const std::string_view repair = core::repair_of(defect.kind);
-    std::string remedy = "; no repair fixes this";
-    if (!repair.empty() && !repair_tried) remedy = "; --repair fixes this by " + std::string(repair);
-    line("defect", core::describe(defect) + remedy);
+    const std::string repair(findings.repair_of(defect));
+    line("defect", core::describe(defect) + (repair.empty() ? "; no repair fixes this"
+                                             : repair_tried ? "; not repaired because of the others"
+                                             : findings.lasting.empty()
+                                                 ? "; --repair fixes this by " + repair
+                                                 : "; alone, --repair would fix this by " + repair));
   }
+  if (repair_tried || findings.lasting.empty()) return;
+  std::vector<std::string> lasting;
+  for (const core::Defect& defect : findings.lasting) lasting.push_back(core::describe(defect));
+  line("after --repair", "no mesh: it still has " + core::listed(lasting, " and "));
 }
 
 /// The usual members; the rest in --json.
@@ -153,7 +194,9 @@ int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
   const MeshFile file = mesh_file(options.file, run);
   if (file.format || core::has_mesh_extension(options.file) || core::recognised_format(options.file))
-    findings = inspect(file, run.common.repair, run.console.progress());
+    findings = inspect(file, run.common.build, run.console.progress());
+  if (findings && options.json)  // which may go to another program
+    for (const std::string& warning : findings->warnings()) run.console.warning(warning);
   const Json provenance = provenance_of(options.file, file, findings.has_value(), run.console);
   // The points and lines that morsel writes for ParaView are no mesh.
   if (findings && !provenance.is_null() && findings->file.soup.polygon_count() == 0) findings.reset();
@@ -167,7 +210,7 @@ int inform(const Options& options, const Run& run) {
     return kDone;
   }
   std::cout << core::printable(options.file) << '\n';
-  if (findings) print_text(*findings, run.common.repair);
+  if (findings) print_text(*findings, run.common.build.repair);
   if (!provenance.is_null()) print_provenance(provenance);
   return kDone;
 }

@@ -55,6 +55,7 @@ RunFiles files_of(const Options& options, const MarkedFiles& files) {
 void tell_warnings(const MarkedFiles& files, const std::vector<LandmarksOnMesh>& meshes, Console& console) {
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const std::string mesh = files.name(i) + ": ";
+    for (const std::string& warning : files.warnings(i)) console.warning(mesh + warning);
     for (const std::string& warning : meshes[i].warnings) console.warning(warning);
     for (const FieldSummary& field : meshes[i].fields)
       for (const std::string& warning : field.warnings) console.warning(mesh + field.name + ": " + warning);
@@ -91,14 +92,14 @@ int measure_landmarks(const Options& given, const Run& run) {
   const LandmarksRequest& request = options.request;
   const LandmarksPlan plan = prepare(request);
   const Stopwatch watch;
-  MarkedFiles files(options.list, request.first, run.common.repair);
+  MarkedFiles files(options.list, request.first, run.common.build);
   const RunFiles named = files_of(options, files);
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);
   TableTarget target(options.output);
 
   const std::vector<HashedFile> field_files = input_files(fields_of(request));
   std::optional<LandmarksJournal> done;
-  if (Journal* journal = target.open_journal(landmarks_key(request, run.common.repair, field_files)))
+  if (Journal* journal = target.open_journal(landmarks_key(request, run.common.build, field_files)))
     done.emplace(*journal, files, plan, field_files);
   target.tell_journal(done ? done->count() : 0, " meshes done", run.console);
   const std::vector<LandmarksOnMesh> meshes =
@@ -113,7 +114,7 @@ int measure_landmarks(const Options& given, const Run& run) {
     plot::write_plots(
         *figures,
         {{"errors", plot::landmark_errors(plan, summaries)}, {"scores", plot::landmark_scores(plan, meshes)}},
-        Provenance(run.common.command, request_section(request, run.common.repair), report.inputs()));
+        Provenance(run.common.command, request_section(request, run.common.build), report.inputs()));
   target.show(landmarks_table(plan, meshes, summaries));
   tell_fewer(plan, meshes, summaries, run.console);
   target.tell("landmarks", run.console);

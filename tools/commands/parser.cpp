@@ -29,7 +29,9 @@ std::vector<Parsed> declare(const Command& command, CLI::App& app) {
   std::vector<Parsed> rows;
   for (const Option& option : command.options()) {
     Parsed row{&option};
-    if (option.is_flag()) {
+    if (!option.implied.empty()) {
+      row.given = app.add_flag(option.names + "{" + option.implied + "}")->take_all();
+    } else if (option.is_flag()) {
       row.given = app.add_flag(option.names)->disable_flag_override();
       if (!option.negation.empty()) row.denied = app.add_flag(option.negation)->disable_flag_override();
     } else {

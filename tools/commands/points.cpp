@@ -41,7 +41,7 @@ int choose(const Options& options, const Run& run) {
   base.make();
   const MadePoints made = base.choose_points(plan);
 
-  const Json asked = request_section(options.request, request, run.common.repair);
+  const Json asked = request_section(options.request, request, run.common.build);
   if (wants_document) {
     write_points_document(document.json(), asked, base.source(), made, base.timings());
     document.commit();

@@ -35,7 +35,7 @@ int make(const Options& options, const Run& run) {
   base.make();
   const core::Progress progress = run.console.progress();
   const Quadrangulation result = quadrangulate(base.field(), quads, progress);
-  const QuadsRequest request{options.field, options.quads, run.common.repair};
+  const QuadsRequest request{options.field, options.quads, run.common.build};
   core::write_obj(options.output, result.mesh.positions, result.mesh.quads,
                   base.provenance(request_section(request)).lines(), progress);
   if (document.is_wanted())

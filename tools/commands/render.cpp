@@ -79,7 +79,7 @@ int draw(const Options& options, const Run& run) {
   if (subject.caption == "auto") subject.caption = chain.name + "\n" + counts;
   const render::Image image =
       studio.take(studio.view(options.camera.view, options.camera.up, progress), subject, request, progress);
-  Provenance provenance = base.provenance(request_section(options.field, run.common.repair));
+  Provenance provenance = base.provenance(request_section(options.field, run.common.build));
   provenance.set("picture",
                  render::picture_section(request, options.camera, subject.caption, loaded.source.numbering));
   core::write_file(options.output, drawing::with_png_comment(render::encode_png(image), provenance.json()));

@@ -14,7 +14,7 @@ namespace {
 
 int make_again(reproduce::Request& request, const Run& run) {
   drawing::require_pictures("morsel reproduce");
-  request.repair = run.common.repair;
+  request.build = run.common.build;
   const reproduce::Prepared prepared = reproduce::prepare(request);
   RunFiles files;
   for (const reproduce::MeshFile& file : prepared.files)
@@ -25,6 +25,9 @@ int make_again(reproduce::Request& request, const Run& run) {
     if (!prepared.files[i].is_made)
       run.console.message(std::string(reproduce::models()[i].name) + ": " + prepared.files[i].path.string() +
                           (prepared.files[i].is_sample ? " (a sample mesh in its place)" : ""));
+  for (const auto& model : reproduction.models)
+    for (const std::string& warning : model->loaded().source.warnings)
+      run.console.warning(std::string(model->recipe().name) + ": " + warning);
   std::cout << reproduce::table_text(reproduction);
   run.console.message("page: " + (request.folder / "index.html").string());
   return kDone;

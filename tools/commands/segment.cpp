@@ -51,7 +51,7 @@ std::string described(const MadeSegments& made) {
 
 int segment(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  const SegmentsRequest request{options.request, segment_request(options), run.common.repair};
+  const SegmentsRequest request{options.request, segment_request(options), run.common.build};
   for (const std::filesystem::path& file : label_files(options.output)) base.writes("-o", file);
   base.writes_document("--json", options.json).check_files();
   DocumentTarget document(options.json);

@@ -68,7 +68,7 @@ int measure_stability(const Options& options, const Run& run) {
     std::vector<HashedFile> inputs = {input.file()};
     for (HashedFile& file : input_files(request)) inputs.push_back(std::move(file));
     plot::write_plots(*figures, plots_of(report),
-                      Provenance(run.common.command, request_section(request, run.common.repair), inputs));
+                      Provenance(run.common.command, request_section(request, run.common.build), inputs));
   }
   target.show(stability_table(prepared, result));
   target.tell("stability", run.console);

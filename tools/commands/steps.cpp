@@ -5,6 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_writer.h"
+#include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/tools/commands/standard_input.h"
@@ -36,10 +37,16 @@ MeshFile mesh_file(const std::string& path, const Run& run) {
 
 MeshInput read_input(const std::string& path, const Run& run, bool items) {
   const Stopwatch watch;
-  HashedMesh mesh =
-      read_hashed_mesh(mesh_file(path, run), {.repair = run.common.repair}, run.console.progress());
+  HashedMesh mesh = read_hashed_mesh(mesh_file(path, run), run.common.build, run.console.progress());
+  tell_warnings(mesh.loaded, run.console);
   return {std::move(mesh.loaded),
-          {path, std::move(mesh.sha256), run.common.repair, items, watch.seconds(), run.common.format}};
+          {path, std::move(mesh.sha256), run.common.build, items, watch.seconds(), run.common.format}};
+}
+
+void tell_warnings(const core::LoadedMesh& loaded, Console& console) {
+  if (loaded.source.warnings.empty()) return;
+  for (const std::string& warning : loaded.source.warnings) console.warning(warning);
+  console.set_cause(core::unwelded_warning(loaded.mesh, loaded.source.numbering));
 }
 
 void tell_warnings(const FieldOutcome& field, Console& console) {
@@ -110,8 +117,9 @@ void FieldRun::read() {
 
 void FieldRun::read_whole() {
   const Stopwatch watch;
-  HashedWholeMesh mesh = read_hashed_whole_mesh(mesh_file(file_.path, run_), {.repair = run_.common.repair},
-                                                run_.console.progress());
+  HashedWholeMesh mesh =
+      read_hashed_whole_mesh(mesh_file(file_.path, run_), run_.common.build, run_.console.progress());
+  tell_warnings(mesh.input.loaded, run_.console);
   file_.sha256 = std::move(mesh.sha256);
   mesh_.emplace(std::move(mesh.input));
   load_seconds_ = watch.seconds();

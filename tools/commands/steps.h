@@ -42,7 +42,8 @@ MeshFile mesh_file(const std::string& path, const Run& run);
 /// `items`: whether documents list what grows with the mesh.
 MeshInput read_input(const std::string& path, const Run& run, bool items = true);
 
-/// Warnings of a Morse function, and of methods.
+/// Warnings of reading a mesh, of a Morse function, and of methods.
+void tell_warnings(const core::LoadedMesh& loaded, Console& console);
 void tell_warnings(const FieldOutcome& field, Console& console);
 void tell_warnings(const std::vector<StepOutcome>& steps, Console& console);
 /// Warnings, why a wanted number of critical points was not reached, and whether it ended a method early.

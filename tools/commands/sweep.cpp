@@ -72,7 +72,7 @@ int sweep(const Options& options, const Run& run) {
   if (figures) {
     std::vector<HashedFile> inputs = {input.file()};
     inputs.insert(inputs.end(), files.begin(), files.end());
-    const Json request = request_section(options.request, prepared, run.common.repair);
+    const Json request = request_section(options.request, prepared, run.common.build);
     plot::write_plots(*figures, plots_of(report), Provenance(run.common.command, request, inputs));
   }
   target.show(sweep_table(report));

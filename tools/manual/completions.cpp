@@ -86,7 +86,7 @@ std::string bash_completion(const std::deque<Command>& commands) {
         continue;
       }
       for (const std::string& name : option.all_names()) options.push_back(name);
-      if (!option.is_flag())
+      if (option.takes_word())
         values.insert(0, "        " + joined(option.all_names(), "|") + ") " +
                              (listed.empty() ? option.kind == ValueKind::path ? "files=1" : "words="
                                              : "words=" + quoted_word(joined(listed, " "))) +
@@ -134,7 +134,7 @@ std::string zsh_completion(const std::deque<Command>& commands) {
       }
       for (const std::string& name : option.all_names()) {
         line = (option.is_repeated ? "*" : "") + name + "[" + for_zsh(brief(option)) + "]";
-        if (!option.is_flag()) line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(option);
+        if (option.takes_word()) line += ":" + option.all_names().back().substr(2) + ":" + zsh_action(option);
         cases += " \\\n        " + quoted_word(line);
       }
     }
@@ -181,7 +181,7 @@ std::string fish_completion(const std::deque<Command>& commands) {
       for (const std::string& name : option.all_names())
         text.append(name.starts_with("--") ? " -l " : " -s ")
             .append(name.substr(name.starts_with("--") ? 2 : 1));
-      if (!option.is_flag()) text += option.kind == ValueKind::path ? " -r" : " -x";
+      if (option.takes_word()) text += option.kind == ValueKind::path ? " -r" : " -x";
       text.append(offered).append(" -d ").append(quoted_word(brief(option))).append("\n");
     }
   }

@@ -36,7 +36,10 @@ std::string heading(const std::string& name, const std::string& summary) {
 std::string entry(const Option& option) {
   std::string names;
   for (const std::string& name : option.all_names()) names += (names.empty() ? "" : ", ") + bold(name);
-  if (!option.is_flag() && !option.is_argument()) names += " \\fI" + plain(option.value_name) + "\\fR";
+  if (!option.implied.empty())
+    names += "[=\\fI" + plain(option.value_name) + "\\fR]";
+  else if (!option.is_flag() && !option.is_argument())
+    names += " \\fI" + plain(option.value_name) + "\\fR";
   return ".TP\n" + names + "\n" + plain(option_text(option, true)) + "\n";
 }
 

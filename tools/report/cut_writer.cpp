@@ -1,6 +1,7 @@
 #include "morsel/tools/report/cut_writer.h"
 
 #include "morsel/core/parallel/stop.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -55,7 +56,8 @@ Json request_section(const CutRequest& request) {
   Json section = {{"field", request.field.field},
                   {"method", request.field.method},
                   {"shorten", request.shorten},
-                  {"repair", request.repair}};
+                  {"repair", request.build.repair}};
+  add_welding(section, request.build);
   if (request.field.target) section["target"] = *request.field.target;
   return section;
 }

@@ -10,7 +10,7 @@ namespace morsel::tools {
 struct CutRequest {
   FieldRequest field;
   bool shorten = true;
-  bool repair = false;
+  core::BuildOptions build = {};
 };
 
 Json request_section(const CutRequest& request);

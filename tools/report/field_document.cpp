@@ -1,26 +1,27 @@
 #include "morsel/tools/report/field_document.h"
 
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
 
-Json request_section(const FieldRequest& request, bool repair) {
-  Json section = {{"field", request.field}, {"method", request.method}, {"repair", repair}};
+Json request_section(const FieldRequest& request, const core::BuildOptions& build) {
+  Json section = {{"field", request.field}, {"method", request.method}, {"repair", build.repair}};
+  add_welding(section, build);
   if (request.target) section["target"] = *request.target;
   return section;
 }
 
 void begin_field_document(JsonSink& json, std::string_view schema, const Json& request,
                           const FieldSource& source) {
-  const core::MeshSource& file = source.loaded.source;
   json.begin_object();
   json.member("schema", schema);
   json.member("tool", tool_section());
   json.member("request", request);
-  json.member("mesh", mesh_section(source.mesh.path, source.mesh.sha256, source.loaded.mesh, file.repairs));
+  json.member("mesh", mesh_section(source.mesh.path, source.mesh.sha256, source.loaded));
   json.member("field", field_section(source.made.input));
-  json.member("method", method_section(source.plan, source.made, file.numbering));
+  json.member("method", method_section(source.plan, source.made, source.loaded.source.numbering));
 }
 
 }  // namespace morsel::tools

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 
@@ -35,7 +36,8 @@ Json request_section(const HierarchyRequest& request, const ReportInput& input) 
   Json asked = {{"field", request.field.field},
                 {"method", request.field.method},
                 {"by", to_string(request.kind)},
-                {"repair", input.repair}};
+                {"repair", input.build.repair}};
+  add_welding(asked, input.build);
   if (!input.items) asked["items"] = false;
   if (!request.levels.empty()) asked["levels"] = request.levels;
   if (!request.counts.empty()) asked["counts"] = request.counts;
@@ -54,7 +56,7 @@ HierarchyWriter::HierarchyWriter(JsonSink& json, const core::LoadedMesh& loaded,
   json_.member("schema", "morsel.hierarchy/1");
   json_.member("tool", tool_section());
   json_.member("request", request_section(request, input));
-  json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
+  json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded));
 }
 
 void HierarchyWriter::begin(const HierarchyBasis& basis) {

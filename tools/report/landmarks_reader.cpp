@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/landmarks_writer.h"
 #include "morsel/tools/report/points_request.h"
@@ -51,7 +52,7 @@ std::optional<LoadedLandmarks> read_landmarks(std::istream& in, const std::strin
   if (!report.document.head.is_object() || !report.document.head.contains("schema")) return std::nullopt;
   const JsonView head(report.document.head, name + " is a damaged report");
   report.request = request_of(head["request"]);
-  report.repair = head["request"]["repair"].truth();
+  report.build = read_build_options(head["request"]);
   report.list_path = head["list"]["path"].path();
   return report;
 }
@@ -59,7 +60,7 @@ std::optional<LoadedLandmarks> read_landmarks(std::istream& in, const std::strin
 ReportDocument run_again(const LoadedLandmarks& report, const std::filesystem::path& list,
                          const Registry& registry, const core::Progress& progress) {
   const LandmarksPlan plan = prepare(report.request, registry);
-  MarkedFiles files(list, report.request.first, report.repair);
+  MarkedFiles files(list, report.request.first, report.build);
   const std::vector<HashedFile> field_files = input_files(fields_of(report.request), registry);
   const std::vector<LandmarksOnMesh> meshes = run_landmarks(files, plan, progress);
   ReportCollector again;

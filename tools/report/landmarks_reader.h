@@ -14,7 +14,7 @@ namespace morsel::tools {
 struct LoadedLandmarks {
   ReportDocument document;
   LandmarksRequest request;
-  bool repair = false;
+  core::BuildOptions build = {};
   std::string list_path;  ///< as in the report
 };
 

@@ -5,6 +5,7 @@
 
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/landmarks_result.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -78,7 +79,7 @@ std::vector<std::string> fields_of(const LandmarksRequest& request) {
   return fields;
 }
 
-Json request_section(const LandmarksRequest& request, bool repair) {
+Json request_section(const LandmarksRequest& request, const core::BuildOptions& build) {
   Json asked = {{"fields", request.fields},
                 {"methods", request.methods},
                 {"points", request.count ? Json(*request.count) : Json()}};
@@ -88,12 +89,14 @@ Json request_section(const LandmarksRequest& request, bool repair) {
   asked["first"] = request.first;
   asked["resamples"] = request.resamples;
   asked["seed"] = request.seed;
-  asked["repair"] = repair;
+  asked["repair"] = build.repair;
+  add_welding(asked, build);
   return asked;
 }
 
-Json landmarks_key(const LandmarksRequest& request, bool repair, const std::vector<HashedFile>& field_files) {
-  Json asked = request_section(request, repair);
+Json landmarks_key(const LandmarksRequest& request, const core::BuildOptions& build,
+                   const std::vector<HashedFile>& field_files) {
+  Json asked = request_section(request, build);
   asked.erase("resamples");
   return {{"schema", kLandmarksSchema},
           {"tool", tool_section()},
@@ -106,7 +109,7 @@ void write_landmarks(JsonSink& json, const LandmarksReport& report) {
   json.begin_object();
   json.member("schema", kLandmarksSchema);
   json.member("tool", tool_section());
-  json.member("request", request_section(plan.request, report.files.repair()));
+  json.member("request", request_section(plan.request, report.files.build()));
   json.member("list", {{"path", report.files.list().path}, {"sha256", report.files.list().sha256}});
   json.member("matching", scoring_section(plan));
   json.begin_array("rows");

@@ -30,10 +30,11 @@ struct LandmarksReport {
 std::vector<std::string> fields_of(const LandmarksRequest& request);
 
 /// The request in the syntax of the command line.
-Json request_section(const LandmarksRequest& request, bool repair);
+Json request_section(const LandmarksRequest& request, const core::BuildOptions& build);
 
 /// All that the result of a mesh depends on besides its two files: the key of their journal.
-Json landmarks_key(const LandmarksRequest& request, bool repair, const std::vector<HashedFile>& field_files);
+Json landmarks_key(const LandmarksRequest& request, const core::BuildOptions& build,
+                   const std::vector<HashedFile>& field_files);
 
 /// The whole document: rows over all meshes, then every mesh. Of its members only "timings" differs between
 /// runs.

@@ -8,8 +8,9 @@
 
 namespace morsel::tools {
 
-MarkedFiles::MarkedFiles(const std::filesystem::path& list, std::uint64_t first, bool repair)
-    : folder_(list.parent_path()), first_(first), repair_(repair) {
+MarkedFiles::MarkedFiles(const std::filesystem::path& list, std::uint64_t first,
+                         const core::BuildOptions& build)
+    : folder_(list.parent_path()), first_(first), build_(build) {
   const core::FileBytes bytes(list, list.string());
   list_ = {list.string(), sha256_of(bytes.view())};
   for (MarkedPair& pair : parse_marked_pairs(bytes.view(), list_.path)) {
@@ -22,8 +23,8 @@ MarkedFiles::MarkedFiles(const std::filesystem::path& list, std::uint64_t first,
 
 MarkedMesh MarkedFiles::load(std::size_t i, const core::Progress& progress) {
   File& file = files_[i];
-  HashedMesh mesh = read_hashed_mesh(path_of(i), {.repair = repair_}, progress);
-  file.mesh = mesh_section(file.pair.mesh, mesh.sha256, mesh.loaded.mesh, mesh.loaded.source.repairs);
+  HashedMesh mesh = read_hashed_mesh(path_of(i), build_, progress);
+  file.mesh = mesh_section(file.pair.mesh, mesh.sha256, mesh.loaded);
   MarkedVertices marked = find_marked_vertices(file.marks, first_, mesh.loaded, marks_path_of(i).string());
   return {std::move(mesh.loaded), std::move(marked.vertices), std::move(marked.warnings)};
 }
@@ -31,6 +32,11 @@ MarkedMesh MarkedFiles::load(std::size_t i, const core::Progress& progress) {
 Json MarkedFiles::section(std::size_t i) const {
   const File& file = files_[i];
   return {{"mesh", file.mesh}, {"marks", {{"path", file.pair.marks}, {"sha256", file.marks_sha256}}}};
+}
+
+std::vector<std::string> MarkedFiles::warnings(std::size_t i) const {
+  const auto found = files_[i].mesh.find("warnings");
+  return found == files_[i].mesh.end() ? std::vector<std::string>() : found->get<std::vector<std::string>>();
 }
 
 void MarkedFiles::set_mesh(std::size_t i, Json section) {

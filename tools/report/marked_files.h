@@ -18,7 +18,7 @@ class MarkedFiles : public MarkedMeshes {
  public:
   /// Reads the list and all files of vertices; meshes are read by load(). `first`: the number of a file's
   /// first vertex. Throws BadInput on what cannot be read, or as parse_marked_pairs() and parse_marks().
-  MarkedFiles(const std::filesystem::path& list, std::uint64_t first, bool repair);
+  MarkedFiles(const std::filesystem::path& list, std::uint64_t first, const core::BuildOptions& build);
 
   std::size_t size() const override { return files_.size(); }
   /// The mesh's path from the working folder.
@@ -29,11 +29,13 @@ class MarkedFiles : public MarkedMeshes {
   const HashedFile& list() const { return list_; }
   std::filesystem::path path_of(std::size_t i) const { return folder_ / files_[i].pair.mesh; }
   std::filesystem::path marks_path_of(std::size_t i) const { return folder_ / files_[i].pair.marks; }
-  bool repair() const { return repair_; }
+  const core::BuildOptions& build() const { return build_; }
 
   /// {"mesh", "marks"}: what documents say of a pair, paths as in the list. `mesh` is a mesh_section(), there
   /// after load() or set_mesh().
   Json section(std::size_t i) const;
+  /// The "warnings" in it.
+  std::vector<std::string> warnings(std::size_t i) const;
   /// The mesh_section() of the same file from an earlier run.
   void set_mesh(std::size_t i, Json section);
   /// Of the mesh's file as it is now; and of the file of vertices when it was read.
@@ -53,7 +55,7 @@ class MarkedFiles : public MarkedMeshes {
   std::filesystem::path folder_;
   HashedFile list_;
   std::uint64_t first_;
-  bool repair_;
+  core::BuildOptions build_;
   std::vector<File> files_;  // each is changed by one thread
 };
 

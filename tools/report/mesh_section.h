@@ -10,10 +10,10 @@
 
 namespace morsel::tools {
 
-/// The report's "mesh": path as given, hash, counts, topology, size and repairs. Lengths in the
-/// mesh's unit.
+/// The report's "mesh": path as given, hash, counts, topology, size, repairs, and "warnings" of reading if
+/// there are any. Lengths in the mesh's unit.
 Json mesh_section(const std::filesystem::path& path, const std::string& sha256,
-                  const core::TriangleMesh& mesh, const std::vector<core::Repair>& repairs);
+                  const core::LoadedMesh& loaded);
 
 /// [{"action": …, "count": …}, …]
 Json repairs_section(const std::vector<core::Repair>& repairs);

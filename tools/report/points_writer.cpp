@@ -8,8 +8,9 @@
 
 namespace morsel::tools {
 
-Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points, bool repair) {
-  Json asked = request_section(field, repair);
+Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points,
+                     const core::BuildOptions& build) {
+  Json asked = request_section(field, build);
   if (points) asked["points"] = request_section(*points);
   return asked;
 }

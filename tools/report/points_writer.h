@@ -11,7 +11,8 @@
 namespace morsel::tools {
 
 /// What was asked for of a field, with "points" if points were.
-Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points, bool repair);
+Json request_section(const FieldRequest& field, const std::optional<PointsRequest>& points,
+                     const core::BuildOptions& build);
 
 /// Adds to an object that is begun: "spacing", "salience_scale" (with rank=salience), "candidates",
 /// "too_near", "fill" (the field that filled up, if it was needed), "count", "note", "mean_percentile" and,

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -28,9 +29,10 @@ Json quality_section(const mscomplex::QuadQuality& q) {
 Json request_section(const QuadsRequest& asked) {
   Json section = {{"field", asked.field.field},
                   {"method", asked.field.method},
-                  {"repair", asked.repair},
+                  {"repair", asked.build.repair},
                   {"resolution", asked.quads.resolution},
                   {"relaxation", asked.quads.relaxation}};
+  add_welding(section, asked.build);
   if (asked.field.target) section["target"] = *asked.field.target;
   if (!asked.quads.persistence.empty()) section["persistence"] = asked.quads.persistence;
   return section;

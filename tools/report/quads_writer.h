@@ -10,7 +10,7 @@ namespace morsel::tools {
 struct QuadsRequest {
   FieldRequest field;
   QuadRequest quads;
-  bool repair = false;
+  core::BuildOptions build = {};
 };
 Json request_section(const QuadsRequest& request);
 

@@ -20,10 +20,10 @@ ReportDocument run_again(const LoadedReport& report, const std::filesystem::path
                          const Registry& registry, const core::Progress& progress) {
   MeshFile file{mesh_path};
   if (!report.format.empty()) file.format = core::mesh_format_named(report.format);
-  const HashedMesh input = read_hashed_mesh(file, {.repair = report.repair}, progress);
+  const HashedMesh input = read_hashed_mesh(file, report.build, progress);
   ReportCollector again;
   ReportWriter writer(again, input.loaded,
-                      {report.mesh_path, input.sha256, report.repair, report.items, 0, report.format},
+                      {report.mesh_path, input.sha256, report.build, report.items, 0, report.format},
                       report.request);
   run_comparison(input.loaded, prepare(report.request, registry), {&writer}, progress);
   writer.finish();

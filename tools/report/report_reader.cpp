@@ -6,6 +6,7 @@
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/parallel/exhaustion.h"
 #include "morsel/tools/formats/json_view.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/points_request.h"
 
 namespace morsel::tools {
@@ -46,7 +47,7 @@ LoadedReport read_report(std::istream& in, const std::string& name) {
   report.request.methods.clear();
   for (const JsonView& method : request["methods"].list(1, kMostMethods))
     report.request.methods.push_back(method.text());
-  report.repair = request["repair"].truth();
+  report.build = read_build_options(request);
   if (const auto format = request.find("format")) report.format = format->text();
   if (const auto items = request.find("items")) report.items = items->truth();
   if (const auto target = request.find("target")) report.request.target = target->count();

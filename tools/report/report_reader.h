@@ -16,7 +16,7 @@ namespace morsel::tools {
 struct LoadedReport {
   ReportDocument document;
   ComparisonRequest request;
-  bool repair = false;
+  core::BuildOptions build = {};
   std::string format = {};  ///< of the mesh, where it is not its extension's
   bool items = true;        ///< false: left out, as requested
   std::string mesh_path;    ///< as in the report

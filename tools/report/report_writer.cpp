@@ -3,6 +3,7 @@
 #include <span>
 
 #include "morsel/persistence/diagram.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/points_request.h"
@@ -21,7 +22,8 @@ Json matching_section(const Matching& matching) {
 }  // namespace
 
 Json request_section(const ReportInput& input, const ComparisonRequest& request) {
-  Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.repair}};
+  Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.build.repair}};
+  add_welding(asked, input.build);
   if (!input.format.empty()) asked["format"] = input.format;
   if (!input.items) asked["items"] = false;
   if (request.target) asked["target"] = *request.target;
@@ -37,7 +39,7 @@ ReportWriter::ReportWriter(JsonSink& json, const core::LoadedMesh& loaded, const
   json_.member("schema", "morsel.comparison/1");
   json_.member("tool", tool_section());
   json_.member("request", request_section(input, request));
-  json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded.mesh, loaded.source.repairs));
+  json_.member("mesh", mesh_section(input.mesh_path, input.mesh_sha256, loaded));
 }
 
 void ReportWriter::field(const FieldOutcome& outcome) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/formats/json_stream.h"
 #include "morsel/tools/study/comparison.h"
 
@@ -13,7 +14,7 @@ namespace morsel::tools {
 struct ReportInput {
   std::string mesh_path;  ///< as the user gave it
   std::string mesh_sha256;
-  bool repair = false;
+  core::BuildOptions build = {};  ///< how the mesh was made of the file
   bool items = true;  ///< whether to list the critical points and the diagram's pairs, or only their counts
   double load_seconds = 0;
   std::string format = {};  ///< that the mesh was read as, where it is not its extension's

@@ -13,23 +13,30 @@ void add_target(std::vector<std::string>& words, const std::optional<std::size_t
 
 }  // namespace
 
-std::vector<std::string> words_of(const ComparisonRequest& request, bool repair) {
+std::vector<std::string> words_of(const core::BuildOptions& build) {
+  std::vector<std::string> words;
+  add_flag(words, "--repair", build.repair);
+  if (build.weld) words.push_back("--weld=" + core::to_string(*build.weld));
+  return words;
+}
+
+std::vector<std::string> words_of(const ComparisonRequest& request, const core::BuildOptions& build) {
   std::vector<std::string> words;
   add_option(words, "--field", request.field);
   for (const std::string& method : request.methods) add_option(words, "--method", method);
   add_target(words, request.target);
   add_flag(words, "--snap", request.snap);
   if (request.points) add_words(words, words_of(*request.points));
-  add_flag(words, "--repair", repair);
+  add_words(words, words_of(build));
   return words;
 }
 
-std::vector<std::string> words_of(const FieldRequest& request, bool repair) {
+std::vector<std::string> words_of(const FieldRequest& request, const core::BuildOptions& build) {
   std::vector<std::string> words;
   add_option(words, "--field", request.field);
   add_option(words, "--method", request.method);
   add_target(words, request.target);
-  add_flag(words, "--repair", repair);
+  add_words(words, words_of(build));
   return words;
 }
 

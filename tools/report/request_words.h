@@ -10,11 +10,13 @@
 
 namespace morsel::tools {
 
-/// --field, --method, --target, --snap, --repair and the options of chosen points of the commands that run
-/// several methods.
-std::vector<std::string> words_of(const ComparisonRequest& request, bool repair);
-/// --field, --method, --target and --repair of the commands on one field.
-std::vector<std::string> words_of(const FieldRequest& request, bool repair);
+/// --repair and --weld.
+std::vector<std::string> words_of(const core::BuildOptions& build);
+/// --field, --method, --target, --snap, --repair, --weld and the options of chosen points of the commands
+/// that run several methods.
+std::vector<std::string> words_of(const ComparisonRequest& request, const core::BuildOptions& build);
+/// --field, --method, --target, --repair and --weld of the commands on one field.
+std::vector<std::string> words_of(const FieldRequest& request, const core::BuildOptions& build);
 /// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles.
 std::vector<std::string> words_of(const PointsRequest& request);
 

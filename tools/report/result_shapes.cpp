@@ -1,6 +1,7 @@
 #include "morsel/tools/report/result_shapes.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "morsel/tools/study/summary.h"
@@ -83,6 +84,8 @@ void check_mesh(const JsonView& mesh) {
     static_cast<void>(repair["action"].text());
     check_counts(repair, {"count"});
   }
+  if (const std::optional<JsonView> warnings = mesh.find("warnings"))
+    for (const JsonView& warning : warnings->list(1)) static_cast<void>(warning.text());
 }
 
 }  // namespace morsel::tools

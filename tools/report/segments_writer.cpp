@@ -4,6 +4,7 @@
 
 #include "morsel/persistence/diagram.h"
 #include "morsel/persistence/pairing.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -97,7 +98,8 @@ Json request_section(const SegmentsRequest& request) {
   Json asked = {{"field", request.field.field},
                 {"method", request.field.method},
                 {"by", to_string(request.segments.kind)},
-                {"repair", request.repair}};
+                {"repair", request.build.repair}};
+  add_welding(asked, request.build);
   if (request.field.target) asked["target"] = *request.field.target;
   if (request.segments.segments) asked["segments"] = *request.segments.segments;
   if (request.segments.persistence)

@@ -10,7 +10,7 @@ namespace morsel::tools {
 struct SegmentsRequest {
   FieldRequest field;
   SegmentRequest segments;
-  bool repair = false;
+  core::BuildOptions build = {};
 };
 Json request_section(const SegmentsRequest& request);
 

@@ -7,6 +7,7 @@
 
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -100,7 +101,7 @@ void add(CsvLine& line, const Estimate& estimate) {
 
 }  // namespace
 
-Json request_section(const StabilityRequest& request, bool repair) {
+Json request_section(const StabilityRequest& request, const core::BuildOptions& build) {
   Json asked = {{"fields", request.fields},
                 {"methods", request.methods},
                 {"noise", request.noise},
@@ -113,13 +114,14 @@ Json request_section(const StabilityRequest& request, bool repair) {
                 {"points", to_string(request.points)},
                 {"reference_field", request.reference_field},
                 {"reference", request.reference},
-                {"repair", repair}};
+                {"repair", build.repair}};
+  add_welding(asked, build);
   if (request.target) asked["target"] = *request.target;
   return asked;
 }
 
 Json trials_key(const StabilityRequest& request, const ReportInput& input, const Registry& registry) {
-  Json asked = request_section(request, input.repair);
+  Json asked = request_section(request, input.build);
   for (const char* key : {"noise", "kind", "decimate", "subdivide", "trials"}) asked.erase(key);
   if (!input.format.empty()) asked["format"] = input.format;
   return {{"schema", "morsel.stability/1"},
@@ -135,9 +137,8 @@ void write_stability(JsonSink& json, const StabilityReport& report) {
   json.begin_object();
   json.member("schema", "morsel.stability/1");
   json.member("tool", tool_section());
-  json.member("request", request_section(report.request, report.input.repair));
-  json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded.mesh,
-                                   report.loaded.source.repairs));
+  json.member("request", request_section(report.request, report.input.build));
+  json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded));
   Json matching = {{"radius", result.radius},
                    {"radius_of_diagonal", result.radius / diagonal},
                    {"mean_edge_length", result.mean_edge_length},

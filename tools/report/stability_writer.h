@@ -21,7 +21,7 @@ struct StabilityReport {
 };
 
 /// The request with its defaults, as documents have it.
-Json request_section(const StabilityRequest& request, bool repair);
+Json request_section(const StabilityRequest& request, const core::BuildOptions& build);
 
 /// All that the trials of a run depend on besides their perturbation and number: the key of their journal.
 Json trials_key(const StabilityRequest& request, const ReportInput& input,

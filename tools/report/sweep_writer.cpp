@@ -10,6 +10,7 @@
 #include "morsel/tools/formats/csv.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/formats/version.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -54,23 +55,26 @@ void write_row(JsonSink& json, const SweepReport& report, std::size_t i) {
 
 }  // namespace
 
-Json request_section(const SweepRequest& request, const SweepPlan& plan, bool repair) {
+Json request_section(const SweepRequest& request, const SweepPlan& plan, const core::BuildOptions& build) {
   Json variations = Json::array();
   for (const Variation& variation : plan.variations)
     variations.push_back({{"key", variation.key}, {"values", variation.values}});
-  return {{"field", request.field},
-          {"method", request.method},
-          {"vary", request.vary},
-          {"variations", std::move(variations)},
-          {"repair", repair}};
+  Json asked = {{"field", request.field},
+                {"method", request.method},
+                {"vary", request.vary},
+                {"variations", std::move(variations)},
+                {"repair", build.repair}};
+  add_welding(asked, build);
+  return asked;
 }
 
 Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files) {
   Json key = {{"schema", "morsel.sweep/1"},
               {"tool", tool_section()},
               {"mesh", input.mesh_sha256},
-              {"repair", input.repair},
+              {"repair", input.build.repair},
               {"files", files_section(files)}};
+  add_welding(key, input.build);
   if (!input.format.empty()) key["format"] = input.format;
   return key;
 }
@@ -79,9 +83,8 @@ void write_sweep(JsonSink& json, const SweepReport& report) {
   json.begin_object();
   json.member("schema", "morsel.sweep/1");
   json.member("tool", tool_section());
-  json.member("request", request_section(report.request, report.plan, report.input.repair));
-  json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded.mesh,
-                                   report.loaded.source.repairs));
+  json.member("request", request_section(report.request, report.plan, report.input.build));
+  json.member("mesh", mesh_section(report.input.mesh_path, report.input.mesh_sha256, report.loaded));
   json.begin_array("rows");
   for (std::size_t i = 0; i < report.rows.size(); ++i) write_row(json, report, i);
   json.end_array();

@@ -25,7 +25,7 @@ struct SweepReport {
 };
 
 /// The request, with ranges written out.
-Json request_section(const SweepRequest& request, const SweepPlan& plan, bool repair);
+Json request_section(const SweepRequest& request, const SweepPlan& plan, const core::BuildOptions& build);
 
 /// All that rows depend on besides their combination: the key of their journal. `files` are those that fields
 /// read.

@@ -1,6 +1,7 @@
 #include "morsel/tools/reproduce/document.h"
 
 #include "morsel/tools/formats/command_line.h"
+#include "morsel/tools/report/build_options.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/reproduce/table.h"
@@ -9,22 +10,25 @@ namespace morsel::tools::reproduce {
 namespace {
 
 Json request_section(const Request& request) {
-  Json section = {{"data", nullptr},         {"meshes", request.samples.string()},
-                  {"size", request.size},    {"samples", request.pixel_samples},
-                  {"views", request.views},  {"up", request.ups},
-                  {"repair", request.repair}};
+  Json section = {{"data", nullptr},
+                  {"meshes", request.samples.string()},
+                  {"size", request.size},
+                  {"samples", request.pixel_samples},
+                  {"views", request.views},
+                  {"up", request.ups},
+                  {"repair", request.build.repair}};
+  add_welding(section, request.build);
   if (!request.data.empty()) section["data"] = request.data.string();
   return section;
 }
 
 Json model_section(const Model& model, const PictureOptions& pictures) {
-  return {
-      {"name", model.recipe().name},
-      {"paper", model.recipe().paper},
-      {"sample", model.file().is_sample},
-      {"made", model.file().is_made},
-      {"view", pictures.camera.view},
-      {"mesh", mesh_section(model.file().path, model.sha256(), model.mesh(), model.loaded().source.repairs)}};
+  return {{"name", model.recipe().name},
+          {"paper", model.recipe().paper},
+          {"sample", model.file().is_sample},
+          {"made", model.file().is_made},
+          {"view", pictures.camera.view},
+          {"mesh", mesh_section(model.file().path, model.sha256(), model.loaded())}};
 }
 
 /// A method on the field, with all its parameters and counts.

@@ -86,7 +86,7 @@ std::vector<std::string> shaping_words_of(const PanelOutcome& panel, const Figur
   const Model& model = *figure.model;
   std::vector<std::string> words = {"morsel", "render", model.file().path.string()};
   const FieldRequest field{std::string(figure.recipe->field), panel.method, {}};
-  add_words(words, words_of(field, options.repair));
+  add_words(words, words_of(field, options.build));
   add_words(words, render::words_of(request, options.camera, "", model.loaded().source.numbering));
   return words;
 }
@@ -135,11 +135,10 @@ std::string panel_png(const render::Image& image, const PanelOutcome& panel, con
                       const PictureOptions& options, const render::PictureRequest& request) {
   const Model& model = *figure.model;
   const HashedFile mesh{model.file().path.string(), model.sha256()};
-  Provenance provenance(
-      command_line(panel.shaping_words),
-      tools::request_section(FieldRequest{std::string(figure.recipe->field), panel.method, {}},
-                             options.repair),
-      {mesh, model.loaded(), panel.run->plan, panel.run->made});
+  Provenance provenance(command_line(panel.shaping_words),
+                        tools::request_section(
+                            FieldRequest{std::string(figure.recipe->field), panel.method, {}}, options.build),
+                        {mesh, model.loaded(), panel.run->plan, panel.run->made});
   provenance.set("picture",
                  render::picture_section(request, options.camera, "", model.loaded().source.numbering));
   return drawing::with_png_comment(render::encode_png(image), provenance.json());

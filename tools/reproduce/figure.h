@@ -15,7 +15,7 @@ struct PictureOptions {
   render::Size size{800, 680};  ///< of a panel
   int samples = 16;             ///< a pixel
   render::CameraText camera;    ///< its inset is not used
-  bool repair = false;          ///< included in the commands
+  core::BuildOptions build;     ///< included in the commands
 };
 
 /// Writes figureN.png and, as figureNa.png, figureNb.png …, its panels into `folder`. Throws what methods,

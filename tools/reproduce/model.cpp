@@ -11,9 +11,9 @@ Model::Model(const ModelRecipe& recipe, MeshFile file, HashedMesh mesh)
       sha256_(std::move(mesh.sha256)),
       studio_(loaded_.mesh) {}
 
-Model Model::read(const ModelRecipe& recipe, const MeshFile& file, bool repair,
+Model Model::read(const ModelRecipe& recipe, const MeshFile& file, const core::BuildOptions& build,
                   const core::Progress& progress) {
-  return {recipe, file, read_hashed_mesh(file.path, {.repair = repair}, progress)};
+  return {recipe, file, read_hashed_mesh(file.path, build, progress)};
 }
 
 Model Model::make(const ModelRecipe& recipe, const MeshFile& file, const core::FileTarget& target,

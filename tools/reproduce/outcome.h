@@ -40,7 +40,7 @@ class Model {
 
   /// Reads the mesh; throws what core::read_mesh() throws. A surface that is made is first written to
   /// `target`, with these comments.
-  static Model read(const ModelRecipe& recipe, const MeshFile& file, bool repair,
+  static Model read(const ModelRecipe& recipe, const MeshFile& file, const core::BuildOptions& build,
                     const core::Progress& progress = {});
   static Model make(const ModelRecipe& recipe, const MeshFile& file, const core::FileTarget& target,
                     const std::vector<std::string>& comments);

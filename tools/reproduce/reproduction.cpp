@@ -48,7 +48,7 @@ render::UpAxis up_axis(const std::string& text) {
 
 Model load(const ModelRecipe& recipe, const MeshFile& file, const Prepared& prepared, ResultFolder& folder,
            const core::Progress& progress) {
-  if (!file.is_made) return Model::read(recipe, file, prepared.request.repair, progress);
+  if (!file.is_made) return Model::read(recipe, file, prepared.request.build, progress);
   return Model::make(recipe, file, folder.claim(file.path), provenance_of(prepared.request, {}).lines());
 }
 
@@ -62,7 +62,7 @@ std::vector<std::string> command_words(const Request& request) {
   add_option(words, "--samples", std::to_string(request.pixel_samples));
   for (const std::string& view : request.views) add_option(words, "--view", view);
   for (const std::string& up : request.ups) add_option(words, "--up", up);
-  add_flag(words, "--repair", request.repair);
+  add_words(words, words_of(request.build));
   return words;
 }
 
@@ -74,7 +74,7 @@ Prepared prepare(const Request& request) {
   for (std::size_t i = 0; i < models().size(); ++i) {
     prepared.pictures[i].camera.view = models()[i].view;
     prepared.pictures[i].camera.up = models()[i].up;
-    prepared.pictures[i].repair = request.repair && models()[i].make == nullptr;
+    if (models()[i].make == nullptr) prepared.pictures[i].build = request.build;
   }
   for (const std::string& view : request.views)
     for_models(view, [&](std::size_t i, const std::string& value) {

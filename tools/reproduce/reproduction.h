@@ -20,7 +20,7 @@ struct Request {
   int pixel_samples = 16;
   std::vector<std::string> views;  ///< "VIEW" for all models or "MODEL=VIEW" for one
   std::vector<std::string> ups;    ///< "AXIS" or "MODEL=AXIS"
-  bool repair = false;
+  core::BuildOptions build = {};
 };
 
 /// The command line of the request, without the folder, which changes nothing.

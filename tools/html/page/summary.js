@@ -78,7 +78,7 @@ function fillDetails(page) {
     ['edges', formatCount(mesh.edges)], ['triangles', formatCount(mesh.faces)],
     ['components', mesh.components], ['boundary loops', mesh.boundary_loops], ['genus', mesh.genus],
     ['Euler characteristic', mesh.euler_characteristic], ['box diagonal', mesh.bbox_diagonal],
-    ['repairs', repairs]
+    ['repairs', repairs], ...(mesh.warnings || []).map((text) => ['warning', text])
   ]));
   columns.append(keyValueTable(`Field: ${field.name}`, [
     ['range', `${formatNumber(field.min)} to ${formatNumber(field.max)}`],
