@@ -23,8 +23,9 @@ def icosphere(levels):
     return points / np.linalg.norm(points, axis=1, keepdims=True), faces
 
 
-def cortex(levels, seed=1, waves=60):
-    """Vertices in mm and faces of a folded sphere, and sulc: as FreeSurfer's positive in sulci."""
+def cortex(levels, seed=1, waves=60, noise=0):
+    """Vertices in mm and faces of a folded sphere, and sulc: as FreeSurfer's positive in sulci;
+    `noise` is the standard deviation of what is added to it at each vertex."""
     random = np.random.default_rng(seed)
     sphere, faces = icosphere(levels)
     depth = np.zeros(len(sphere))
@@ -33,7 +34,7 @@ def cortex(levels, seed=1, waves=60):
         direction *= random.uniform(10, 24) / np.linalg.norm(direction)
         depth += np.cos(sphere @ direction + random.uniform(0, 2 * np.pi))
     depth /= depth.std()
-    sulc = (5 * depth).astype(np.float32)
+    sulc = (5 * depth + random.normal(scale=noise, size=len(depth))).astype(np.float32)
     return (sphere * (50 - 2.5 * depth)[:, None]).astype(np.float32), faces.astype(np.int32), sulc
 
 
