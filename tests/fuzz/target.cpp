@@ -11,6 +11,8 @@ std::span<const Target> targets() {
                                                {"stl", "meshes", ".stl", stl},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
+                                               {"pqr", "pqr", "", pqr},
+                                               {"selection", "selection", "", selection},
                                                {"values", "values", "", values},
                                                {"specification", "specification", "", specification},
                                                {"chain", "chain", "", chain},

@@ -27,6 +27,8 @@ void ply(std::string_view bytes);
 void stl(std::string_view bytes);
 void pdb(std::string_view bytes);
 void mmcif(std::string_view bytes);
+void pqr(std::string_view bytes);
+void selection(std::string_view bytes);
 void values(std::string_view bytes);
 void specification(std::string_view bytes);
 void chain(std::string_view bytes);
