@@ -109,8 +109,7 @@ class Identification {
     std::vector<AtomRecord>& records = all_.records;
     std::size_t kept = 0;
     for (std::size_t first = 0, last = 0; first < records.size(); first = last) {
-      const Atom& atom = records[first].atom;
-      while (last < records.size() && is_same_residue(records[last].atom, atom)) ++last;
+      while (last < records.size() && is_same_residue(records[last], records[first])) ++last;
       identify({records.data() + first, last - first});
       for (std::size_t i = first; i < last; ++i) {
         if (is_no_atom(records[i])) continue;
@@ -130,8 +129,9 @@ class Identification {
   }
 
  private:
-  static bool is_same_residue(const Atom& a, const Atom& b) {
-    return a.sequence_id == b.sequence_id && a.residue == b.residue && a.chain == b.chain;
+  static bool is_same_residue(const AtomRecord& a, const AtomRecord& b) {
+    return a.atom.sequence_id == b.atom.sequence_id && a.atom.residue == b.atom.residue &&
+           a.atom.chain == b.atom.chain && a.in_sequence == b.in_sequence;
   }
   /// A site of a water model or a lone pair.
   static bool is_no_atom(const AtomRecord& record) {
