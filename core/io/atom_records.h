@@ -1,6 +1,7 @@
 #pragma once
 /// All atoms of a PDB or mmCIF file, before any is chosen. Internal.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,19 +13,29 @@ namespace morsel::core {
 
 struct AtomRecord {
   Atom atom;
-  std::int64_t model = 1;  ///< which one of the file, counted from 1
-  bool hydrogen = false;   ///< or deuterium
+  std::string symbol;  ///< of the element, as the file has it: may be empty or none
+  /// Of the name in a PDB file, columns 13 to 16, which may tell the element; zeros in other formats.
+  std::array<char, 4> columns = {};
+  bool in_sequence = false;  ///< the file's sequence of a chain has its residue
+  bool stays_out = false;    ///< of a known ligand or lipid, whatever its record
+  double own_radius = -1;    ///< that the file gives, in Å; negative: none
 };
 
 struct AtomRecords {
-  std::vector<AtomRecord> records;  ///< in the order of the file, models one after the other
-  std::int64_t models = 0;          ///< that have atoms
+  std::vector<AtomRecord> records;    ///< of one model, in the order of the file
+  std::int64_t models = 0;            ///< in the file, that have atoms
+  std::vector<std::string> warnings;  ///< what was odd in the file, a sentence each
 };
 
-/// Reads them from the bytes of a file; `file` names it in errors. An atom of unknown element has the element
-/// "X" and no radius. Both throw BadInput for a damaged file; one without atoms gives no records.
-AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress);
-AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress);
+/// Reads one model, counted from 1, from the bytes of a file; `file` names it in errors. Of the other models
+/// nothing is read but that they are there. An atom of unknown element has the element "X" and no radius. All
+/// throw BadInput for a damaged file; one without atoms, or without that model, gives no records.
+AtomRecords read_pdb(std::string_view bytes, const std::string& file, const Progress& progress,
+                     std::int64_t model = 1);
+AtomRecords read_mmcif(std::string_view bytes, const std::string& file, const Progress& progress,
+                       std::int64_t model = 1);
+/// PQR files have one model.
+AtomRecords read_pqr(std::string_view bytes, const std::string& file, const Progress& progress);
 
 /// The atoms that the options select, as read_molecule() describes. Throws BadInput and InvalidArgument as it
 /// does.

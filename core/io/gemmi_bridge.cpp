@@ -1,6 +1,7 @@
 // The only file with gemmi's headers, which take long to compile; in C++17.
 #include "morsel/core/io/gemmi_bridge.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <gemmi/cif.hpp>
@@ -22,44 +23,67 @@ Element find_element(const std::string& symbol) {
   return {gemmi::element_name(element), element == gemmi::El::X ? 0 : radius, gemmi::is_hydrogen(element)};
 }
 
-Residue find_residue(const std::string& name) {
-  const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(name);
-  return {info.is_water(), info.is_amino_acid() || info.is_nucleic_acid()};
-}
-
 namespace {
 
-/// By gemmi's rules (read_pdb_from_stream(), where they cannot be called).
-gemmi::El element_of(const char* line) {
-  if (std::isalpha(static_cast<unsigned char>(line[76])) != 0 ||
-      std::isalpha(static_cast<unsigned char>(line[77])) != 0)
-    return gemmi::find_element(line + 76);
-  if (gemmi::alpha_up(line[12]) == 'H' && line[15] != ' ')
-    return gemmi::El::H;  // HXXX is ambiguous, but most often H
-  if (gemmi::is_digit(line[12])) return gemmi::impl::find_single_letter_element(line[13]);  // "1HB "
-  if (gemmi::is_digit(line[13])) return gemmi::impl::find_single_letter_element(line[12]);  // "C210"
-  return gemmi::find_element(line + 12);
+/// A residue without hydrogens that weighs as much as an element is that element.
+std::string element_of_weight(const gemmi::ResidueInfo& info) {
+  if (!info.found() || info.hydrogen_count != 0) return {};
+  for (int i = 1; i < static_cast<int>(gemmi::El::END); ++i) {
+    const gemmi::Element element(i);
+    const bool noble = i == 2 || i == 10 || i == 18 || i == 36 || i == 54 || i == 86;
+    if (!noble && std::abs(element.weight() - static_cast<double>(info.weight)) < 0.02) return element.name();
+  }
+  return {};
 }
 
 }  // namespace
 
-PdbAtom read_pdb_atom(const PdbLine& line) {
+Residue find_residue(const std::string& name) {
+  const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(name);
+  Residue residue;
+  residue.known = info.found();
+  residue.water = info.is_water();
+  residue.amino_acid = info.is_amino_acid();
+  residue.nucleotide = info.is_nucleic_acid();
+  residue.standard =
+      (residue.amino_acid || residue.nucleotide) && info.is_standard() && info.one_letter_code != ' ';
+  residue.ion = element_of_weight(info);
+  return residue;
+}
+
+std::string element_by_columns(const std::array<char, 4>& name) {
+  // By gemmi's rules (read_pdb_from_stream(), where they cannot be called).
+  const std::array<char, 5> text = {name[0], name[1], name[2], name[3], '\0'};
+  gemmi::El element = gemmi::El::X;
+  if (gemmi::is_digit(text[0]))
+    element = gemmi::impl::find_single_letter_element(text[1] & ~0x20);  // "1HB "
+  else if (gemmi::is_digit(text[1]))
+    element = gemmi::impl::find_single_letter_element(text[0] & ~0x20);  // "C210"
+  else
+    element = gemmi::find_element(text.data());
+  return gemmi::element_name(element);
+}
+
+PdbAtom read_pdb_atom(const PdbLine& line, bool long_residue_name) {
   namespace pdb = gemmi::pdb_impl;
   const char* const at = line.data();
   const gemmi::ResidueId id = pdb::read_res_id(at + 22, at + 17);
   PdbAtom atom;
   atom.residue = {*id.seqid.num, static_cast<char>(id.seqid.icode | 0x20), pdb::read_string(at + 72, 4),
-                  id.name};
+                  long_residue_name ? pdb::read_string(at + 17, 4) : id.name};
   atom.sequence_id = id.seqid.num ? id.seqid.str() : std::string();
-  atom.chain = pdb::read_string(at + 20, 2);
+  atom.chain = long_residue_name ? pdb::read_string(at + 21, 1) : pdb::read_string(at + 20, 2);
   atom.serial = pdb::read_serial(at + 6);
   atom.name = pdb::read_string(at + 12, 4);
   atom.alternate = pdb::read_altloc(at[16]);
   atom.x = pdb::read_double(at + 30, 8);
   atom.y = pdb::read_double(at + 38, 8);
   atom.z = pdb::read_double(at + 46, 8);
-  atom.occupancy = static_cast<double>(static_cast<float>(pdb::read_double(at + 54, 6)));
-  atom.element = gemmi::element_name(element_of(at));
+  const bool has_occupancy = !pdb::read_string(at + 54, 6).empty();
+  atom.occupancy = has_occupancy ? static_cast<double>(static_cast<float>(pdb::read_double(at + 54, 6))) : 1;
+  std::copy_n(at + 12, 4, atom.columns.begin());
+  for (const char c : {at[76], at[77]})
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) atom.symbol += c;
   atom.hetero = (at[0] & ~0x20) == 'H';
   return atom;
 }
@@ -68,6 +92,7 @@ int pdb_model_number(const PdbLine& line) { return gemmi::pdb_impl::read_int(lin
 
 struct CifFile::Content {
   gemmi::cif::Document document;
+  gemmi::cif::Block* block = nullptr;
   std::optional<gemmi::cif::Table> table;
 };
 
@@ -109,6 +134,7 @@ CifFile::Found CifFile::find(const std::string& category, const std::vector<std:
   for (gemmi::cif::Block& block : content_->document.blocks) {
     gemmi::cif::Table table = block.find(category, columns);
     if (table.ok() && table.length() > 0) {
+      content_->block = &block;
       content_->table.emplace(std::move(table));
       return Found::yes;
     }
@@ -117,10 +143,27 @@ CifFile::Found CifFile::find(const std::string& category, const std::vector<std:
   return Found::no;
 }
 
-bool CifFile::has_tag(const std::string& tag) const {
-  for (const gemmi::cif::Block& block : content_->document.blocks)
-    if (block.has_tag(tag)) return true;
-  return false;
+std::optional<std::string> CifFile::value_of(const std::string& tag) const {
+  for (gemmi::cif::Block& block : content_->document.blocks) {
+    const gemmi::cif::Column column = block.find_values(tag);
+    if (column.length() > 0) return column.str(0);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::vector<std::string>> CifFile::rows_of(const std::string& category,
+                                                       const std::vector<std::string>& columns) {
+  std::vector<std::vector<std::string>> rows;
+  if (content_->block == nullptr) return rows;
+  gemmi::cif::Table table = content_->block->find(category, columns);
+  if (!table.ok()) return rows;
+  rows.reserve(table.length());
+  for (const auto& row : table) {
+    std::vector<std::string>& values = rows.emplace_back(columns.size());
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (row.has2(i)) values[i] = row.str(static_cast<int>(i));
+  }
+  return rows;
 }
 
 std::size_t CifFile::rows() const { return content_->table ? content_->table->length() : 0; }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -21,11 +22,20 @@ struct Element {
 };
 Element find_element(const std::string& symbol);
 
+/// What gemmi's table says of a residue's name, in capital letters.
 struct Residue {
-  bool water;
-  bool polymer;  ///< amino acid or nucleotide
+  bool known = false;
+  bool water = false;
+  bool amino_acid = false;
+  bool nucleotide = false;
+  bool standard = false;  ///< one of the amino acids and nucleotides that are not modified
+  std::string ion;        ///< the element of a single atom ("CL", "ZN2", "BRO"); empty if it is none
 };
 Residue find_residue(const std::string& name);
+
+/// The element of an atom by its name as columns 13 to 16 of a PDB file have it, where the element's symbol
+/// ends in column 14; "X" if there is none.
+std::string element_by_columns(const std::array<char, 4>& name);
 
 /// A line of a PDB file: 78 columns and a 0.
 using PdbLine = std::array<char, 79>;
@@ -45,7 +55,9 @@ struct PdbResidue {
 
 struct PdbAtom {
   double x, y, z;
-  std::string element, name, chain, sequence_id;
+  std::array<char, 4> columns;  ///< of the name
+  std::string symbol;           ///< of the element, as it is there: may be empty or none
+  std::string name, chain, sequence_id;
   PdbResidue residue;
   int serial;
   double occupancy;
@@ -53,8 +65,9 @@ struct PdbAtom {
   bool hetero;
 };
 
-/// The atom of a line ATOM or HETATM, and the number in a line MODEL.
-PdbAtom read_pdb_atom(const PdbLine& line);
+/// The atom of a line ATOM or HETATM, and the number in a line MODEL. The name of a residue is in columns 18
+/// to 20 and that of its chain in 21 and 22; of a long name it is 18 to 21 and 22.
+PdbAtom read_pdb_atom(const PdbLine& line, bool long_residue_name);
 int pdb_model_number(const PdbLine& line);
 
 /// A CIF file, and the rows of one of its tables.
@@ -69,8 +82,12 @@ class CifFile {
   /// Selects the first block whose table `category` has rows, to which rows() and text() then refer. Columns
   /// whose names begin with a ? may be missing.
   Found find(const std::string& category, const std::vector<std::string>& columns);
-  /// Whether some block has the tag.
-  bool has_tag(const std::string& tag) const;
+  /// The value of the tag in the first block that has it, of a pair or a loop's first row; null if none has.
+  std::optional<std::string> value_of(const std::string& tag) const;
+  /// The rows of another table of the block that find() selected: the columns, of which those that begin with
+  /// a ? may be missing, with values as text() gives them. None if it lacks the table or a column.
+  std::vector<std::vector<std::string>> rows_of(const std::string& category,
+                                                const std::vector<std::string>& columns);
 
   std::size_t rows() const;
   /// The value without its quotes; empty if it is ., ? or missing.

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/atom_radii.h"
 #include "morsel/core/io/atom_records.h"
+#include "morsel/core/io/atom_selection.h"
 #include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_kind.h"
 #include "morsel/core/text/text_scanner.h"
@@ -17,20 +20,29 @@ namespace {
 
 constexpr std::array<const char*, 3> kHeteroNames = {"none", "residues", "all"};
 
-AtomRecords read_records(const std::filesystem::path& path, const Progress& progress) {
+/// Radii that are no path.
+constexpr std::array<const char*, 3> kRadii = {"auto", "all-atom", "united-atom"};
+
+AtomRecords read_records(const std::filesystem::path& path, std::int64_t model, const Progress& progress) {
   const std::string name = path.string();
   const TextContent content(path, name, progress);
   const std::string extension = content_extension(path);
-  const bool pdb = extension == ".pdb" || extension == ".ent";
-  if (!pdb && extension != ".cif" && extension != ".mmcif")
-    fail_reading(name, "molecules are read from .pdb, .ent, .cif and .mmcif files, not " +
+  const auto read = [&]() -> AtomRecords {
+    if (extension == ".pdb" || extension == ".ent") return read_pdb(content.view(), name, progress, model);
+    if (extension == ".cif" || extension == ".mmcif")
+      return read_mmcif(content.view(), name, progress, model);
+    if (extension == ".pqr") return read_pqr(content.view(), name, progress);
+    fail_reading(name, "molecules are read from .pdb, .ent, .cif, .mmcif and .pqr files, not " +
                            (extension.empty() ? "from one without an extension" : "from " + extension));
+  };
   const std::string_view kind = file_kind(content.view());
-  const bool other = !kind.empty() && kind != (pdb ? "a PDB file" : "a CIF file");
+  // PQR files begin as PDB files do.
+  const std::string_view own = extension == ".cif" || extension == ".mmcif" ? "a CIF file" : "a PDB file";
+  const bool other = !kind.empty() && kind != own;
   const std::string read_as = ", though read as " + extension;
   AtomRecords all;
   try {
-    all = pdb ? read_pdb(content.view(), name, progress) : read_mmcif(content.view(), name, progress);
+    all = read();
   } catch (const BadInput& error) {
     if (other) throw BadInput(std::string(error.what()) + " (it is " + std::string(kind) + read_as + ")");
     throw;
@@ -62,25 +74,33 @@ void check_chains(const std::vector<AtomRecord>& records, const std::vector<std:
   }
 }
 
-/// `chains` are those of the options.
+/// `chains` are those of the options, `selection` is null if they have none.
 bool is_left_out(const AtomRecord& record, const MoleculeOptions& options,
-                 const std::set<std::string_view>& chains, AtomsLeftOut& count) {
+                 const std::set<std::string_view>& chains, const AtomSelection* selection,
+                 AtomsLeftOut& count) {
   const Atom& atom = record.atom;
   const auto left_out = [](std::size_t& counter) {
     ++counter;
     return true;
   };
   if (!chains.empty() && !chains.contains(atom.chain)) return left_out(count.other_chains);
-  if (atom.water) return options.waters ? false : left_out(count.waters);
-  if (atom.hetero &&
-      (options.hetero == HeteroAtoms::none || (options.hetero == HeteroAtoms::residues && !atom.polymer)))
-    return left_out(count.hetero);
-  if (record.hydrogen && !options.hydrogens) return left_out(count.hydrogens);
+  if (selection != nullptr) {
+    if (!selection->takes(atom)) return left_out(count.not_selected);
+  } else {
+    if (atom.water && !options.waters) return left_out(count.waters);
+    if (!atom.water && options.hetero != HeteroAtoms::all) {
+      const bool hetero = atom.hetero && (options.hetero == HeteroAtoms::none || !atom.polymer);
+      if (hetero || record.stays_out) return left_out(count.hetero);
+    }
+  }
+  if (atom.hydrogen && !options.hydrogens) return left_out(count.hydrogens);
+  if (record.own_radius == 0 && options.radii == kRadii[0]) return left_out(count.without_radius);
   return false;
 }
 
 /// The letter to take of a residue's alternate locations, 0 if there are none.
-char chosen_letter(const std::vector<Atom>& atoms, std::size_t first, std::size_t last, bool highest) {
+char chosen_letter(const std::vector<AtomRecord>& records, std::size_t first, std::size_t last,
+                   bool highest) {
   struct Letter {
     char name;
     double occupancy = 0;
@@ -89,11 +109,12 @@ char chosen_letter(const std::vector<Atom>& atoms, std::size_t first, std::size_
   };
   std::vector<Letter> letters;  // in the order of the file
   for (std::size_t i = first; i < last; ++i) {
-    if (atoms[i].alternate == 0) continue;
+    const Atom& atom = records[i].atom;
+    if (atom.alternate == 0) continue;
     auto letter = std::find_if(letters.begin(), letters.end(),
-                               [&](const Letter& l) { return l.name == atoms[i].alternate; });
-    if (letter == letters.end()) letter = letters.insert(letter, {atoms[i].alternate});
-    letter->occupancy += atoms[i].occupancy;
+                               [&](const Letter& l) { return l.name == atom.alternate; });
+    if (letter == letters.end()) letter = letters.insert(letter, {atom.alternate});
+    letter->occupancy += atom.occupancy;
     ++letter->count;
   }
   if (letters.empty()) return 0;
@@ -105,22 +126,25 @@ char chosen_letter(const std::vector<Atom>& atoms, std::size_t first, std::size_
 
 /// Keeps one location of each residue. Those of one place in the chain belong together, also where the
 /// alternatives are different residues.
-void choose_alternates(std::vector<Atom>& atoms, const std::string& rule, AtomsLeftOut& count) {
+void choose_alternates(std::vector<AtomRecord>& records, const std::string& rule, AtomsLeftOut& count) {
   if (rule == "all") return;
-  std::vector<Atom> kept;
-  kept.reserve(atoms.size());
-  for (std::size_t first = 0, last = 0; first < atoms.size(); first = last) {
-    while (last < atoms.size() && atoms[last].chain == atoms[first].chain &&
-           atoms[last].sequence_id == atoms[first].sequence_id)
+  std::size_t kept = 0;
+  for (std::size_t first = 0, last = 0; first < records.size(); first = last) {
+    const Atom& atom = records[first].atom;
+    while (last < records.size() && records[last].atom.chain == atom.chain &&
+           records[last].atom.sequence_id == atom.sequence_id)
       ++last;
-    const char letter = rule.size() == 1 ? rule[0] : chosen_letter(atoms, first, last, rule == "highest");
-    for (std::size_t i = first; i < last; ++i)
-      if (atoms[i].alternate == 0 || atoms[i].alternate == letter)
-        kept.push_back(std::move(atoms[i]));
-      else
+    const char letter = rule.size() == 1 ? rule[0] : chosen_letter(records, first, last, rule == "highest");
+    for (std::size_t i = first; i < last; ++i) {
+      if (records[i].atom.alternate != 0 && records[i].atom.alternate != letter) {
         ++count.alternates;
+        continue;
+      }
+      if (kept != i) records[kept] = std::move(records[i]);
+      ++kept;
+    }
   }
-  atoms = std::move(kept);
+  records.resize(kept);
 }
 
 void check_options(const MoleculeOptions& options) {
@@ -129,6 +153,7 @@ void check_options(const MoleculeOptions& options) {
   const std::string& rule = options.alternate;
   if (rule != "highest" && rule != "first" && rule != "all" && rule.size() != 1)
     throw InvalidArgument("alternate locations are highest, first, all or one letter, not " + shown(rule));
+  if (!options.select.empty()) AtomSelection(std::string_view(options.select));
 }
 
 }  // namespace
@@ -148,6 +173,8 @@ std::string AtomsLeftOut::described() const {
   add(hetero, "hetero");
   add(hydrogens, "hydrogens");
   add(alternates, "at other alternate locations");
+  add(not_selected, "not selected");
+  add(without_radius, "of radius 0");
   return text;
 }
 
@@ -155,40 +182,53 @@ Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions&
                        const Progress& progress) {
   require_molecules("reading atoms");
   check_options(options);
-  Molecule molecule = choose_atoms(read_records(path, progress), path.string(), options);
+  AtomRecords records = read_records(path, options.model, progress);
+  Molecule molecule = choose_atoms(std::move(records), path.string(), options);
   progress.update("reading the atoms", 1);
   return molecule;
 }
 
 Molecule choose_atoms(AtomRecords all, const std::string& file, const MoleculeOptions& options) {
   check_options(options);
-  if (all.records.empty()) throw BadInput(file + " has no atoms");
+  if (all.models == 0) throw BadInput(file + " has no atoms");
   if (options.model > all.models)
     throw BadInput(file + " has no model " + std::to_string(options.model) + ", it has " +
                    (all.models == 1 ? "only one" : std::to_string(all.models)));
-  std::erase_if(all.records, [&](const AtomRecord& record) { return record.model != options.model; });
   check_chains(all.records, options.chains, file);
 
   Molecule molecule;
   molecule.models = all.models;
+  molecule.warnings = std::move(all.warnings);
   molecule.atoms_in_model = all.records.size();
+  std::optional<AtomSelection> selection;
+  if (!options.select.empty()) selection.emplace(options.select);
   const std::set<std::string_view> chains(options.chains.begin(), options.chains.end());
-  for (AtomRecord& record : all.records)
-    if (!is_left_out(record, options, chains, molecule.left_out))
-      molecule.atoms.push_back(std::move(record.atom));
-  choose_alternates(molecule.atoms, options.alternate, molecule.left_out);
-  if (molecule.atoms.empty())
+  std::erase_if(all.records, [&](const AtomRecord& record) {
+    return is_left_out(record, options, chains, selection ? &*selection : nullptr, molecule.left_out);
+  });
+  choose_alternates(all.records, options.alternate, molecule.left_out);
+  if (all.records.empty())
     throw BadInput(file + " has no atoms left of " + std::to_string(molecule.atoms_in_model) +
-                   ": the options leave out " + molecule.left_out.described());
-  const auto unknown = [](const Atom& atom) { return !(atom.radius > 0); };
-  if (const auto first = std::find_if(molecule.atoms.begin(), molecule.atoms.end(), unknown);
-      first != molecule.atoms.end()) {
-    const auto count = std::count_if(first, molecule.atoms.end(), unknown);
-    throw BadInput(file + ": " + first->described() + " is of no known element" +
-                   (count > 1 ? ", the first of " + std::to_string(count) : std::string()) +
-                   ", so it has no van der Waals radius");
-  }
+                   (molecule.left_out.total() > 0 ? ": the options leave out " + molecule.left_out.described()
+                                                  : std::string()));
+  molecule.radii = set_radii(all.records, options.radii, file, molecule.warnings);
+  molecule.atoms.reserve(all.records.size());
+  for (AtomRecord& record : all.records) molecule.atoms.push_back(std::move(record.atom));
   return molecule;
+}
+
+std::string to_string(AtomRadii radii) {
+  switch (radii) {
+    case AtomRadii::all_atom:
+      return "all-atom";
+    case AtomRadii::united_atom:
+      return "united-atom";
+    case AtomRadii::of_structure:
+      return "of the structure's file";
+    case AtomRadii::of_table:
+      break;
+  }
+  return "of a table";
 }
 
 MoleculeOptions read_molecule_options(ParameterReader& reader) {
@@ -196,7 +236,7 @@ MoleculeOptions read_molecule_options(ParameterReader& reader) {
   const std::string hetero =
       reader.choice("hetero", kHeteroNames[static_cast<std::size_t>(options.hetero)],
                     {kHeteroNames.begin(), kHeteroNames.end()},
-                    "HETATM atoms: none, those of modified residues of the chain, or all (ligands, ions)");
+                    "HETATM atoms and ions: none, those of residues of the chain, or all (ligands, ions)");
   options.hetero = static_cast<HeteroAtoms>(std::find(kHeteroNames.begin(), kHeteroNames.end(), hetero) -
                                             kHeteroNames.begin());
   options.waters = reader.flag("waters", options.waters, "the waters, too");
@@ -207,6 +247,15 @@ MoleculeOptions read_molecule_options(ParameterReader& reader) {
   std::erase(options.chains, "");
   options.model =
       reader.count("model", options.model, 1, 1'000'000'000, "which model of the file, counted from 1");
+  options.select =
+      reader.text("select", "", "an expression, in place of hetero and waters: chain A and residue 10-20 …");
+  options.radii =
+      reader.word_or_file("radii", options.radii.c_str(), {kRadii.begin(), kRadii.end()},
+                          "radii: all-atom, united-atom, auto (by the hydrogens), or a table's file");
+  if (!options.select.empty() && (reader.given("hetero") || reader.given("waters")))
+    throw InvalidArgument(
+        "an expression to select atoms takes the place of hetero and waters: put them into it, "
+        "as in \"polymer or water\"");
   check_options(options);
   return options;
 }
@@ -214,12 +263,18 @@ MoleculeOptions read_molecule_options(ParameterReader& reader) {
 Parameters molecule_parameters(const MoleculeOptions& options) {
   std::string chains;
   for (const std::string& chain : options.chains) chains += (chains.empty() ? "" : "/") + escape(chain);
-  return {{"hetero", std::string(kHeteroNames[static_cast<std::size_t>(options.hetero)])},
-          {"waters", options.waters},
-          {"hydrogens", options.hydrogens},
-          {"altloc", options.alternate},
-          {"chains", chains},
-          {"model", options.model}};
+  Parameters parameters;
+  if (options.select.empty())
+    parameters = {{"hetero", std::string(kHeteroNames[static_cast<std::size_t>(options.hetero)])},
+                  {"waters", options.waters}};
+  else
+    parameters = {{"select", options.select}};
+  parameters.emplace_back("hydrogens", options.hydrogens);
+  parameters.emplace_back("altloc", options.alternate);
+  parameters.emplace_back("chains", chains);
+  parameters.emplace_back("model", options.model);
+  parameters.emplace_back("radii", options.radii);
+  return parameters;
 }
 
 }  // namespace morsel::core

@@ -13,13 +13,18 @@ void require_molecules(std::string_view what) {
                         "tao-pegtl-dev and libopenvdb-dev are needed");
 }
 
-AtomRecords read_pdb(std::string_view, const std::string&, const Progress&) {
+AtomRecords read_pdb(std::string_view, const std::string&, const Progress&, std::int64_t) {
   require_molecules("a PDB file");
   return {};
 }
 
-AtomRecords read_mmcif(std::string_view, const std::string&, const Progress&) {
+AtomRecords read_mmcif(std::string_view, const std::string&, const Progress&, std::int64_t) {
   require_molecules("an mmCIF file");
+  return {};
+}
+
+AtomRecords read_pqr(std::string_view, const std::string&, const Progress&) {
+  require_molecules("a PQR file");
   return {};
 }
 

@@ -190,6 +190,15 @@ std::string ParameterReader::file(std::string_view key, const char* default_valu
   return path;
 }
 
+std::string ParameterReader::word_or_file(std::string_view key, const char* default_value,
+                                          const std::vector<std::string_view>& words,
+                                          std::string_view description) {
+  std::string value = text(key, default_value, description);
+  if (!value.empty() && std::find(words.begin(), words.end(), value) == words.end())
+    files_.push_back({std::string(key), value});
+  return value;
+}
+
 std::vector<std::string> ParameterReader::list(std::string_view key, const char* default_value,
                                                std::string_view description) {
   const bool required = default_value == nullptr;

@@ -70,6 +70,9 @@ class ParameterReader {
   /// The path of a file that is going to be read, as text(); files() then lists it, so that reports hash it
   /// and no output may overwrite it.
   std::string file(std::string_view key, const char* default_value, std::string_view description);
+  /// One of `words`, or else the path of a file, as file().
+  std::string word_or_file(std::string_view key, const char* default_value,
+                           const std::vector<std::string_view>& words, std::string_view description);
   /// Texts separated by "/"; the default is given in the same form, null makes the key mandatory.
   std::vector<std::string> list(std::string_view key, const char* default_value,
                                 std::string_view description);

@@ -1,7 +1,10 @@
 #include "morsel/morse/functions/atomic_density.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +20,7 @@ using core::Index;
 using core::Point;
 
 constexpr const char* kStep = "atomic density";
+constexpr std::array<const char*, 2> kWeights = {"one", "charge"};  // as AtomWeight has them
 
 void check(const AtomicDensityOptions& options, std::span<const core::Atom> atoms) {
   if (!(options.decay > 0) || !std::isfinite(options.decay))
@@ -26,9 +30,12 @@ void check(const AtomicDensityOptions& options, std::span<const core::Atom> atom
     throw core::InvalidArgument("the cut-off of an atomic density must lie between 0 and 1, not be " +
                                 core::shortest(options.cutoff));
   if (atoms.empty()) throw core::InvalidArgument("an atomic density needs at least one atom");
-  for (const core::Atom& atom : atoms)
+  for (const core::Atom& atom : atoms) {
     if (!atom.position.allFinite() || !(atom.radius > 0) || !std::isfinite(atom.radius))
       throw core::InvalidArgument(atom.described() + " has no finite position and positive radius");
+    if (options.weight == AtomWeight::charge && !(atom.charge && std::isfinite(*atom.charge)))
+      throw core::InvalidArgument(atom.described() + " has no finite charge");
+  }
 }
 
 std::string shown(const core::BoundingBox& box) {
@@ -49,11 +56,19 @@ class AtomicDensity final : public core::MorseFunction {
   core::FunctionResult evaluate(const core::TriangleMesh& mesh,
                                 const core::FunctionContext& context) const override {
     const core::Molecule molecule = core::read_molecule(structure_, molecule_, context.progress);
+    if (options_.weight == AtomWeight::charge && !molecule.atoms.front().charge)
+      throw core::BadInput(structure_.string() +
+                           " has no charges of atoms, which weight=charge needs: PQR files have them");
     core::Parameters parameters = {
         {"structure", structure_.string()}, {"decay", options_.decay}, {"cutoff", options_.cutoff}};
-    for (auto& parameter : core::molecule_parameters(molecule_)) parameters.push_back(std::move(parameter));
+    parameters.emplace_back("weight", std::string(kWeights[static_cast<std::size_t>(options_.weight)]));
+    core::MoleculeOptions resolved = molecule_;
+    if (molecule.radii == core::AtomRadii::all_atom || molecule.radii == core::AtomRadii::united_atom)
+      resolved.radii = to_string(molecule.radii);
+    for (auto& parameter : core::molecule_parameters(resolved)) parameters.push_back(std::move(parameter));
     parameters.emplace_back("atoms", static_cast<std::int64_t>(molecule.atoms.size()));
-    return {atomic_density(mesh, molecule.atoms, options_, context.progress), std::move(parameters)};
+    return {atomic_density(mesh, molecule.atoms, options_, context.progress), std::move(parameters),
+            molecule.warnings};
   }
 
  private:
@@ -82,6 +97,7 @@ core::ScalarField atomic_density(const core::TriangleMesh& mesh, std::span<const
   const double reach = largest * std::sqrt(most) * (1 + 1e-9);
 
   std::vector<double> values(mesh.vertex_count());
+  std::vector<std::uint8_t> is_near(values.size());
   constexpr std::size_t kRound = 1 << 16;
   constexpr std::size_t kVertices = 256;
   for (std::size_t begin = 0; begin < values.size(); begin += kRound) {
@@ -94,12 +110,15 @@ core::ScalarField atomic_density(const core::TriangleMesh& mesh, std::span<const
             search.within(x, reach, near);
             for (const Index i : near) {
               const double square = (x - centers[i]).squaredNorm() / (atoms[i].radius * atoms[i].radius);
-              if (square <= most) values[v] += std::exp(-options.decay * square);
+              if (square > most) continue;
+              is_near[v] = 1;
+              const double weight = options.weight == AtomWeight::charge ? *atoms[i].charge : 1;
+              values[v] += weight * std::exp(-options.decay * square);
             }
           }
         });
   }
-  if (std::all_of(values.begin(), values.end(), [](double value) { return value == 0; }))
+  if (std::all_of(is_near.begin(), is_near.end(), [](std::uint8_t near) { return near == 0; }))
     throw core::BadInput("no vertex of the mesh lies within " +
                          core::shortest(std::round(reach * 100) / 100) +
                          " Å of an atom: the mesh reaches from " + shown(mesh.bounding_box()) + ", the " +
@@ -109,13 +128,17 @@ core::ScalarField atomic_density(const core::TriangleMesh& mesh, std::span<const
 }
 
 std::unique_ptr<core::MorseFunction> make_atomic_density(core::ParameterReader& reader) {
-  const std::filesystem::path structure =
-      reader.file("structure", nullptr, "the molecule of the surface: a .pdb, .ent, .cif or .mmcif file");
+  const std::filesystem::path structure = reader.file(
+      "structure", nullptr, "the molecule of the surface: a .pdb, .ent, .cif, .mmcif or .pqr file");
   AtomicDensityOptions options;
   options.decay = reader.number("decay", options.decay, core::kPositive,
                                 "D of the sum of exp(-D d²/r²) over the atoms, r their van der Waals radii");
   options.cutoff =
       reader.number("cutoff", options.cutoff, {0, true, 0.999999}, "terms below this are left out");
+  const std::string weight =
+      reader.choice("weight", kWeights[0], {kWeights.begin(), kWeights.end()},
+                    "what an atom's Gaussian is multiplied with: its charge (of a .pqr)");
+  options.weight = weight == kWeights[0] ? AtomWeight::one : AtomWeight::charge;
   core::MoleculeOptions molecule = core::read_molecule_options(reader);
   if (!structure.empty()) core::require_molecules("atomic-density");  // empty: for help
   return std::make_unique<AtomicDensity>(structure, std::move(molecule), options);

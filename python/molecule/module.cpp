@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -43,12 +44,13 @@ core::MoleculeOptions options_of(const std::string& keys) {
 /// The atoms, column by column.
 py::dict columns(const std::vector<core::Atom>& atoms) {
   std::vector<core::Point> positions;
-  std::vector<double> radii;
+  std::vector<double> radii, charges;
   std::vector<std::int64_t> serials;
   py::list elements, names, residues, chains, sequence_ids;
   for (const core::Atom& atom : atoms) {
     positions.push_back(atom.position);
     radii.push_back(atom.radius);
+    charges.push_back(atom.charge.value_or(std::numeric_limits<double>::quiet_NaN()));
     serials.push_back(atom.serial);
     elements.append(text(atom.element));
     names.append(text(atom.name));
@@ -59,6 +61,7 @@ py::dict columns(const std::vector<core::Atom>& atoms) {
   py::dict result;
   result["position"] = taken_points(std::move(positions));
   result["radius"] = taken(std::move(radii));
+  result["charge"] = taken(std::move(charges));
   result["serial"] = taken(std::move(serials));
   result["element"] = elements;
   result["name"] = names;
@@ -68,22 +71,25 @@ py::dict columns(const std::vector<core::Atom>& atoms) {
   return result;
 }
 
-/// (mesh, atoms by column, area, volume, number of cavities)
+/// (mesh, atoms by column, area, volume, number of cavities, which radii, warnings)
 py::tuple molecule(const std::string& path, const std::string& kind, double resolution, double probe,
                    double blobbiness, bool cavities, const std::string& keys, const py::object& report) {
   core::require_molecules("ms.molecule()");
   const SurfaceOptions options{kind_of(kind), resolution, probe, blobbiness, cavities};
   tools::check_surface_options(options);
   const core::MoleculeOptions wanted = options_of(keys);
-  auto [atoms, surface] = compute(report, [&](const core::Progress& progress) {
-    core::Molecule read = core::read_molecule(path, wanted, progress);
-    tools::MolecularSurface made = tools::molecular_surface(read.atoms, options, progress);
-    return std::pair(std::move(read.atoms), std::move(made));
+  auto [read, surface] = compute(report, [&](const core::Progress& progress) {
+    core::Molecule atoms = core::read_molecule(path, wanted, progress);
+    tools::MolecularSurface made = tools::molecular_surface(atoms.atoms, options, progress);
+    return std::pair(std::move(atoms), std::move(made));
   });
   const std::size_t count = surface.mesh.vertex_count();
   const MeshHandle mesh =
       std::make_shared<MeshData>(MeshData{{surface.mesh, {{count, {}, {}}, {}, {}}}, {}, false});
-  return py::make_tuple(mesh, columns(atoms), surface.area, surface.volume, surface.cavities);
+  py::list warnings;
+  for (const std::string& warning : read.warnings) warnings.append(text(warning));
+  return py::make_tuple(mesh, columns(read.atoms), surface.area, surface.volume, surface.cavities,
+                        to_string(read.radii), warnings);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 """morsel molecule: surfaces of molecules of a few atoms, and atomic-density on them."""
 
+import json
 import math
+import re
 import unittest
 
 from support import OCTAHEDRON, ProgramTest, data_lines
@@ -95,6 +97,96 @@ class Molecule(ProgramTest):
         result = self.morsel("molecule", file, "-o", "x.off", "--chains", "C", code=3)
         self.assertIn('no chain "C"', result.stderr)
         self.assertIn('"A", "B"', result.stderr)
+
+    def area(self, file, *options):
+        said = self.morsel("molecule", file, "-o", "a.off", *options).stderr
+        return float(re.search(r"area ([\d,.]+)", said)[1].replace(",", "")), said
+
+    def test_names_without_columns_of_elements(self):
+        lone = self.file("ca.pdb", "ATOM      2 CA   ALA A   1       1.460   0.000   0.000  1.00  0.00\n")
+        positions, faces, said = self.surface(lone, "--kind", "vdw", "--resolution", "0.1")
+        self.check_closed(faces)
+        for p in positions:
+            self.assertAlmostEqual(math.dist(p, (1.46, 0, 0)), 1.7, delta=0.01)
+        self.assertIn("area 36 ", said)
+        self.assertIn("radii: all-atom", said)
+
+    def test_dialects_of_simulations_have_the_same_surface(self):
+        """A peptide with waters and ions as CHARMM, AMBER and GROMACS write it, and as the PDB has it."""
+        names = {  # atom and residue, columns 13 to 16 and 18 to 21
+            "pdb": [(" N  ", "MET"), (" H1 ", "MET"), (" CA ", "MET"), (" HA ", "MET"), (" CB ", "MET"),
+                    (" SD ", "MET"), (" C  ", "MET"), (" O  ", "MET"), (" N  ", "HIS"), (" CA ", "HIS"),
+                    (" CD2", "HIS"), (" C  ", "HIS"), (" O  ", "HOH"), (" H1 ", "HOH"), ("NA  ", "NA "),
+                    ("CL  ", "CL ")],
+            "charmm": [(" N  ", "MET"), (" HT1", "MET"), (" CA ", "MET"), (" HA ", "MET"), (" CB ", "MET"),
+                       (" SD ", "MET"), (" C  ", "MET"), (" OT1", "MET"), (" N  ", "HSD"), (" CA ", "HSD"),
+                       (" CD2", "HSD"), (" C  ", "HSD"), (" OH2", "TIP3"), (" H1 ", "TIP3"), ("SOD ", "SOD"),
+                       ("CLA ", "CLA")],
+            "amber": [("N   ", "NMET"), ("H1  ", "NMET"), ("CA  ", "NMET"), ("HA  ", "NMET"), ("CB  ", "NMET"),
+                      ("SD  ", "NMET"), ("C   ", "NMET"), ("O   ", "NMET"), ("N   ", "HIE"), ("CA  ", "HIE"),
+                      ("CD2 ", "HIE"), ("C   ", "HIE"), ("O   ", "WAT"), ("H1  ", "WAT"), ("Na+ ", "Na+"),
+                      ("Cl- ", "Cl-")],
+            "gromacs": [("N   ", "MET"), ("H1  ", "MET"), ("CA  ", "MET"), ("HA  ", "MET"), ("CB  ", "MET"),
+                        ("SD  ", "MET"), ("C   ", "MET"), ("O   ", "MET"), ("N   ", "HISH"), ("CA  ", "HISH"),
+                        ("CD2 ", "HISH"), ("C   ", "HISH"), ("OW  ", "SOL"), ("HW1 ", "SOL"), ("NA  ", "NA"),
+                        ("CL  ", "CL")]}
+        residues = [1] * 8 + [2] * 4 + [3, 3, 4, 5]
+        said = {}
+        for dialect, atoms in names.items():
+            lines = [f"ATOM  {i + 1:5} {name} {residue:<4} {number:4}    {1.3 * i:8.3f}{i % 3:8.3f}{i % 2:8.3f}"
+                     "  1.00  0.00\n" for i, ((name, residue), number) in enumerate(zip(atoms, residues))]
+            file = self.file(f"{dialect}.pdb", "".join(lines) + "END\n")
+            self.morsel("molecule", file, "-o", f"{dialect}.off", "--kind", "ses")
+            said[dialect] = (self.area(file, "--kind", "ses")[1].splitlines()[:2],
+                             self.area(file, "--select", "polymer or water or ion")[1].splitlines()[:2])
+            self.assertEqual(data_lines(self.folder / f"{dialect}.off"), data_lines(self.folder / "pdb.off"))
+        self.assertIn("atoms: 12 of 16; left out: 2 of waters, 2 hetero", said["pdb"][0][0])
+        for dialect, lines in said.items():
+            self.assertEqual(lines, said["pdb"], dialect)
+
+    def test_an_expression_selects(self):
+        file = self.file("two.cif", CIF)
+        _, _, said = self.surface(file, "--select", "chain B or water")
+        self.assertEqual(self.components(), 2)
+        self.assertIn("left out: 1 not selected", said)
+        for words, code, error in ((("--select", "chain"), 2, "at character 6"),
+                                   (("--select", "all", "--waters"), 2, "--waters"),
+                                   (("--select", "chain X"), 3, "3 not selected")):
+            self.assertIn(error, self.morsel("molecule", file, "-o", "x.off", *words, code=code).stderr)
+
+    def test_radii(self):
+        file = self.file("one.pdb", atom(1, (0, 0, 0)))
+        table = self.file("radii.txt", "GLY C 2.5\n")
+        positions, _, said = self.surface(file, "--radii", table, "--kind", "vdw")
+        self.assertAlmostEqual(max(p[0] for p in positions), 2.5, delta=0.05)
+        self.assertIn("radii: of a table", said)
+        pqr = self.file("one.pqr", "ATOM 1 C GLY 1 0 0 0 0.5 3\n")
+        positions, _, said = self.surface(pqr, "--kind", "vdw")
+        self.assertAlmostEqual(max(p[0] for p in positions), 3, delta=0.05)
+        self.assertIn("radii: of the structure's file", said)
+        chain = self.file("chain.pdb", "".join(
+            atom(i, (3.8 * i, 0, 0), name="CA", number=i) for i in range(1, 12)))
+        self.assertIn("radii: united-atom", self.surface(chain)[2])
+        provenance = "".join(line[2:].rstrip("\n") for line in open(self.folder / "surface.off")
+                             if line.startswith("# "))
+        self.assertEqual(json.loads(provenance)["request"]["radii"], "united-atom")
+        self.assertIn("radii: all-atom", self.surface(chain, "--radii", "all-atom")[2])
+        self.assertIn("no-such-file", self.morsel("molecule", file, "-o", "x.off", "--radii", "no-such-file",
+                                                  code=3).stderr)
+        self.morsel("molecule", file, "-o", "radii.off", "--radii", "radii.off", code=2)
+
+    def test_what_is_odd_is_told(self):
+        model = "MODEL        1\n" + atom(1, (0, 0, 0)) + "ENDMDL\n"
+        _, _, said = self.surface(self.file("twice.pdb", model + model))
+        self.assertIn("twice.pdb: line 4: another model has the number 1", said)
+        self.assertIn("atoms: 1 of 1", said)
+        self.file("o.off", OCTAHEDRON)
+        report = self.report("o.off", "--field", "atomic-density:structure=twice.pdb", "--method", "conventional")
+        self.assertIn("another model", report["field"]["warnings"][0])
+        component = self.file("ala.cif", "data_ALA\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n"
+                                         "ALA CA\n")
+        self.assertIn("chemical component (\"ALA\")",
+                      self.morsel("molecule", component, "-o", "x.off", code=3).stderr)
 
     def test_alternate_locations_are_an_option(self):
         file = self.file("alt.pdb", atom(1, (0, 0, 0), alternate="A", occupancy=0.3)

@@ -70,7 +70,9 @@ def of_object(path):
 READERS = {".annot": of_object, ".gii": of_object, ".png": of_png, ".svg": of_svg, ".vtp": of_vtp,
            ".ply": lambda path: of_lines(path, b"comment "),
            ".off": lambda path: of_lines(path, b"# "), ".obj": lambda path: of_lines(path, b"# "),
-           ".txt": lambda path: of_lines(path, b"# "), ".html": of_html}
+           ".txt": lambda path: of_lines(path, b"# "), ".html": of_html,
+           ".pml": lambda path: of_lines(path, b"# "), ".cxc": lambda path: of_lines(path, b"# "),
+           ".pdb": lambda path: of_lines(path, b"REMARK 999 ")}
 
 
 def without_timings(path):
@@ -250,6 +252,17 @@ class Provenance(ProgramTest):
         self.assertEqual(document["picture"]["inset"], {"vertex": 7, "radius": "15eps"})
         self.assertEqual((document["picture"]["view"], document["picture"]["caption"]),
                          ("-20/10", "über <&> --"))
+
+    def test_residues(self):
+        self.file("two.pdb", atom(1, (0, 0, 0)) + atom(2, (2, 0, 0)))
+        self.morsel("molecule", "two.pdb", "-o", "two.off")
+        for kind in ("pml", "cxc", "pdb"):
+            self.morsel("segment", "two.off", "--field", "height", "-o", "s.txt", "--molecule", "two.pdb",
+                        "--residues", f"r.{kind}")
+            document = READERS[f".{kind}"](self.folder / f"r.{kind}")
+            self.check_document(document, self.folder / f"r.{kind}")
+            self.assertEqual([file["path"] for file in document["inputs"]], ["two.off", "two.pdb"])
+            self.assertEqual(document["request"]["residues"]["atoms"]["radii"], "auto")
 
     def test_molecule(self):
         self.file("two.pdb", atom(1, (0, 0, 0)) + atom(2, (2, 0, 0)))

@@ -35,6 +35,8 @@ class WithoutParts(ProgramTest):
 
     def test_molecules(self):
         self.refused(MOLECULES.format("morsel molecule"), "molecule", "m.pdb", "-o", "m.off")
+        self.refused(MOLECULES.format("--residues"), "segment", "m.off", "-o", "s.ply", "--molecule", "m.pdb",
+                     "--residues", "r.pml")
         self.refused(MOLECULES.format("atomic-density"), "compare", "o.off", "--field",
                      "atomic-density:structure=m.pdb")
 

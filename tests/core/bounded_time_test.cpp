@@ -165,7 +165,7 @@ TEST_CASE("the building and the repair of a mesh can be stopped") {
 TEST_CASE("a PDB file of 100,000 frames, and one whose chains alternate 200,000 times, are read") {
   const core::AtomRecords frames = core::read_pdb(adversarial::pdb_of_frames(100'000), "file", {});
   CHECK(frames.models == 100'000);
-  CHECK(frames.records.back().model == 100'000);
+  CHECK(frames.records.size() == 1);
   const core::AtomRecords stretches =
       core::read_pdb(adversarial::pdb_of_alternating_chains(200'000), "file", {});
   CHECK(stretches.models == 1);
@@ -192,24 +192,36 @@ TEST_CASE("atoms of a PDB file come residue by residue within a stretch of a cha
   CHECK(order == "1325467");
 }
 
-TEST_CASE("models of a PDB file that do not follow one another are refused") {
+TEST_CASE("models of a PDB file are counted in its order, whatever their numbers") {
   const std::string atom = pdb_line({}, 1);
-  const auto read = [](const std::string& text) { return core::read_pdb(text, "file", {}); };
+  const auto read = [](const std::string& text, std::int64_t model = 1) {
+    return core::read_pdb(text, "file", {}, model);
+  };
   CHECK(read("MODEL        1\nENDMDL\nMODEL        2\n" + atom + "ENDMDL\nMODEL        1\n" + atom).models ==
         2);
-  CHECK_THROWS_WITH(read("MODEL        1\n" + atom + "MODEL        2\n"),
-                    "file, line 3: a model begins before the one before it has ended (ENDMDL)");
-  CHECK_THROWS_WITH(read("MODEL        1\n" + atom + "ENDMDL\nMODEL        1\n"),
-                    "file, line 4: there are two models of the number 1");
-  CHECK_THROWS_WITH(read("MODEL        2\n" + atom + "ENDMDL\n" + atom),
-                    "file, line 4: there is an atom between two models");
+  const core::AtomRecords open = read("MODEL        1\n" + atom + "MODEL        2\n" + atom + atom, 2);
+  CHECK(open.records.size() == 2);
+  CHECK(open.warnings ==
+        std::vector<std::string>{"line 3: a model begins before the one before it has ended (ENDMDL)"});
+  const core::AtomRecords twice = read("MODEL        1\n" + atom + "ENDMDL\nMODEL        1\n" + atom);
+  CHECK(twice.models == 2);
+  CHECK(twice.records.size() == 1);
+  CHECK(twice.warnings == std::vector<std::string>{"line 4: another model has the number 1, too; models are "
+                                                   "counted in the order of the file"});
+  const core::AtomRecords outside = read("MODEL        2\n" + atom + "ENDMDL\n" + atom);
+  CHECK(outside.models == 2);
+  CHECK(outside.warnings == std::vector<std::string>{"line 4: an atom is in no model, where others are; such "
+                                                     "atoms are a model of their own"});
+  CHECK(read("MODEL        1\n" + atom + "ENDMDL\nMODEL        2\nATOM damaged\nENDMDL\n").records.size() ==
+        1);
 }
 
 TEST_CASE("an mmCIF file of 100,000 models and chains is read") {
   const core::AtomRecords all = core::read_mmcif(adversarial::mmcif_of_models(100'000), "file", {});
   CHECK(all.models == 100'000);
-  CHECK(all.records.back().model == 100'000);
-  CHECK(all.records.front().atom.chain != all.records.back().atom.chain);
+  CHECK(all.records.size() == 1);
+  CHECK(core::read_mmcif(adversarial::mmcif_of_models(100), "file", {}, 100).records.at(0).atom.chain ==
+        "C99");
 }
 
 TEST_CASE("a CIF file of 200,000 blocks is read, and names that come twice are found") {

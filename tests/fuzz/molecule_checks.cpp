@@ -1,6 +1,7 @@
 #include "molecule_checks.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "morsel/core/error.h"
 #include "target.h"
@@ -17,10 +18,13 @@ void check_choice(const AtomRecords& all, const MoleculeOptions& options) {
     require(molecule.models == all.models, "models");
     require(molecule.atoms.size() + molecule.left_out.total() == molecule.atoms_in_model,
             "atoms that are neither taken nor left out");
+    const bool by_role = options.select.empty();
     for (const Atom& atom : molecule.atoms) {
-      require(atom.radius > 0 && atom.radius < 10, "a radius");
-      require(options.waters || !atom.water, "a water");
-      require(options.hetero != HeteroAtoms::none || !atom.hetero || atom.water, "a hetero atom");
+      require(atom.radius > 0 && std::isfinite(atom.radius), "a radius");
+      require(atom.polymer + atom.ion + atom.water <= 1, "two roles");
+      require(!by_role || options.waters || !atom.water, "a water");
+      require(!by_role || options.hetero == HeteroAtoms::all || !atom.ion, "an ion");
+      require(!by_role || options.hetero != HeteroAtoms::none || !atom.hetero || atom.water, "a hetero atom");
       require(!atom.described().empty(), "a description");
     }
     for (std::size_t i = 1; i < molecule.atoms.size() && options.alternate == "highest"; ++i) {
@@ -37,18 +41,16 @@ void check_choice(const AtomRecords& all, const MoleculeOptions& options) {
 }  // namespace
 
 void check_atoms(const AtomRecords& all) {
-  std::int64_t model = 1;
+  require(all.records.empty() || all.models >= 1, "atoms of no model");
   for (const AtomRecord& record : all.records) {
-    require(record.model >= 1 && record.model <= all.models, "the number of a model");
     require(record.atom.position.allFinite(), "a coordinate that is no number");
     require((record.atom.element == "X") == (record.atom.radius == 0), "an unknown element has no radius");
-    model = std::max(model, record.model);
   }
-  require(all.records.empty() || model == all.models, "models without atoms");
   check_choice(all, {});
   check_choice(all, {.hetero = HeteroAtoms::all, .waters = true, .alternate = "all", .chains = {}});
-  check_choice(
-      all, {.hetero = HeteroAtoms::none, .hydrogens = false, .alternate = "first", .chains = {}, .model = 2});
+  check_choice(all, {.hetero = HeteroAtoms::none, .hydrogens = false, .alternate = "first", .chains = {}});
+  check_choice(all,
+               {.chains = {}, .select = "not (polymer or ion and residue 1-50)", .radii = "united-atom"});
   if (!all.records.empty()) check_choice(all, {.alternate = "A", .chains = {all.records.back().atom.chain}});
 }
 

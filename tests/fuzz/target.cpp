@@ -16,6 +16,8 @@ std::span<const Target> targets() {
                                                {"compressed", "compressed", "", compressed},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
+                                               {"pqr", "pqr", "", pqr},
+                                               {"selection", "selection", "", selection},
                                                {"values", "values", "", values},
                                                {"specification", "specification", "", specification},
                                                {"chain", "chain", "", chain},

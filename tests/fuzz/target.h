@@ -32,6 +32,8 @@ void vtp(std::string_view bytes);
 void compressed(std::string_view bytes);
 void pdb(std::string_view bytes);
 void mmcif(std::string_view bytes);
+void pqr(std::string_view bytes);
+void selection(std::string_view bytes);
 void values(std::string_view bytes);
 void specification(std::string_view bytes);
 void chain(std::string_view bytes);

@@ -92,17 +92,39 @@ TEST_CASE("atomic density reads its molecule and reports the atoms taken") {
   const core::Parameters expected = {{"structure", file},
                                      {"decay", 0.5},
                                      {"cutoff", 1e-12},
+                                     {"weight", std::string("one")},
                                      {"hetero", std::string("residues")},
                                      {"waters", false},
                                      {"hydrogens", true},
                                      {"altloc", std::string("highest")},
                                      {"chains", std::string()},
                                      {"model", std::int64_t{1}},
+                                     {"radii", std::string("all-atom")},
                                      {"atoms", std::int64_t{2}}};
   CHECK(plain.parameters == expected);
   const core::FunctionResult chosen =
       evaluate(mesh, {{"structure", file}, {"waters", "yes"}, {"chains", "A"}, {"decay", "2"}});
   CHECK(chosen.field.value(0) == Approx(std::pow(term(1, 1.7), 4) + std::pow(term(1, 1.52), 4)));
+}
+
+TEST_CASE("atomic density of charges is the sum of signed Gaussians") {
+  const Scratch folder;
+  const std::string file = folder
+                               .file("x.pqr",
+                                     "ATOM 1 N GLY 1 0 0 2 -0.5 1.5\n"
+                                     "ATOM 2 CA GLY 1 0 0 -2 0.25 2\n"
+                                     "ATOM 3 HA GLY 1 0 0 -1 0.1 0\n")
+                               .string();
+  const TriangleMesh mesh = octahedron().mesh();
+  const auto term = [](double distance, double radius) {
+    return std::exp(-0.5 * distance * distance / (radius * radius));
+  };
+  const core::FunctionResult charges = evaluate(mesh, {{"structure", file}, {"weight", "charge"}});
+  CHECK(charges.field.value(0) == Approx(-0.5 * term(1, 1.5) + 0.25 * term(3, 2)));
+  CHECK(charges.field.value(1) == Approx(-0.5 * term(3, 1.5) + 0.25 * term(1, 2)));
+  CHECK(evaluate(mesh, {{"structure", file}}).field.value(0) == Approx(term(1, 1.5) + term(3, 2)));
+  const std::string pdb = folder.file("x.pdb", pdb_text({{"C1"}})).string();
+  CHECK_THROWS_WITH(evaluate(mesh, {{"structure", pdb}, {"weight", "charge"}}), Contains("no charges"));
 }
 
 TEST_CASE("atomic density refuses invalid options") {

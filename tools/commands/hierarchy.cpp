@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/residues_options.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/export/hierarchy_export.h"
 #include "morsel/tools/report/hierarchy_table.h"
@@ -22,6 +23,8 @@ struct Options {
   std::string output;
   bool no_items = false;
   std::string export_folder;
+  ResiduesOptions residues;
+  SegmentKind cells = SegmentKind::descending;
 };
 
 /// Says why a wanted number of critical points was not reached.
@@ -35,13 +38,30 @@ class TargetTeller : public HierarchySink {
   Console& console_;
 };
 
+/// Finds the residues at the cells of each level.
+class ResiduesSink : public HierarchySink {
+ public:
+  ResiduesSink(ResiduesRun& residues, SegmentKind cells) : residues_(residues), cells_(cells) {}
+  void begin(const HierarchyBasis& basis) override { residues_.read(basis.made.field().mesh()); }
+  void level(const Level& level) override {
+    residues_.add_level(level.field->mesh(), level.cells(cells_).triangle);
+  }
+
+ private:
+  ResiduesRun& residues_;
+  SegmentKind cells_;
+};
+
 int make_hierarchy(const Options& options, const Run& run) {
   const HierarchyPlan prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
   RunFiles files;
   files.reads_mesh(options.mesh).reads_of_field(request.field.field);
+  ResiduesRun residues(options.residues, run);
+  residues.add_files(files);
   files.writes_document("-o", options.output).fills("--export", options.export_folder).check();
   const std::unique_ptr<ResultFolder> folder = open_folder(options.export_folder, files, run);
+  check_writable(options.residues.output);
   DocumentTarget document(options.output);
 
   const MeshInput input = read_input(options.mesh, run, !options.no_items);
@@ -51,6 +71,8 @@ int make_hierarchy(const Options& options, const Run& run) {
   std::optional<HierarchyWriter> writer;
   if (document.is_wanted())
     sinks.push_back(&writer.emplace(document.json(), input.loaded, input.about, request, prepared));
+  ResiduesSink residues_sink(residues, options.cells);
+  if (residues.are_wanted()) sinks.push_back(&residues_sink);
   std::optional<HierarchyExport> exports;
   if (folder)
     sinks.push_back(&exports.emplace(
@@ -63,6 +85,12 @@ int make_hierarchy(const Options& options, const Run& run) {
   document.show(table.text());
   document.tell("hierarchy", run.console);
   if (exports) run.console.message("files for ParaView: " + options.export_folder);
+  if (residues.are_wanted()) {
+    Json asked = request_section(request, input.about);
+    asked["residues"] = residues.request();
+    asked["cells"] = to_string(options.cells);
+    residues.write(Provenance(run.common.command, asked, {input.file()}), true);
+  }
   return kDone;
 }
 
@@ -109,6 +137,14 @@ void add_hierarchy(Program& program) {
       .value("DIR")
       .shapes_nothing()
       .in_detail("surface.0.vtp is the finest level");
+  add_residues_options(command, options->residues);
+  std::vector<std::pair<std::string, SegmentKind>> kinds;
+  for (const SegmentKind kind : mscomplex::kSegmentKinds) kinds.emplace_back(to_string(kind), kind);
+  command
+      .choice("--cells", options->cells, std::move(kinds),
+              "Of which cells: descending, ascending or morse-smale")
+      .value("KIND")
+      .needs("--residues");
   add_common_options(command, program.common);
   command.examples = {{"hierarchy scan.off -o levels.json", "after 1, 5 and 10 iterations of salient"},
                       {"hierarchy scan.off --by persistence --counts 500,100,20 --export out",

@@ -28,19 +28,26 @@ struct Options {
   core::Specification atoms{"molecule", {}};  ///< the rest of what chooses the atoms, as keys
 };
 
-core::MoleculeOptions molecule_options(const Options& options) {
+/// The options, and the files that they name besides the structure.
+struct Wanted {
+  core::MoleculeOptions atoms;
+  std::vector<core::FileParameter> files;
+};
+Wanted wanted_atoms(const Options& options) {
   core::Specification keys = options.atoms;
   if (options.waters) keys.given.emplace_back("waters", "yes");
   if (options.no_hydrogens) keys.given.emplace_back("hydrogens", "no");
   core::ParameterReader reader = core::ParameterReader::of_options(std::move(keys));
-  return core::read_molecule_options(reader);
+  Wanted wanted{core::read_molecule_options(reader), {}};
+  wanted.files = reader.files();
+  return wanted;
 }
 
 std::string described(const core::Molecule& molecule) {
   std::string text = "atoms: " + grouped(molecule.atoms.size()) + " of " + grouped(molecule.atoms_in_model);
   if (molecule.left_out.total() > 0) text += "; left out: " + molecule.left_out.described();
   if (molecule.models > 1) text += " (one of " + std::to_string(molecule.models) + " models)";
-  return text;
+  return text + "; radii: " + to_string(molecule.radii);
 }
 
 std::string described(const MolecularSurface& surface, const Options& options) {
@@ -59,7 +66,10 @@ std::string described(const MolecularSurface& surface, const Options& options) {
   return text;
 }
 
-Json request_section(const Options& options, const core::MoleculeOptions& atoms) {
+/// `radii`: those that the atoms have, where the options leave that to the file.
+Json request_section(const Options& options, core::MoleculeOptions atoms, core::AtomRadii radii) {
+  if (radii == core::AtomRadii::all_atom || radii == core::AtomRadii::united_atom)
+    atoms.radii = to_string(radii);
   Json section = {{"kind", to_string(options.surface.kind)},
                   {"resolution", options.surface.resolution},
                   {"probe", options.surface.probe},
@@ -73,19 +83,27 @@ int make(const Options& options, const Run& run) {
   core::require_molecules("morsel molecule");
   const std::string extension =
       core::checked_extension(options.output, "a surface is written", {".off", ".ply"});
-  const core::MoleculeOptions wanted = molecule_options(options);
+  const Wanted wanted = wanted_atoms(options);
   check_surface_options(options.surface);
-  RunFiles().reads("FILE", options.structure).writes("-o", options.output).check();
+  RunFiles files;
+  files.reads("FILE", options.structure).writes("-o", options.output);
+  for (const core::FileParameter& file : wanted.files) files.reads("--" + file.key, file.path);
+  files.check();
   check_writable(options.output);
   const core::Progress progress = run.console.progress();
-  const core::Molecule molecule = core::read_molecule(options.structure, wanted, progress);
+  const core::Molecule molecule = core::read_molecule(options.structure, wanted.atoms, progress);
   const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
-  const Provenance provenance(run.common.command, request_section(options, wanted),
-                              {{options.structure, sha256_of_file(options.structure)}});
+  std::vector<HashedFile> inputs = {{options.structure, sha256_of_file(options.structure)}};
+  for (const core::FileParameter& file : wanted.files)
+    inputs.push_back({file.path, sha256_of_file(file.path)});
+  const Provenance provenance(run.common.command, request_section(options, wanted.atoms, molecule.radii),
+                              inputs);
   if (extension == ".ply")
     core::write_ply(options.output, surface.mesh, {}, provenance.lines(), progress);
   else
     core::write_off(options.output, surface.mesh, provenance.lines(), progress);
+  for (const std::string& warning : molecule.warnings)
+    run.console.warning(options.structure + ": " + warning);
   run.console.message(described(molecule));
   run.console.message(described(surface, options));
   run.console.message("written: " + options.output);
@@ -97,7 +115,7 @@ int make(const Options& options, const Run& run) {
 void add_molecule(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add("molecule", "Make the surface of a molecule, a closed manifold");
-  command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif or .mmcif").required();
+  command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif, .mmcif or .pqr").required();
   add_output_option(command, options->output, "The surface, in Å: .off or .ply").value("SURFACE");
   command
       .choice("--kind", options->surface.kind,
@@ -132,10 +150,16 @@ void add_molecule(Program& program) {
     } else if (key.key == "hydrogens") {
       command.flag("--no-hydrogens", options->no_hydrogens, "Leave out the hydrogens that the file has");
     } else {
-      Option row{"--" + key.key, key.description, key.default_value.empty() ? "LIST" : "WHICH",
+      const bool is_expression = key.key == "select";
+      Option row{"--" + key.key, key.description,
+                 is_expression               ? "EXPRESSION"
+                 : key.default_value.empty() ? "LIST"
+                                             : "WHICH",
                  key.default_value};
-      row.take = [options, name = key.key](const Option&, const std::vector<std::string>& words) {
-        options->atoms.given.emplace_back(name, words.back());
+      if (is_expression) row.excludes("--hetero").excludes("--waters");
+      const bool is_list = key.kind == core::ParameterKind::list;
+      row.take = [options, name = key.key, is_list](const Option&, const std::vector<std::string>& words) {
+        options->atoms.given.emplace_back(name, is_list ? words.back() : core::escape(words.back()));
       };
       command.add(std::move(row));
     }
@@ -145,9 +169,15 @@ void add_molecule(Program& program) {
                       {"molecule 1bp2.cif --kind ses --resolution 0.4 --chains A -o ses.ply",
                        "the solvent-excluded surface of one chain, fine"}};
   command.notes =
-      "An atom's radius is its element's van der Waals radius (Bondi 1964 and others, as gemmi has them). "
       "By default the first model's chains are taken, modified residues included, without ligands, ions and "
-      "waters, and of alternate locations the one with the highest occupancy.";
+      "waters, and of alternate locations the one with the highest occupancy. --select takes what an "
+      "expression of chain, resname, residue, name, element, polymer, ligand, ion, water, hydrogen, hetero, "
+      "all, and, or, not says: \"chain A and not residue 10-20\".";
+  command.details =
+      "Radii are van der Waals radii of the elements (all-atom: Bondi 1964 and others, as gemmi has them) "
+      "or, "
+      "for 10 residues or more without hydrogens, united-atom (Tsai et al. 1999). A table of own radii has "
+      "lines [RESIDUE] ATOM|ELEMENT RADIUS.";
   set_action(program, command, options, make);
 }
 

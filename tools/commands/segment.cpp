@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "morsel/tools/commands/document_target.h"
+#include "morsel/tools/commands/residues_options.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/export/label_file.h"
 #include "morsel/tools/formats/text_table.h"
@@ -26,6 +27,7 @@ struct Options {
   std::string persistence;
   std::string output;
   std::string json;
+  ResiduesOptions residues;
 };
 
 SegmentRequest segment_request(const Options& options) {
@@ -52,7 +54,9 @@ std::string described(const MadeSegments& made) {
 int segment(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const SegmentsRequest request{options.request, segment_request(options), run.common.build};
+  ResiduesRun residues(options.residues, run);
   for (const std::filesystem::path& file : label_files(options.output)) base.writes("-o", file);
+  residues.add_files(base);
   base.writes_document("--json", options.json).check_files();
   DocumentTarget document(options.json);
 
@@ -61,6 +65,10 @@ int segment(const Options& options, const Run& run) {
   const Stopwatch watch;
   const MadeSegments made = make_segments(base.field(), request.segments, run.console.progress());
   const Timings timings = base.timings({{"segments", watch.seconds()}});
+  if (residues.are_wanted()) {
+    residues.read(base.field().mesh());
+    residues.add_level(base.field().mesh(), made.segments.triangle);
+  }
 
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
   const std::vector<std::filesystem::path> written = write_labels(
@@ -72,6 +80,11 @@ int segment(const Options& options, const Run& run) {
   if (!made.note.empty()) run.console.message(made.note);
   for (const std::filesystem::path& path : written) run.console.message("labels: " + path.string());
   document.tell("table", run.console);
+  if (residues.are_wanted()) {
+    Json asked = request_section(request);
+    asked["residues"] = residues.request();
+    residues.write(base.provenance(asked), false);
+  }
   return kDone;
 }
 
@@ -106,6 +119,7 @@ void add_segment(Program& program) {
           "(FreeSurfer) and .label.gii (GIFTI), with names and colours");
   add_json_option(command, options->json, "Write a table of the segments here")
       .in_detail("It has area, critical points, neighbours and boundary length of each");
+  add_residues_options(command, options->residues);
   add_common_options(command, program.common);
   command.examples = {
       {"segment scan.off --method salient --segments 40 -o parts.ply", "the 40 most persistent bumps"},

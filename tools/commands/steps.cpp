@@ -98,6 +98,11 @@ FieldRun& FieldRun::writes_document(const std::string& option, const std::filesy
   return *this;
 }
 
+FieldRun& FieldRun::reads(const std::string& option, const std::filesystem::path& path) {
+  files_.reads(option, path);
+  return *this;
+}
+
 FieldRun& FieldRun::reads_of_field(const std::string& specification, const std::string& option) {
   files_.reads_of_field(specification, option);
   return *this;

@@ -68,6 +68,8 @@ class FieldRun {
                    CheckPath check_path = nullptr);
   /// Adds a document, which a DocumentTarget opens. Throws InvalidArgument if it is named as a mesh.
   FieldRun& writes_document(const std::string& option, const std::filesystem::path& path);
+  /// Adds a file that is read besides MESH.
+  FieldRun& reads(const std::string& option, const std::filesystem::path& path);
   /// Adds the files that keys of another field name.
   FieldRun& reads_of_field(const std::string& specification, const std::string& option);
   /// To be called when all of them are added. Throws as RunFiles::check(), then as check_writable() for those

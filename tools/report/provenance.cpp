@@ -57,7 +57,7 @@ std::string marked_lines(std::string_view text, std::size_t at) {
   const std::size_t before = text.substr(0, at).find_last_of("\r\n");
   const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
   const std::string_view mark = text.substr(begin, at - begin);
-  if (mark != "# " && mark != "comment ") return std::string(text.substr(at));
+  if (mark != "# " && mark != "comment " && mark != "REMARK 999 ") return std::string(text.substr(at));
   std::string joined;
   text.remove_prefix(begin);
   while (text.starts_with(mark)) {
@@ -130,6 +130,10 @@ void Provenance::add_method(const std::vector<StepOutcome>& steps) {
   document_["methods"].push_back({{"name", name}, {"parameters", parameters_section(steps)}});
 }
 
+void Provenance::add_input(const HashedFile& file) {
+  for (Json& section : files_section({file})) document_["inputs"].push_back(std::move(section));
+}
+
 Provenance Provenance::with_method(const std::vector<StepOutcome>& steps) const {
   Provenance more = *this;
   more.add_method(steps);
@@ -164,6 +168,18 @@ std::vector<std::string> Provenance::lines() const {
 std::string Provenance::text_comment() const {
   std::string text;
   for (const std::string& line : lines()) text += "# " + line + "\n";
+  return text;
+}
+
+std::string Provenance::pdb_remark() const {
+  std::string text;
+  for (const std::string& line : lines()) text += "REMARK 999 " + line + "\n";
+  return text;
+}
+
+std::string Provenance::script_comment() const {
+  std::string text = text_comment();
+  replace_all(text, ";", "\\u003b");  // there are none outside of strings
   return text;
 }
 

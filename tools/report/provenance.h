@@ -39,6 +39,7 @@ class Provenance {
   /// The field that fills up where a first one has too few points: as "fill", and its files.
   void set_fill(const FieldOutcome& field);
   void add_method(const std::vector<StepOutcome>& steps);
+  void add_input(const HashedFile& file);
   void set(std::string_view key, Json value) { document_[std::string(key)] = std::move(value); }
   /// A copy with one more method.
   Provenance with_method(const std::vector<StepOutcome>& steps) const;
@@ -50,6 +51,10 @@ class Provenance {
   std::vector<std::string> lines() const;
   /// These lines, each after "# ".
   std::string text_comment() const;
+  /// These lines, each after "REMARK 999 ", for PDB files.
+  std::string pdb_remark() const;
+  /// text_comment() without semicolons, which end commands in scripts of PyMOL and ChimeraX.
+  std::string script_comment() const;
   /// A comment of HTML, with a line's end.
   std::string html_comment() const;
 
