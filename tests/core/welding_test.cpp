@@ -61,6 +61,13 @@ PolygonSoup polygons_of(std::vector<Point> positions, const std::vector<std::vec
   return result;
 }
 
+PolygonSoup polygons_of(const Soup& soup) {
+  PolygonSoup result;
+  result.positions = soup.positions;
+  for (const core::Triangle& t : soup.triangles) result.add_polygon(t);
+  return result;
+}
+
 std::string repairs_of(const BuiltMesh& built) {
   std::string text;
   for (const core::Repair& r : built.repairs)
@@ -94,7 +101,7 @@ TEST_CASE("within a length each vertex joins the first representative") {
 TEST_CASE("joined vertices are those of a search of all pairs") {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
-  for (const double scale : {1.0, 1e-200, 1e200, 1e-310, 1e290})
+  for (const double scale : {1.0, 1e-200, 1e200, 1e-310, 1e280})
     for (const double offset : {0.0, 1.0, 1e9, 1e17})
       for (const double length : {0.0, 1e-9, 0.05, 0.3, 5.0}) {
         std::vector<Point> positions;
@@ -140,16 +147,21 @@ TEST_CASE("a sphere of loose triangles is welded to the sphere") {
   }
   CHECK_THROWS_AS(core::build_mesh(loose, {.weld = Length::absolute(-1)}), core::InvalidArgument);
   // A mesh whose vertices are shared stays as it is.
-  const BuiltMesh same =
-      core::build_mesh(polygons_of(whole.positions, {{0, 1, 2}}), {.weld = Length::absolute(0)});
+  const PolygonSoup shared = polygons_of(whole);
+  const BuiltMesh same = core::build_mesh(shared, kExactly);
   CHECK(same.repairs.empty());
+  CHECK(same.numbering.to_input.empty());
+}
+
+TEST_CASE("coordinates that are too large for cells are refused") {
+  const std::vector<Point> far = {{1e301, 0, 0}, {0, 0, 0}};
+  CHECK(core::coincident_vertices(far) == std::vector<Index>{0, 1});
+  CHECK_THROWS_WITH(core::coincident_vertices(far, 1), Catch::Contains("as large as 1e+301"));
 }
 
 TEST_CASE("lengths on polygons are those on the mesh") {
   const Soup soup = sphere(2);
-  PolygonSoup polygons;
-  polygons.positions = soup.positions;
-  for (const core::Triangle& t : soup.triangles) polygons.add_polygon(t);
+  const PolygonSoup polygons = polygons_of(soup);
   for (const Length& length : {Length::absolute(0.5), Length::epsilons(2), Length::edges(2),
                                Length::percent(3), Length::root_areas(0.5)})
     CHECK(core::length_on(length, polygons) == Approx(length.on(soup.mesh())).epsilon(1e-12));
