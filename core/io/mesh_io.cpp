@@ -7,6 +7,8 @@
 
 #include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_extension.h"
+#include "morsel/core/io/geotiff.h"
+#include "morsel/core/io/gltf.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
@@ -22,7 +24,12 @@ struct Format {
 constexpr auto kFormats = std::to_array<Format>({{".off", MeshFormat::off, read_off},
                                                  {".obj", MeshFormat::obj, read_obj},
                                                  {".ply", MeshFormat::ply, read_ply},
-                                                 {".stl", MeshFormat::stl, read_stl}});
+                                                 {".stl", MeshFormat::stl, read_stl},
+                                                 {".gltf", MeshFormat::gltf, read_gltf},
+                                                 {".glb", MeshFormat::gltf, read_gltf},
+                                                 {".asc", MeshFormat::asc, read_asc},
+                                                 {".tif", MeshFormat::geotiff, read_geotiff},
+                                                 {".tiff", MeshFormat::geotiff, read_geotiff}});
 
 const Format* find_format(const std::filesystem::path& path) {
   const auto* found = std::ranges::find(kFormats, file_extension(path), &Format::extension);
@@ -60,7 +67,12 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
   const std::string name = path.string();
   // A missing file is reported as such, whatever its extension.
   const FileBytes bytes(path, name);
-  return parse_polygon_soup(bytes.view(), mesh_format(path), name, progress);
+  const MeshFormat format = mesh_format(path);
+  if (format == MeshFormat::gltf) {  // which may name other files beside it
+    progress.update("reading the mesh", 0);
+    return read_gltf(bytes.view(), name, progress, path.parent_path());
+  }
+  return parse_polygon_soup(bytes.view(), format, name, progress);
 }
 
 namespace {

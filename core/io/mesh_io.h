@@ -41,7 +41,7 @@ struct LoadedSoup {
   std::vector<std::string> warnings = {};            ///< what was read tolerantly, a sentence each
 };
 
-enum class MeshFormat { off, obj, ply, stl };
+enum class MeshFormat { off, obj, ply, stl, gltf, asc, geotiff };
 
 /// By the file's extension, any case. Throws BadInput, listing the known ones, if it is another one.
 MeshFormat mesh_format(const std::filesystem::path& path);

@@ -1,16 +1,29 @@
 // In place of the reading of files by libraries, in a library without the part FORMATS.
 
+#include <filesystem>
 #include <string>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_formats.h"
+#include "morsel/core/io/gltf.h"
 
 namespace morsel::core {
 
 void require_formats(std::string_view what) {
   throw InvalidArgument("this morsel was built without the kinds of files that libraries read, which " +
-                        std::string(what) + " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
-                        "package zlib1g-dev is needed");
+                        std::string(what) +
+                        " needs: build it with -DMORSEL_WITH_FORMATS=ON, for which the "
+                        "packages zlib1g-dev, libtinygltf-dev and nlohmann-json3-dev are needed");
+}
+
+LoadedSoup read_gltf(std::string_view, const std::string&, const Progress&) {
+  require_formats("a glTF file");
+  return {};
+}
+
+LoadedSoup read_gltf(std::string_view, const std::string&, const Progress&, const std::filesystem::path&) {
+  require_formats("a glTF file");
+  return {};
 }
 
 }  // namespace morsel::core
