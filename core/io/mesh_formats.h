@@ -41,9 +41,9 @@ LoadedSoup read_ply(std::string_view bytes, const std::string& file, const Progr
 /// vertex; vertices are numbered in the order in which they first appear. Normals are skipped.
 LoadedSoup read_stl(std::string_view bytes, const std::string& file, const Progress& progress);
 
-/// ESRI ASCII grid as a terrain (elevation_grid.h): ncols, nrows, xllcorner or xllcenter, yllcorner or yllcenter,
-/// cellsize or dx and dy, NODATA_value (−9999 if missing) in any order and case, then the values row by row from
-/// the north, in any white space. NaN is no data, too.
+/// ESRI ASCII grid as a terrain (elevation_grid.h): ncols, nrows, xllcorner or xllcenter, yllcorner or
+/// yllcenter, cellsize or dx and dy, NODATA_value (−9999 if missing) in any order and case, then the values
+/// row by row from the north, in any white space. NaN is no data, too.
 LoadedSoup read_asc(std::string_view bytes, const std::string& file, const Progress& progress);
 LoadedSoup read_asc(std::string_view bytes, const std::string& file, const Progress& progress,
                     std::size_t chunk);

@@ -17,11 +17,25 @@ namespace {
 
 /// One whole file of each kind.
 std::vector<CorpusFile> whole_files() {
-  const std::set<std::string> names = {
-      "tetrahedron.off",        "coff.off",       "stcnoff.off",     "tetrahedron.obj",
-      "attributes.obj",         "relative.obj",   "quality.ply",     "other_elements.ply",
-      "binary_little.ply",      "binary_big.ply", "tetrahedron.stl", "binary.stl",
-      "binary_solid_header.stl"};
+  const std::set<std::string> names = {"tetrahedron.off",
+                                       "coff.off",
+                                       "stcnoff.off",
+                                       "tetrahedron.obj",
+                                       "attributes.obj",
+                                       "relative.obj",
+                                       "quality.ply",
+                                       "other_elements.ply",
+                                       "binary_little.ply",
+                                       "binary_big.ply",
+                                       "tetrahedron.stl",
+                                       "binary.stl",
+                                       "binary_solid_header.stl",
+                                       "tetrahedron.gltf",
+                                       "tetrahedron.glb",
+                                       "values.glb",
+                                       "sparse.glb",
+                                       "terrain.asc",
+                                       "terrain_upper_case_one_line.asc"};
   std::vector<CorpusFile> result;
   for (const CorpusFile& file : mesh_corpus())
     if (names.contains(file.name)) result.push_back(file);

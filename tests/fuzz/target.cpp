@@ -9,6 +9,8 @@ std::span<const Target> targets() {
                                                {"obj", "meshes", ".obj", obj},
                                                {"ply", "meshes", ".ply", ply},
                                                {"stl", "meshes", ".stl", stl},
+                                               {"gltf", "meshes", ".gltf", gltf},
+                                               {"asc", "meshes", ".asc", asc},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
                                                {"values", "values", "", values},

@@ -25,6 +25,8 @@ void off(std::string_view bytes);
 void obj(std::string_view bytes);
 void ply(std::string_view bytes);
 void stl(std::string_view bytes);
+void gltf(std::string_view bytes);
+void asc(std::string_view bytes);
 void pdb(std::string_view bytes);
 void mmcif(std::string_view bytes);
 void values(std::string_view bytes);
