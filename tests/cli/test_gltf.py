@@ -78,7 +78,7 @@ class Gltf(ProgramTest):
         self.file("m.off", f"OFF\n{len(positions)} {len(triangles)} 0\n"
                   + "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in positions)
                   + "".join("3 {} {} {}\n".format(*t) for t in triangles))
-        for field in ("mean-curvature", "height:axis=1/2/3"):
+        for field in ("mean-curvature", "height:direction=1/2/3"):
             self.morsel("field", "m.glb", "--field", field, "-o", "glb.txt")
             self.morsel("field", "m.off", "--field", field, "-o", "off.txt")
             lines = [[line for line in (self.folder / name).read_text().splitlines() if line[:1] != "#"]

@@ -100,7 +100,7 @@ class Terrain(ProgramTest):
         points = report["methods"][0]["critical_points"]
         self.assertEqual(points["maxima"], 2)
         # Turned upside down, peaks are minima, and the boundary is below none of them.
-        self.morsel("compare", "t.asc", "--field", "height:axis=0/0/-1", "--method", "conventional",
+        self.morsel("compare", "t.asc", "--field", "height:direction=0/0/-1", "--method", "conventional",
                     "-o", "d.json")
         points = json.loads((self.folder / "d.json").read_text())["methods"][0]["critical_points"]
         self.assertGreaterEqual(points["minima"], 2)

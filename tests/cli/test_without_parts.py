@@ -4,6 +4,8 @@ import unittest
 
 from support import OCTAHEDRON, ProgramTest
 
+FORMATS = ("built without the kinds of files that libraries read, which {} needs: build it with "
+           "-DMORSEL_WITH_FORMATS=ON")
 MOLECULES = "built without molecules, which {} needs: build it with -DMORSEL_WITH_MOLECULES=ON"
 PICTURES = "built without pictures, which {} needs: build it with -DMORSEL_WITH_PICTURES=ON"
 
@@ -21,6 +23,9 @@ class WithoutParts(ProgramTest):
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
         self.assertEqual(result.stdout, "")
         self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+    def test_formats(self):
+        self.refused(FORMATS.format("a glTF file"), "info", self.file("m.gltf", "{}").name)
 
     def test_molecules(self):
         self.refused(MOLECULES.format("morsel molecule"), "molecule", "m.pdb", "-o", "m.off")
