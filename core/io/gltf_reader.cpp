@@ -45,8 +45,9 @@ static_assert(std::endian::native == std::endian::little, "numbers are read as t
 constexpr int kDeepest = 64;  // of the JSON: tinygltf recurs
 constexpr std::size_t kMostValues = std::size_t{1}
                                     << 22;  // of the JSON: a node of two characters takes 500 bytes
-constexpr std::size_t kRepeated = std::size_t{1} << 23;  // vertices and corners, whatever the file's length
-constexpr std::size_t kPerByte = 16;                     // and for each of its bytes
+constexpr std::size_t kRepeated = std::size_t{1}
+                                  << 23;  // vertices, corners and values, whatever the file's length
+constexpr std::size_t kPerByte = 16;      // and for each of its bytes
 
 /// "2 primitives are", "1 primitive is".
 std::string counted(std::size_t count, const std::string& name) {
@@ -136,6 +137,8 @@ class JsonFilter {
     switch (event) {
       case json::parse_event_t::key:
         key_ = value.get_ref<const std::string&>();
+        if (depth <= extensions_) extensions_ = kNowhere;
+        if (key_ == "extensions" && extensions_ == kNowhere) extensions_ = depth;
         return depth == 1 ? is_needed() : key_ != "extras";
       case json::parse_event_t::object_start:
       case json::parse_event_t::array_start:
@@ -143,7 +146,7 @@ class JsonFilter {
         return true;
       case json::parse_event_t::value:
         count();
-        check(value);
+        if (extensions_ == kNowhere) check(value);  // theirs have other types
         return true;
       default:
         return true;
@@ -189,7 +192,9 @@ class JsonFilter {
 
   const std::string& file_;
   const Progress& progress_;
+  static constexpr int kNowhere = -1;
   std::string key_;
+  int extensions_ = kNowhere;  // the level of the key "extensions" that this is within
   std::size_t steps_ = 0;
   std::size_t values_ = 0;
 };
@@ -664,13 +669,15 @@ class GltfReader {
            model_.accessors[static_cast<std::size_t>(accessor)].bufferView >= 0;
   }
 
-  /// Throws before more than the limit of vertices and corners is stored.
+  /// Throws before more than the limit of vertices, corners and values is stored.
   void make_room(std::size_t more) {
     const std::size_t limit = kRepeated + kPerByte * (size_ + buffers_->outside());
     used_ += more;
     if (used_ > limit || result_.soup.positions.size() + more >= kNone)
-      fail_reading(file_, "it repeats its meshes so often that they have more than " + std::to_string(limit) +
-                              " vertices and corners together");
+      fail_reading(file_,
+                   "it repeats its meshes so often, or has so many attributes for parts of them, that "
+                   "there are more than " +
+                       std::to_string(limit) + " vertices, corners and values");
   }
 
   /// The first vertex of the primitive and their number.
@@ -709,16 +716,18 @@ class GltfReader {
       fail_reading(file_, name + " has " + std::to_string(count) + " positions and " +
                               std::to_string(elements.count) + " values of " + shown(attribute));
     auto found = std::ranges::find(result_.properties, attribute, &VertexProperty::name);
-    if (found == result_.properties.end()) {
-      make_room(first);
-      found = result_.properties.insert(found, {attribute, {}});
-    }
-    make_room(count);
-    found->values.resize(first, std::numeric_limits<double>::quiet_NaN());
-    found->values.resize(first + count);
+    if (found == result_.properties.end()) found = result_.properties.insert(found, {attribute, {}});
+    pad(*found, first + count);
     for_each_element(accessor, elements, [&](std::size_t i, const Elements& source, std::size_t k) {
       found->values[first + i] = source.number(k, 0);
     });
+  }
+
+  /// Vertices without a value have NaN.
+  void pad(VertexProperty& property, std::size_t count) {
+    if (property.values.size() >= count) return;
+    make_room(count - property.values.size());
+    property.values.resize(count, std::numeric_limits<double>::quiet_NaN());
   }
 
   void add_triangles(const gltf::Primitive& primitive, Index first, std::size_t count, bool mirrors,
@@ -771,8 +780,7 @@ class GltfReader {
     auto& warnings = result_.warnings;
     const std::size_t count = result_.soup.positions.size();
     for (VertexProperty& property : result_.properties) {
-      if (property.values.size() < count)
-        property.values.resize(count, std::numeric_limits<double>::quiet_NaN());
+      pad(property, count);
       if (!std::ranges::any_of(property.values, [](double value) { return std::isnan(value); })) continue;
       warnings.push_back("not all of its vertices have a value of " + shown(property.name));
     }
