@@ -1,5 +1,7 @@
 // Terrain: exact tiny grids, gaps, and a slow reference that makes every triangle and lets --repair split.
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
