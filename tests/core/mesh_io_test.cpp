@@ -161,8 +161,8 @@ TEST_CASE("a file that is not there or not a mesh is refused by name") {
   CHECK_THROWS_WITH(read(scratch.path()), Catch::Contains("it is a directory"));
   CHECK_THROWS_WITH(read("/dev/null"), Catch::Contains("not a regular file"));
   CHECK_THROWS_WITH(read(scratch.file("a.step", "x")),
-                    Catch::Contains(".off, .obj, .ply, .stl, .vtk, .vtp, .vtu, .gii and FreeSurfer's lh.pial "
-                                    "files, not .step"));
+                    Catch::Contains(".off, .obj, .ply, .stl, .gltf, .glb, .vtk, .vtp, .vtu, .gii, "
+                                    "FreeSurfer's lh.pial, .asc, .tif and .tiff files, not .step"));
   CHECK_THROWS_WITH(read(scratch.file("mesh", "x")), Catch::Contains("no extension"));
   CHECK_THROWS_AS(read(""), core::BadInput);
 }
