@@ -418,9 +418,9 @@ class GltfReader {
       gltf::TinyGLTF loader;
       loaded = loader.LoadASCIIFromString(&model_, &error, &warning, text.data(),
                                           static_cast<unsigned>(text.size()), "");
-    } catch (const json::exception& exception) {
-      error = exception.what();
-    } catch (const std::out_of_range& exception) {
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& exception) {  // of the JSON, or of a container
       error = exception.what();
     }
     // It goes on after some errors, without the parts that had them.

@@ -104,7 +104,7 @@ class Gltf(ProgramTest):
         writer.document.update(scene=0, scenes=[{"nodes": [0]}])
         (self.folder / "m.glb").write_bytes(writer.bytes())
         info = json.loads(self.morsel("info", "--json", "m.glb").stdout)
-        self.assertEqual([info["mesh"][key] for key in ("vertices", "triangles", "components")], [8, 8, 2])
+        self.assertEqual([info["mesh"][key] for key in ("vertices", "faces", "components")], [8, 8, 2])
         self.morsel("field", "m.glb", "--field", "height:axis=x", "-o", "x.txt")
         read = [float(line) for line in (self.folder / "x.txt").read_text().splitlines()
                 if not line.startswith("#")]

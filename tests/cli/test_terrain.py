@@ -13,13 +13,13 @@ try:
 except ImportError:
     gdal = None
 
-# Two peaks (9, 7), a basin (0) within, a pass between the peaks; rows from the north.
-GRID = [[3, 3, 3, 3, 3, 3],
-        [3, 9, 4, 4, 7, 3],
-        [3, 5, 6, 6, 5, 3],
-        [3, 4, 0, 1, 4, 3],
-        [3, 4, 4, 4, 4, 3],
-        [3, 3, 3, 3, 3, 3]]
+# Two peaks (90, 70), a basin (0) within, a pass between the peaks; rows from the north.
+GRID = [[30, 30, 30, 30, 30, 30],
+        [30, 90, 40, 40, 70, 30],
+        [30, 50, 60, 50, 50, 30],
+        [30, 40, 0, 10, 40, 30],
+        [30, 39, 38, 37, 36, 30],
+        [30, 30, 30, 30, 30, 30]]
 
 
 def asc(grid, no_data=-9999, corner=(1000, 2000), side=10):
@@ -174,8 +174,8 @@ class Terrain(ProgramTest):
             self.assertEqual(self.values(name, "height"), [v for row in big for v in row])
             self.assertEqual(self.values(name, "height:axis=x")[:3], [101, 103, 105])
             self.assertEqual(self.values(name, "height:axis=y")[:3], [499, 499, 499])
-        write("n.tif", GRID, gdal.GDT_Int16, no_data=9)
-        self.assertEqual(sorted(self.values("n.tif", "height")), sorted(v for v in flat if v != 9))
+        write("n.tif", GRID, gdal.GDT_Int16, no_data=90)
+        self.assertEqual(sorted(self.values("n.tif", "height")), sorted(v for v in flat if v != 90))
         write("s.tif", GRID, gdal.GDT_Int16, scale=0.5, offset=100)
         self.assertEqual(self.values("s.tif", "height"), [100 + v / 2 for v in flat])
         write("r.tif", GRID, gdal.GDT_Int16, geo=(100, 3, 4, 500, 4, -3))

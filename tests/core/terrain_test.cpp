@@ -130,7 +130,7 @@ TEST_CASE("the header of a grid in any order, case and white space") {
 TEST_CASE("cells without data are left out, and what they leave without a triangle") {
   // A square of three makes one triangle, whichever is missing.
   const std::array<std::vector<Index>, 4> expected = {
-      {{1, 2, 0}, {0, 1, 2}, {0, 1, 2}, {0, 2, 1}}};  // of the vertices that are left
+      {{1, 2, 0}, {0, 1, 2}, {0, 2, 1}, {0, 2, 1}}};  // of the vertices that are left
   for (std::size_t missing = 0; missing < 4; ++missing) {
     std::vector<double> values = {1, 2, 3, 4};
     values[missing] = kNoData;
@@ -275,7 +275,7 @@ TEST_CASE("grids that are none say why") {
       {"ncols 2.5\nnrows 6\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + numbers, "ncols is no number of cells"},
       {"ncols 60000\nnrows 60000\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + numbers, "too short"},
       {"ncols 70000\nnrows 70000\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + numbers, "can be numbered"},
-      {kHeader + "1 2 3\n4 5\n", "after 5 of 6 values"},
+      {kHeader + "10 20 30\n40 50\n", "after 5 of 6 values"},
       {kHeader + "1 2 3\n4 5 6 7\n", "goes on after the 6 values"},
       {kHeader + "1 2 3\n4 5,5 6\n", "line 8: expected an elevation, found \"5,5\""},
       {kHeader + "1 2 3\n4 inf 6\n", "row 2 and column 2 is infinite"},
