@@ -133,8 +133,9 @@ class Molecule(ProgramTest):
         residues = [1] * 8 + [2] * 4 + [3, 3, 4, 5]
         said = {}
         for dialect, atoms in names.items():
-            lines = [f"ATOM  {i + 1:5} {name} {residue:<4} {number:4}    {1.3 * i:8.3f}{i % 3:8.3f}{i % 2:8.3f}"
-                     "  1.00  0.00\n" for i, ((name, residue), number) in enumerate(zip(atoms, residues))]
+            lines = [f"ATOM  {i + 1:5} {name} {residue:<4} {number:4}    {1.3 * i:8.3f}{i % 3:8.3f}"
+                     f"{i % 2:8.3f}  1.00  0.00\n"
+                     for i, ((name, residue), number) in enumerate(zip(atoms, residues))]
             file = self.file(f"{dialect}.pdb", "".join(lines) + "END\n")
             self.morsel("molecule", file, "-o", f"{dialect}.off", "--kind", "ses")
             said[dialect] = (self.area(file, "--kind", "ses")[1].splitlines()[:2],
@@ -181,10 +182,11 @@ class Molecule(ProgramTest):
         self.assertIn("twice.pdb: line 4: another model has the number 1", said)
         self.assertIn("atoms: 1 of 1", said)
         self.file("o.off", OCTAHEDRON)
-        report = self.report("o.off", "--field", "atomic-density:structure=twice.pdb", "--method", "conventional")
+        report = self.report("o.off", "--field", "atomic-density:structure=twice.pdb", "--method",
+                             "conventional")
         self.assertIn("another model", report["field"]["warnings"][0])
-        component = self.file("ala.cif", "data_ALA\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n"
-                                         "ALA CA\n")
+        component = self.file("ala.cif", "data_ALA\nloop_\n_chem_comp_atom.comp_id\n"
+                                         "_chem_comp_atom.atom_id\nALA CA\n")
         self.assertIn("chemical component (\"ALA\")",
                       self.morsel("molecule", component, "-o", "x.off", code=3).stderr)
 
