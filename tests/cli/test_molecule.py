@@ -122,12 +122,14 @@ class Molecule(ProgramTest):
                        (" SD ", "MET"), (" C  ", "MET"), (" OT1", "MET"), (" N  ", "HSD"), (" CA ", "HSD"),
                        (" CD2", "HSD"), (" C  ", "HSD"), (" OH2", "TIP3"), (" H1 ", "TIP3"), ("SOD ", "SOD"),
                        ("CLA ", "CLA")],
-            "amber": [("N   ", "NMET"), ("H1  ", "NMET"), ("CA  ", "NMET"), ("HA  ", "NMET"), ("CB  ", "NMET"),
+            "amber": [("N   ", "NMET"), ("H1  ", "NMET"), ("CA  ", "NMET"), ("HA  ", "NMET"),
+                      ("CB  ", "NMET"),
                       ("SD  ", "NMET"), ("C   ", "NMET"), ("O   ", "NMET"), ("N   ", "HIE"), ("CA  ", "HIE"),
                       ("CD2 ", "HIE"), ("C   ", "HIE"), ("O   ", "WAT"), ("H1  ", "WAT"), ("Na+ ", "Na+"),
                       ("Cl- ", "Cl-")],
             "gromacs": [("N   ", "MET"), ("H1  ", "MET"), ("CA  ", "MET"), ("HA  ", "MET"), ("CB  ", "MET"),
-                        ("SD  ", "MET"), ("C   ", "MET"), ("O   ", "MET"), ("N   ", "HISH"), ("CA  ", "HISH"),
+                        ("SD  ", "MET"), ("C   ", "MET"), ("O   ", "MET"), ("N   ", "HISH"),
+                        ("CA  ", "HISH"),
                         ("CD2 ", "HISH"), ("C   ", "HISH"), ("OW  ", "SOL"), ("HW1 ", "SOL"), ("NA  ", "NA"),
                         ("CL  ", "CL")]}
         residues = [1] * 8 + [2] * 4 + [3, 3, 4, 5]
