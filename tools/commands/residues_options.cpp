@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "morsel/core/text/specification.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
