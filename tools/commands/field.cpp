@@ -25,7 +25,7 @@ struct Options {
 void check_points(const Options& options) {
   if (options.points.count && options.json.empty() && !holds_points(options.output))
     throw core::InvalidArgument("a text has the field's values alone: chosen points need --json, or " +
-                                options.output + " as .ply or .vtp");
+                                options.output + " as .ply, .vtp or .glb");
 }
 
 int write(const Options& options, const Run& run) {
@@ -48,8 +48,7 @@ int write(const Options& options, const Run& run) {
   if (points && points->fill) provenance.set_fill(*points->fill);
   if (document.is_wanted())
     write_points_document(document.json(), asked, base.source(), *points, base.timings());
-  write_field(options.output, base.field(), base.loaded().source.numbering, base.input_positions(),
-              base.made().input.name, provenance, points ? &*points : nullptr);
+  write_field(options.output, base.source(), base.input_positions(), provenance, points ? &*points : nullptr);
   document.commit();
   document.tell("points", run.console);
   run.console.message("field: " + options.output);
@@ -65,9 +64,12 @@ void add_field(Program& program) {
   add_points_options(command, options->points);
   command.begin_group("What is written");
   add_output_option(command, options->output,
-                    ".txt (a value a line), .ply or .vtp (the surface with the values)")
+                    ".txt (a value a line), .ply, .vtp (the surface with the values) or .glb")
       .shortly("The file to write")
-      .in_detail("Vertices have the input's numbers; chosen points are marked, but in .txt");
+      .in_detail(
+          "Vertices have the input's numbers; chosen points are marked, but in .txt; .ply has colours, too; "
+          ".glb, for slides, web pages and Blender, has the surface in colours and the chosen points or all "
+          "critical points as spheres");
   add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);
   command.examples = {

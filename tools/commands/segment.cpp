@@ -99,10 +99,11 @@ void add_segment(Program& program) {
       .shortly("Merge all of at most this persistence")
       .shows_default("none")
       .in_detail("In the field's unit or, as in 0.1%, in percent of its range");
-  add_output_option(command, options->output, "Labels of vertices and triangles: .ply, .vtp or .txt")
+  add_output_option(command, options->output, "Labels of vertices and triangles: .ply, .vtp, .txt or .glb")
       .in_detail(
-          "In the input's vertex numbers: .ply (int properties \"segment\"), .vtp (arrays \"segment\", and "
-          "the field) or .txt (a label a line: OUT.vertices.txt, OUT.faces.txt)");
+          "In the input's vertex numbers: .ply (int properties \"segment\", and colours), .vtp (arrays "
+          "\"segment\", and the field) or .txt (a label a line: OUT.vertices.txt, OUT.faces.txt); .glb, for "
+          "slides, web pages and Blender, has a colour for each segment");
   add_json_option(command, options->json, "Write a table of the segments here")
       .in_detail("It has area, critical points, neighbours and boundary length of each");
   add_common_options(command, program.common);

@@ -6,7 +6,10 @@
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/tools/color/regions.h"
+#include "morsel/tools/export/glb_scene.h"
 #include "morsel/tools/export/input_numbers.h"
+#include "morsel/tools/export/ply_colors.h"
 #include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
@@ -38,7 +41,8 @@ void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, c
 }  // namespace
 
 std::vector<fs::path> label_files(const fs::path& path) {
-  if (core::checked_extension(path, "labels are written", {".ply", ".vtp", ".txt"}) != ".txt") return {path};
+  if (core::checked_extension(path, "labels are written", {".ply", ".vtp", ".txt", ".glb"}) != ".txt")
+    return {path};
   fs::path base = path;
   base.replace_extension();
   return {base.string() + ".vertices" + path.extension().string(),
@@ -50,6 +54,12 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
                                    std::span<const core::Point> input_positions,
                                    const Provenance& provenance) {
   std::vector<fs::path> files = label_files(path);
+  if (core::file_extension(path) == ".glb") {
+    GlbScene scene(field.mesh());
+    scene.add_segments(labels.triangle, color_labels(field.mesh(), labels.vertex, labels.triangle));
+    scene.write(path, provenance);
+    return files;
+  }
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
   const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
   if (files.size() == 2) {
@@ -63,9 +73,14 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
   }
   const std::vector<core::Triangle> triangles = on_input_vertices(field.mesh(), numbering);
   if (core::file_extension(path) == ".ply") {
-    const core::PropertyView of_vertices(labels.name, at_vertices);
-    const core::PropertyView of_faces(labels.name, at_triangles);
-    core::write_ply(path, input_positions, triangles, {&of_vertices, 1}, {&of_faces, 1}, provenance.lines());
+    const std::vector<Color> palette = color_labels(field.mesh(), labels.vertex, labels.triangle);
+    const PlyColors vertex_colors(to_bytes(label_colors(at_vertices, palette)));
+    const PlyColors face_colors(to_bytes(label_colors(at_triangles, palette)));
+    std::vector<core::PropertyView> of_vertices = {{labels.name, std::span<const std::int32_t>(at_vertices)}};
+    std::vector<core::PropertyView> of_faces = {{labels.name, std::span<const std::int32_t>(at_triangles)}};
+    vertex_colors.add_to(of_vertices);
+    face_colors.add_to(of_faces);
+    core::write_ply(path, input_positions, triangles, of_vertices, of_faces, provenance.lines());
     return files;
   }
   const std::vector<double> values = by_input_vertex(field, numbering);
