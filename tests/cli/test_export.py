@@ -210,7 +210,7 @@ class Export(ProgramTest):
 
         def contents(path):
             return re.findall(r'<DataArray type="(\w+)" Name="(\S+)"[^>]*format="binary"[^>]*>'
-                              r'\s*(\S*)\s*</DataArray>', path.read_text())
+                              r'\s*([\w+/=]*)\s*<', path.read_text())
         for kind in ("surface", "complex", "nodes"):
             ours = self.folder / "out" / f"salient.{kind}.vtp"
             writer = vtkXMLPolyDataWriter()
@@ -220,12 +220,11 @@ class Export(ProgramTest):
             writer.SetCompressorTypeToNone()
             writer.SetHeaderTypeToUInt64()
             writer.Write()
-            theirs = {(number, name, text) for number, name, text in contents(self.folder / "vtk.vtp")}
-            mine = contents(ours)
+            theirs, mine = set(contents(self.folder / "vtk.vtp")), contents(ours)
             self.assertGreater(len(mine), 7)
-            shared = [array for array in mine if array[1] not in ("connectivity", "offsets")]
-            for array in shared:  # cells of the reader are 64 bits wide
-                self.assertIn(array, theirs)
+            for array in mine:
+                if array[1] not in ("connectivity", "offsets"):  # of the reader 64 bits wide
+                    self.assertTrue(array in theirs, array[:2])
 
     def test_a_table_is_read_by_numpy_and_pandas(self):
         lion = SAMPLES / "lion-head.off"
@@ -236,7 +235,7 @@ class Export(ProgramTest):
             numbers = numpy.genfromtxt(path, delimiter=",", names=True, comments="#")
             typed = numpy.genfromtxt(path, delimiter=",", names=True, comments="#", dtype=None,
                                      encoding="utf-8")
-            table = pandas.read_csv(path, comment="#")
+            table = pandas.read_csv(path, comment="#", float_precision="round_trip")
             plain = read_csv(path)
             self.assertEqual([len(each) for each in (numbers, typed, table, plain)], [rows] * 4)
             names = list(plain[0])

@@ -178,7 +178,7 @@ class Points(ProgramTest):
             with self.subTest(words):
                 error = self.morsel("points", *mesh[:3], *words, "-o", "p.csv", code=2).stderr
                 self.assertIn(naming, error)
-        self.assertIn(".csv, .json, .ply or .vtp",
+        self.assertIn(".csv, .json, .ply, .vtp or .glb",
                       self.morsel("points", *mesh, "-o", "p.txt", code=2).stderr)
         self.assertIn("--fill vertex-scalar:file values.csv",
                       self.morsel("points", mesh[0], "--fill", "vertex-scalar:file=values.csv",
