@@ -63,5 +63,11 @@ LoadedSoup read_vtk(std::string_view bytes, const std::string& file, const Progr
 /// The same for VTK's XML formats, PolyData and UnstructuredGrid: arrays in text, in base64 and appended, raw
 /// or compressed by zlib. Needs the part FORMATS.
 LoadedSoup read_vtk_xml(std::string_view bytes, const std::string& file, const Progress& progress);
+/// ESRI ASCII grid as a terrain (elevation_grid.h): ncols, nrows, xllcorner or xllcenter, yllcorner or
+/// yllcenter, cellsize or dx and dy, NODATA_value (−9999 if missing) in any order and case, then the values
+/// row by row from the north, in any white space. NaN is no data, too.
+LoadedSoup read_asc(std::string_view bytes, const std::string& file, const Progress& progress);
+LoadedSoup read_asc(std::string_view bytes, const std::string& file, const Progress& progress,
+                    std::size_t chunk);
 
 }  // namespace morsel::core

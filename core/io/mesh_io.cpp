@@ -11,6 +11,8 @@
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/freesurfer.h"
+#include "morsel/core/io/geotiff.h"
+#include "morsel/core/io/gltf.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/listed.h"
@@ -33,11 +35,16 @@ constexpr auto kFormats =
                            {".obj", MeshFormat::obj, "an OBJ file", read_obj},
                            {".ply", MeshFormat::ply, "a PLY file", read_ply},
                            {".stl", MeshFormat::stl, "an ASCII STL file", read_stl},
+                           {".gltf", MeshFormat::gltf, "a glTF file", read_gltf},
+                           {".glb", MeshFormat::gltf, "a glTF file", read_gltf},
                            {".vtk", MeshFormat::vtk, "a legacy VTK file", read_vtk},
                            {".vtp", MeshFormat::vtp, "a VTK XML file", read_vtk_xml},
                            {".vtu", MeshFormat::vtu, "a VTK XML file", read_vtk_xml},
                            {".gii", MeshFormat::gifti, "a GIFTI file", read_gifti},
-                           {kFreeSurfer, MeshFormat::freesurfer, "a FreeSurfer surface", read_freesurfer}});
+                           {kFreeSurfer, MeshFormat::freesurfer, "a FreeSurfer surface", read_freesurfer},
+                           {".asc", MeshFormat::asc, "an ESRI ASCII grid", read_asc},
+                           {".tif", MeshFormat::geotiff, "a TIFF picture", read_geotiff},
+                           {".tiff", MeshFormat::geotiff, "a TIFF picture", read_geotiff}});
 
 const Format* find_extension(std::string_view extension) {
   const auto* found = std::ranges::find(kFormats, extension, &Format::extension);
@@ -79,7 +86,8 @@ std::string remedy_for(std::string_view kind) {
   const std::string_view kind = file_kind(content);
   // FreeSurfer's reader tells its values itself, whose mark old surfaces have, too.
   const bool is_freesurfer = format.format == MeshFormat::freesurfer && kind.starts_with("a FreeSurfer");
-  if (kind.empty() || kind == format.kind || is_freesurfer) throw error;
+  const bool is_gltf = format.format == MeshFormat::gltf && kind == "JSON";
+  if (kind.empty() || kind == format.kind || is_freesurfer || is_gltf) throw error;
   const std::string remedy = remedy_for(kind);
   std::string what = "it is " + std::string(kind) + ", though read as " + std::string(format.extension);
   if (!remedy.empty()) {  // which a reader may know better
@@ -137,8 +145,11 @@ MeshFormat mesh_format_named(std::string_view name) {
                         listed(mesh_format_names(), " and "));
 }
 
-LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
-                              const Progress& progress) {
+namespace {
+
+/// parse_polygon_soup() of a file in a folder, where glTF files may name others; without one, they may not.
+LoadedSoup parse_in(const std::optional<std::filesystem::path>& folder, std::string_view bytes,
+                    MeshFormat format, const std::string& name, const Progress& progress) {
   const auto* found = std::ranges::find(kFormats, format, &Format::format);
   if (found == kFormats.end())
     throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
@@ -149,7 +160,8 @@ LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const s
   const bool is_converted = is_utf16(content);
   if (is_converted) content = converted = utf8_of_utf16(content, name);
   try {
-    LoadedSoup soup = found->read(content, name, progress);
+    LoadedSoup soup = format == MeshFormat::gltf && folder ? read_gltf(content, name, progress, *folder)
+                                                           : found->read(content, name, progress);
     if (is_converted) soup.warnings.insert(soup.warnings.begin(), kUtf16Warning);
     return soup;
   } catch (const BadInput& error) {
@@ -157,12 +169,19 @@ LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const s
   }
 }
 
+}  // namespace
+
+LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
+                              const Progress& progress) {
+  return parse_in(std::nullopt, bytes, format, name, progress);
+}
+
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& progress) {
   const std::string name = path.string();
   // A missing file is reported as such, whatever its extension.
   const FileBytes bytes(path, name);
   if (const Format* format = find_format(path))
-    return parse_polygon_soup(bytes.view(), format->format, name, progress);
+    return parse_in(path.parent_path(), bytes.view(), format->format, name, progress);
   if (is_freesurfer_surface(bytes.view()))
     return parse_polygon_soup(bytes.view(), MeshFormat::freesurfer, name, progress);
   const std::string_view kind = file_kind(bytes.view());
@@ -172,7 +191,7 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
 
 LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat format, const Progress& progress) {
   const std::string name = path.string();
-  return parse_polygon_soup(FileBytes(path, name).view(), format, name, progress);
+  return parse_in(path.parent_path(), FileBytes(path, name).view(), format, name, progress);
 }
 
 namespace {

@@ -42,7 +42,7 @@ struct LoadedSoup {
   std::vector<std::string> warnings = {};            ///< what was read tolerantly, a sentence each
 };
 
-enum class MeshFormat { off, obj, ply, stl, vtk, vtp, vtu, gifti, freesurfer };
+enum class MeshFormat { off, obj, ply, stl, gltf, vtk, vtp, vtu, gifti, freesurfer, asc, geotiff };
 
 /// By the file's extension, any case; of a compressed file's name (.gz, .xz, .zst) by the one before. Throws
 /// BadInput, listing the known ones, if it is another one. FreeSurfer's surfaces have no extension: they go

@@ -100,7 +100,8 @@ def molecule(path: PathLike, *, kind: str = "gaussian", resolution: float = 0.5,
         Van der Waals radii of the elements; those for structures without hydrogens; one of both, by the
         hydrogens; or a table of lines [RESIDUE] ATOM|ELEMENT RADIUS.
 
-    The same as `morsel molecule`. Warns of what is odd in the file. Raises InputError for a file that is damaged or has no such atoms.
+    The same as `morsel molecule`. Warns of what is odd in the file. Raises InputError for a file that is
+    damaged or has no such atoms.
 
     >>> surface = ms.molecule("1bp2.pdb")
     >>> f = ms.atomic_density(surface, structure="1bp2.pdb")

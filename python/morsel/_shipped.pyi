@@ -18,12 +18,15 @@ class _atomic_density(_Shipped):
         structure: float | str | PathLike[str] | None = None,
         decay: float | str = 0.5,
         cutoff: float | str = 1e-12,
+        weight: str = 'one',
         hetero: str = 'residues',
         waters: bool = False,
         hydrogens: bool = True,
         altloc: float | str | PathLike[str] = 'highest',
         chains: str | Sequence[float | str | PathLike[str]] | None = None,
         model: int = 1,
+        select: float | str | PathLike[str] | None = None,
+        radii: float | str | PathLike[str] = 'auto',
         progress: Progress = None,
     ) -> Field: ...
 

@@ -32,8 +32,8 @@ class Info(ProgramTest):
 
     def test_a_missing_file_is_an_error(self):
         self.assertIn("absent.off", self.morsel("info", "absent.off", code=3).stderr)
-        self.assertIn('"notes.txt" is no mesh (.off, .obj, .ply, .stl, .vtk, .vtp, .vtu, .gii or FreeSurfer\'s '
-                      'lh.pial) and has no provenance',
+        self.assertIn('"notes.txt" is no mesh (.off, .obj, .ply, .stl, .gltf, .glb, .vtk, .vtp, .vtu, .gii, '
+                      "FreeSurfer's lh.pial, .asc, .tif or .tiff) and has no provenance",
                       self.morsel("info", self.file("notes.txt", "1\n").name, code=3).stderr)
 
 

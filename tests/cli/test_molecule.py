@@ -122,19 +122,22 @@ class Molecule(ProgramTest):
                        (" SD ", "MET"), (" C  ", "MET"), (" OT1", "MET"), (" N  ", "HSD"), (" CA ", "HSD"),
                        (" CD2", "HSD"), (" C  ", "HSD"), (" OH2", "TIP3"), (" H1 ", "TIP3"), ("SOD ", "SOD"),
                        ("CLA ", "CLA")],
-            "amber": [("N   ", "NMET"), ("H1  ", "NMET"), ("CA  ", "NMET"), ("HA  ", "NMET"), ("CB  ", "NMET"),
+            "amber": [("N   ", "NMET"), ("H1  ", "NMET"), ("CA  ", "NMET"), ("HA  ", "NMET"),
+                      ("CB  ", "NMET"),
                       ("SD  ", "NMET"), ("C   ", "NMET"), ("O   ", "NMET"), ("N   ", "HIE"), ("CA  ", "HIE"),
                       ("CD2 ", "HIE"), ("C   ", "HIE"), ("O   ", "WAT"), ("H1  ", "WAT"), ("Na+ ", "Na+"),
                       ("Cl- ", "Cl-")],
             "gromacs": [("N   ", "MET"), ("H1  ", "MET"), ("CA  ", "MET"), ("HA  ", "MET"), ("CB  ", "MET"),
-                        ("SD  ", "MET"), ("C   ", "MET"), ("O   ", "MET"), ("N   ", "HISH"), ("CA  ", "HISH"),
+                        ("SD  ", "MET"), ("C   ", "MET"), ("O   ", "MET"), ("N   ", "HISH"),
+                        ("CA  ", "HISH"),
                         ("CD2 ", "HISH"), ("C   ", "HISH"), ("OW  ", "SOL"), ("HW1 ", "SOL"), ("NA  ", "NA"),
                         ("CL  ", "CL")]}
         residues = [1] * 8 + [2] * 4 + [3, 3, 4, 5]
         said = {}
         for dialect, atoms in names.items():
-            lines = [f"ATOM  {i + 1:5} {name} {residue:<4} {number:4}    {1.3 * i:8.3f}{i % 3:8.3f}{i % 2:8.3f}"
-                     "  1.00  0.00\n" for i, ((name, residue), number) in enumerate(zip(atoms, residues))]
+            lines = [f"ATOM  {i + 1:5} {name} {residue:<4} {number:4}    {1.3 * i:8.3f}{i % 3:8.3f}"
+                     f"{i % 2:8.3f}  1.00  0.00\n"
+                     for i, ((name, residue), number) in enumerate(zip(atoms, residues))]
             file = self.file(f"{dialect}.pdb", "".join(lines) + "END\n")
             self.morsel("molecule", file, "-o", f"{dialect}.off", "--kind", "ses")
             said[dialect] = (self.area(file, "--kind", "ses")[1].splitlines()[:2],
@@ -181,10 +184,11 @@ class Molecule(ProgramTest):
         self.assertIn("twice.pdb: line 4: another model has the number 1", said)
         self.assertIn("atoms: 1 of 1", said)
         self.file("o.off", OCTAHEDRON)
-        report = self.report("o.off", "--field", "atomic-density:structure=twice.pdb", "--method", "conventional")
+        report = self.report("o.off", "--field", "atomic-density:structure=twice.pdb", "--method",
+                             "conventional")
         self.assertIn("another model", report["field"]["warnings"][0])
-        component = self.file("ala.cif", "data_ALA\nloop_\n_chem_comp_atom.comp_id\n_chem_comp_atom.atom_id\n"
-                                         "ALA CA\n")
+        component = self.file("ala.cif", "data_ALA\nloop_\n_chem_comp_atom.comp_id\n"
+                                         "_chem_comp_atom.atom_id\nALA CA\n")
         self.assertIn("chemical component (\"ALA\")",
                       self.morsel("molecule", component, "-o", "x.off", code=3).stderr)
 

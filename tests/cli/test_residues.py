@@ -19,8 +19,8 @@ def rows_of(path):
 def cif(rows):
     """An mmCIF file of atoms: (chain, residue, number, atom, position)."""
     text = "data_x\nloop_\n" + "".join(f"_atom_site.{name}\n" for name in (
-        "id", "type_symbol", "label_atom_id", "auth_comp_id", "auth_asym_id", "auth_seq_id", "Cartn_x", "Cartn_y",
-        "Cartn_z"))
+        "id", "type_symbol", "label_atom_id", "auth_comp_id", "auth_asym_id", "auth_seq_id", "Cartn_x",
+        "Cartn_y", "Cartn_z"))
     for serial, (chain, residue, number, name, position) in enumerate(rows, 1):
         text += f"{serial} C {name} {residue} {chain} {number} {position[0]} {position[1]} {position[2]}\n"
     return text
@@ -37,8 +37,8 @@ class Residues(ProgramTest):
         self.morsel("molecule", self.pdb, "-o", "row.off", "--kind", "vdw", "--resolution", "0.25")
 
     def segment(self, out, *options, code=0):
-        return self.morsel("segment", "row.off", "--field", "height:axis=x", "--by", "ascending", "-o", "s.txt",
-                           "--molecule", self.pdb, "--residues", out, *options, code=code)
+        return self.morsel("segment", "row.off", "--field", "height:axis=x", "--by", "ascending", "-o",
+                           "s.txt", "--molecule", self.pdb, "--residues", out, *options, code=code)
 
     def labels(self):
         return [int(line) for line in (self.folder / "s.faces.txt").read_text().splitlines()
@@ -90,7 +90,8 @@ class Residues(ProgramTest):
         areas = collections.defaultdict(dict)
         for row in rows_of(self.folder / "r.csv"):
             areas[int(row["serial"])][int(row["segment"])] = float(row["area"])
-        lines = [line for line in (self.folder / "r.pdb").read_text().splitlines() if line.startswith("ATOM")]
+        lines = [line for line in (self.folder / "r.pdb").read_text().splitlines()
+                 if line.startswith("ATOM")]
         self.assertEqual(len(lines), 3)
         for i, line in enumerate(lines):
             own = areas[int(line[6:11])]
@@ -105,15 +106,16 @@ class Residues(ProgramTest):
         around += [(x, y, z) for x in (-1.3, 1.3) for y in (-1.3, 1.3) for z in (-1.3, 1.3)]
         pdb = self.file("ball.pdb", "".join(atom(i + 1, p) for i, p in enumerate(around)))
         self.morsel("molecule", pdb, "-o", "ball.off", "--kind", "vdw")
-        said = self.morsel("segment", "ball.off", "-o", "s.txt", "--molecule", pdb, "--residues", "b.pdb").stderr
+        said = self.morsel("segment", "ball.off", "-o", "s.txt", "--molecule", pdb, "--residues",
+                           "b.pdb").stderr
         self.assertIn("14 of 15 atoms are at the surface", said)
         factors = [line[60:66] for line in (self.folder / "b.pdb").read_text().splitlines()
                    if line.startswith("ATOM")]
         self.assertEqual([i for i, factor in enumerate(factors) if float(factor) == -1], [6])
 
     def test_levels_of_a_hierarchy(self):
-        hierarchy = ("hierarchy", "row.off", "--field", "height:axis=x", "--levels", "0,2", "--molecule", self.pdb,
-                     "--residues")
+        hierarchy = ("hierarchy", "row.off", "--field", "height:axis=x", "--levels", "0,2", "--molecule",
+                     self.pdb, "--residues")
         self.morsel(*hierarchy, "h.csv", "--cells", "ascending")
         self.assertEqual({row["level"] for row in rows_of(self.folder / "h.csv")}, {"0", "1"})
         self.morsel(*hierarchy, "h.pml")
@@ -132,22 +134,24 @@ class Residues(ProgramTest):
         self.morsel("molecule", pdb, "-o", "hostile.off", "--kind", "vdw")
         for kind, command in (("pml", r"(select|color|set_color) [a-z0-9_]+, [][a-zA-Z0-9_()+., ]+"),
                               ("cxc", r"(name [a-z0-9_]+ |color )[@/:|=, a-zA-Z0-9_]+( #[0-9a-f]{6})?")):
-            self.morsel("segment", "hostile.off", "-o", "s.txt", "--molecule", pdb, "--residues", f"h.{kind}")
+            self.morsel("segment", "hostile.off", "-o", "s.txt", "--molecule", pdb, "--residues",
+                        f"h.{kind}")
             lines = (self.folder / f"h.{kind}").read_text().splitlines()
             for line in lines:
                 self.assertNotIn(";", line)
                 if not line.startswith("# "):
                     self.assertRegex(line, f"^{command}$")
             self.assertTrue(any("quit" in line and line.startswith("# ") for line in lines))
-        result = self.morsel("segment", "hostile.off", "-o", "s.txt", "--molecule", pdb, "--residues", "h.pdb",
-                             code=3)
+        result = self.morsel("segment", "hostile.off", "-o", "s.txt", "--molecule", pdb, "--residues",
+                             "h.pdb", code=3)
         self.assertIn("does not fit into a PDB file", result.stderr)
         self.morsel("segment", "hostile.off", "-o", "s.txt", "--molecule", pdb, "--residues", "h.csv")
         self.assertEqual({row["chain"].lstrip("'") for row in rows_of(self.folder / "h.csv")},
                          {"B) or all; shell rm", "/C:1 #ff0000; close", "A", ""})
 
     def test_the_same_atoms_as_the_surface(self):
-        file = self.file("ion.pdb", atom(1, (0, 0, 0)) + atom(2, (20, 0, 0), name="CLA", residue="CLA", element="CL"))
+        file = self.file("ion.pdb", atom(1, (0, 0, 0)) + atom(2, (20, 0, 0), name="CLA", residue="CLA",
+                                                             element="CL"))
         self.morsel("molecule", file, "-o", "ion.off", "--hetero", "all")
         segment = ("segment", "ion.off", "-o", "s.txt", "--molecule", file, "--residues", "i.csv")
         said = self.morsel(*segment).stderr
@@ -165,7 +169,8 @@ class Residues(ProgramTest):
         result = self.morsel("segment", "row.off", "-o", "s.txt", "--residues", "r.csv", code=2)
         self.assertIn("--molecule", result.stderr)
         far = self.file("far.pdb", atom(1, (900, 0, 0)))
-        result = self.morsel("segment", "row.off", "-o", "s.txt", "--molecule", far, "--residues", "r.csv", code=3)
+        result = self.morsel("segment", "row.off", "-o", "s.txt", "--molecule", far, "--residues", "r.csv",
+                             code=3)
         self.assertIn("no vertex of the mesh lies within 5 Å", result.stderr)
         self.assertIn("--molecule", self.segment("row.pdb", code=2).stderr)
         self.assertFalse(re.search("Traceback|terminate", result.stderr))

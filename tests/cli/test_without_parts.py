@@ -5,6 +5,8 @@ import unittest
 
 from support import OCTAHEDRON, ProgramTest
 
+FORMATS = ("built without the kinds of files that libraries read, which {} needs: build it with "
+           "-DMORSEL_WITH_FORMATS=ON")
 MOLECULES = "built without molecules, which {} needs: build it with -DMORSEL_WITH_MOLECULES=ON"
 PICTURES = "built without pictures, which {} needs: build it with -DMORSEL_WITH_PICTURES=ON"
 
@@ -32,6 +34,7 @@ class WithoutParts(ProgramTest):
         self.refused('which the GIFTI file "s.gii" needs', "info", "s.gii")
         self.refused('which the GIFTI file "s.gii" needs', "compare", "o.off", "--field",
                      "vertex-scalar:file=s.gii")
+        self.refused(FORMATS.format("a glTF file"), "info", self.file("m.gltf", "{}").name)
 
     def test_molecules(self):
         self.refused(MOLECULES.format("morsel molecule"), "molecule", "m.pdb", "-o", "m.off")

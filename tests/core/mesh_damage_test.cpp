@@ -61,7 +61,13 @@ std::vector<CorpusFile> whole_files() {
                                        "glued_backslash.obj",
                                        "gzip.off.gz",
                                        "xz.OFF.XZ",
-                                       "zstd.ply.zst"};
+                                       "zstd.ply.zst",
+                                       "tetrahedron.gltf",
+                                       "tetrahedron.glb",
+                                       "values.glb",
+                                       "sparse.glb",
+                                       "terrain.asc",
+                                       "terrain_upper_case_one_line.asc"};
   std::vector<CorpusFile> result;
   for (const CorpusFile& file : mesh_corpus())
     if (names.contains(file.name)) result.push_back(file);

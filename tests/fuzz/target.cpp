@@ -14,6 +14,8 @@ std::span<const Target> targets() {
                                                {"freesurfer", "meshes", ".pial", freesurfer},
                                                {"gifti", "meshes", ".gii", gifti},
                                                {"compressed", "compressed", "", compressed},
+                                               {"gltf", "meshes", ".gltf", gltf},
+                                               {"asc", "meshes", ".asc", asc},
                                                {"pdb", "pdb", "", pdb},
                                                {"mmcif", "mmcif", "", mmcif},
                                                {"pqr", "pqr", "", pqr},

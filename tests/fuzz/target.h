@@ -30,6 +30,8 @@ void gifti(std::string_view bytes);
 void vtk(std::string_view bytes);
 void vtp(std::string_view bytes);
 void compressed(std::string_view bytes);
+void gltf(std::string_view bytes);
+void asc(std::string_view bytes);
 void pdb(std::string_view bytes);
 void mmcif(std::string_view bytes);
 void pqr(std::string_view bytes);

@@ -45,10 +45,10 @@ def test_surface(chain, tmp_path):
 def test_pickled(chain):
     m = ms.molecule(chain)
     again = pickle.loads(pickle.dumps(m))
-    assert isinstance(again, ms.Molecule) and np.array_equal(again.atoms, m.atoms)
+    assert isinstance(again, ms.Molecule) and again.atoms.tobytes() == m.atoms.tobytes()
     assert np.array_equal(again.vertices, m.vertices) and np.array_equal(again.faces, m.faces)
-    assert (again.area, again.volume, again.cavities, again.molecule_path) == (
-        m.area, m.volume, m.cavities, m.molecule_path)
+    assert (again.area, again.volume, again.cavities, again.molecule_path, again.radii) == (
+        m.area, m.volume, m.cavities, m.molecule_path, "all-atom")
 
 
 def test_options(chain, tmp_path):
@@ -68,6 +68,36 @@ def test_options(chain, tmp_path):
             ms.molecule(chain, **wrong)
     with pytest.raises(ms.InputError):
         ms.molecule(tmp_path / "none.pdb")
+
+
+def test_selection_and_radii(chain, tmp_path):
+    m = ms.molecule(chain, select="residue 2-3 or water")
+    assert len(m.atoms) == 9 and set(m.atoms["residue"]) == {"GLY", "HOH"}
+    assert np.isnan(m.atoms["charge"]).all()
+    assert len(ms.molecule(chain, select="name CA,N and not residue 1").atoms) == 10
+    with pytest.raises(ms.ArgumentError, match="at character 6"):
+        ms.molecule(chain, select="chain")
+    with pytest.raises(ms.ArgumentError, match="takes the place"):
+        ms.molecule(chain, select="all", waters=True)
+    table = tmp_path / "radii.txt"
+    table.write_text("GLY CA 2\n")
+    with pytest.warns(ms.MorselWarning, match="no radius"):
+        m = ms.molecule(chain, radii=table)
+    assert m.radii == "of a table" and m.atoms["radius"][:2].tolist() == [1.55, 2]
+    united = ms.molecule(pdb(tmp_path / "long.pdb", 10))
+    assert united.radii == "united-atom" and united.atoms["radius"][:4].tolist() == [1.64, 1.88, 1.61, 1.42]
+    f = ms.atomic_density(united, structure=tmp_path / "long.pdb")
+    assert f.parameters["radii"] == "united-atom"
+
+
+def test_pqr(tmp_path):
+    file = tmp_path / "two.pqr"
+    file.write_text("ATOM 1 N GLY 1 0 0 0 -0.5 1.5\nATOM 2 CA GLY 1 2 0 0 0.25 2\n")
+    m = ms.molecule(file, kind="vdw")
+    assert m.radii == "of the structure's file" and m.atoms["charge"].tolist() == [-0.5, 0.25]
+    charge = np.asarray(ms.atomic_density(m, structure=file, weight="charge"))
+    square = ((m.vertices[:, None] - m.atoms["position"])**2).sum(2)
+    assert np.allclose(charge, (np.exp(-0.5 * square / m.atoms["radius"]**2) * m.atoms["charge"]).sum(1))
 
 
 def test_from_molecule_to_residues(chain):

@@ -3,7 +3,9 @@
 #include <set>
 #include <utility>
 
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/specification.h"
+#include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/outcome_sections.h"
 
 namespace morsel::tools {
@@ -45,7 +47,7 @@ void ResiduesRun::read(const core::TriangleMesh& mesh) {
     run_.console.warning(options_.molecule + ": " + warning);
   nearest_ = nearest_atoms(mesh, molecule_.atoms, progress);
   if (nearest_.without > 0)
-    run_.console.warning(grouped(nearest_.without) + " of " + grouped(mesh.vertex_count()) +
+    run_.console.warning(core::grouped(nearest_.without) + " of " + core::grouped(mesh.vertex_count()) +
                          " vertices are more than 5 Å from all atoms of " + options_.molecule +
                          " and belong to none");
 }
@@ -66,8 +68,8 @@ void ResiduesRun::write(Provenance provenance, bool with_levels) const {
   std::set<core::Index> atoms;
   for (const SegmentedAtoms& level : levels_)
     for (const SegmentAtom& part : level.atoms) atoms.insert(part.atom);
-  run_.console.message("residues: " + options_.output + ", " + grouped(atoms.size()) + " of " +
-                       grouped(molecule_.atoms.size()) +
+  run_.console.message("residues: " + options_.output + ", " + core::grouped(atoms.size()) + " of " +
+                       core::grouped(molecule_.atoms.size()) +
                        " atoms are at the surface; radii: " + to_string(molecule_.radii));
 }
 

@@ -240,7 +240,7 @@ std::string pdb_line(const Atom& atom, Index segment) {
   std::string element = atom.element == "X" ? std::string() : atom.element;
   std::transform(element.begin(), element.end(), element.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  std::array<char, 100> line{};
+  std::array<char, 200> line{};
   std::snprintf(line.data(), line.size(),
                 "%-6s%5lld %-4s%c%*s%*s%4s%c   %8.3f%8.3f%8.3f%6.2f%6s          %2s\n",
                 atom.hetero ? "HETATM" : "ATOM", static_cast<long long>(std::max<std::int64_t>(serial, 0)),

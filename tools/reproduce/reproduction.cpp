@@ -7,6 +7,7 @@
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/text/nearest_name.h"
 #include "morsel/tools/formats/command_line.h"
+#include "morsel/tools/report/request_words.h"
 #include "morsel/tools/reproduce/document.h"
 #include "morsel/tools/reproduce/page.h"
 #include "morsel/tools/reproduce/table.h"
@@ -116,8 +117,8 @@ Reproduction run(const Prepared& prepared, const core::Progress& progress) {
     });
   reproduction.timings.emplace_back("total", total.seconds());
 
-  csv.write(table_csv(reproduction.table));
-  controls.write(controls_csv(reproduction.controls));
+  write_table_csv(csv.stream(), reproduction.table);
+  write_controls_csv(controls.stream(), reproduction.controls);
   JsonStream json(json_file.stream());
   write_document(json, prepared, reproduction);
   page.write(make_page(prepared, reproduction));
