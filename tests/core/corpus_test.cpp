@@ -38,7 +38,7 @@ std::string outcome(const CorpusFile& file, bool repair) {
     }
     for (const auto& p : loaded.source.properties) text << ", " << p.name;
     for (const auto& r : loaded.source.repairs) text << ", " << r.action << ' ' << r.count;
-    for (const std::string& warning : loaded.source.warnings) text << "; " << warning;
+    for (const std::string& warning : loaded.source.warnings) text << "; warning: " << warning;
   } catch (const core::BadInput& error) {
     std::string sentence = error.what();
     const std::size_t at = sentence.find(file.path);

@@ -82,7 +82,7 @@ TEST_CASE("every scalar property of a PLY file is kept in its order") {
   for (const CorpusFile& file : mesh_corpus()) {
     if (file.name == "quality.ply") {
       const LoadedMesh loaded = core::read_mesh(file.path);
-      REQUIRE(loaded.source.properties.size() == 3);
+      REQUIRE(loaded.source.properties.size() == 4);  // the last one is of the faces
       CHECK(loaded.source.properties[0].name == "quality");
       // Declared as float: the nearest single-precision number, as the binary form would have it.
       CHECK(property(loaded.source.properties, "quality") == std::vector<double>{0.1f, 0.2f, 0.3f, 0.4f});
