@@ -67,10 +67,9 @@ void check_properties(std::span<const PropertyView> properties, std::size_t elem
 }
 
 void declare(FileWriter& writer, std::span<const PropertyView> properties) {
+  constexpr std::array kTypes = {"double", "int", "uchar"};  // in the order of the variant
   for (const PropertyView& property : properties)
-    writer.write((std::holds_alternative<std::span<const double>>(property.values) ? "property double "
-                                                                                   : "property int ") +
-                 property.name + "\n");
+    writer.write(std::string("property ") + kTypes[property.values.index()] + " " + property.name + "\n");
 }
 
 }  // namespace

@@ -28,14 +28,16 @@ void write_off(const FileTarget& target, const TriangleMesh& mesh, Comments comm
                const Progress& progress = {});
 
 /// A named array for a file's vertices or faces, one value for each; refers to the caller's data. Numbers
-/// keep their type in the file (double or int).
+/// keep their type in the file (double, int or uchar).
 struct PropertyView {
   std::string name;
-  std::variant<std::span<const double>, std::span<const std::int32_t>> values;
+  std::variant<std::span<const double>, std::span<const std::int32_t>, std::span<const std::uint8_t>> values;
 
   PropertyView(std::string property_name, std::span<const double> numbers)
       : name(std::move(property_name)), values(numbers) {}
   PropertyView(std::string property_name, std::span<const std::int32_t> numbers)
+      : name(std::move(property_name)), values(numbers) {}
+  PropertyView(std::string property_name, std::span<const std::uint8_t> numbers)
       : name(std::move(property_name)), values(numbers) {}
 };
 

@@ -1,4 +1,4 @@
-/// Comparisons as reports, tables, pages and files for ParaView; checks of reports.
+/// Comparisons as reports, tables, pages and files for other programs; checks of reports.
 
 #include <pybind11/stl.h>
 
@@ -85,12 +85,12 @@ void write_page(const ComparisonHandle& comparison, const std::string& path,
 }
 
 void export_to(const ComparisonHandle& comparison, const std::string& folder,
-               const std::optional<std::string>& mesh_file, const py::object& report) {
+               const std::optional<std::string>& mesh_file, bool glb, const py::object& report) {
   run_job(report, [&](const core::Progress& progress) {
     tools::ResultFolder results(folder);
     const DocumentMesh mesh =
         document_mesh(comparison->input, {{}, mesh_file}, files_of(*comparison->field), progress);
-    tools::ExportSink sink(results, mesh.loaded, provenance_of(*comparison, mesh));
+    tools::ExportSink sink(results, mesh.loaded, provenance_of(*comparison, mesh), glb);
     replay(*comparison, sink, progress);
   });
 }

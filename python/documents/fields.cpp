@@ -24,15 +24,14 @@
 namespace morsel::python {
 namespace {
 
-/// .txt, .ply or .vtp.
+/// .txt, .ply, .vtp or .glb.
 void write_field(const FieldHandle& field, const std::string& path, const tools::Registry& registry,
                  const py::object& report) {
   tools::check_field_path(path);
   run_job(report, [&](const core::Progress& progress) {
     const DocumentField source(field, {path}, registry, progress);
     const DocumentMesh& mesh = source.mesh();
-    tools::write_field(path, *field->field, mesh.loaded.source.numbering, mesh.input_positions(progress),
-                       source.made().input.name,
+    tools::write_field(path, source.source(), mesh.input_positions(progress),
                        source.provenance("field", {}, tools::request_section(source.request(), mesh.repair)));
   });
 }
@@ -46,7 +45,7 @@ std::vector<std::string> words_of(const tools::SegmentRequest& request) {
   return words;
 }
 
-/// .json: the table of the segments; .ply, .vtp, .txt: the labels.
+/// .json: the table of the segments; .ply, .vtp, .txt, .glb: the labels.
 void write_segments(const SegmentsHandle& segments, const std::string& path,
                     const std::optional<std::string>& mesh_file, const tools::Registry& registry,
                     const py::object& report) {
@@ -80,7 +79,7 @@ bool are_in_place(const tools::MadePoints& made) {
                             [](const morse::ChosenPoint& point) { return point.candidate.point.vertex; });
 }
 
-/// .json, .csv, .ply or .vtp.
+/// .json, .csv, .ply, .vtp or .glb.
 void write_points(const PointsHandle& points, const std::string& path,
                   const std::optional<std::string>& mesh_file, const tools::Registry& registry,
                   const py::object& report) {
@@ -100,7 +99,7 @@ void write_points(const PointsHandle& points, const std::string& path,
       });
     tools::Provenance provenance = source.provenance("points", points_words(points->request), request);
     if (points->made->fill) provenance.set_fill(*points->made->fill);
-    tools::write_points(path, *points->made, mesh.loaded, source.made().input.name, provenance);
+    tools::write_points(path, *points->made, source.source(), provenance);
   });
 }
 

@@ -126,7 +126,7 @@ class Points(Immutable):
         return _plots.points(self, mesh, ax)
 
     def save(self, path: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
-        """Writes .csv, .json, .ply or .vtp as `morsel points` does.
+        """Writes .csv, .json, .ply, .vtp or .glb as `morsel points` does.
 
         `mesh` is a file, .ply or .off, that the mesh is written to first where it has none.
         """

@@ -127,13 +127,15 @@ class Comparison(Immutable, Sequence[Row]):
             else:
                 _documents.write_report(self._data, path_bytes(path), mesh_file(mesh), bool(items), report)
 
-    def export(self, folder: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
-        """Writes, for each method, the surface and the complex for ParaView (.vtp) and the critical points
-        (.csv) into a folder, as `morsel compare --export` does."""
+    def export(self, folder: PathLike, *, glb: bool = False, mesh: PathLike | None = None,
+               progress: Progress = None) -> None:
+        """Writes, for each method, the surface, the complex and its nodes for ParaView (.vtp), the complex as
+        a graph (.graphml) and the critical points (.csv) into a folder, as `morsel compare --export` does;
+        with `glb` a scene of all that for slides, web pages and Blender, too (.glb)."""
         from . import _documents
 
         with reporting(progress) as report:
-            _documents.export_comparison(self._data, path_bytes(folder), mesh_file(mesh), report)
+            _documents.export_comparison(self._data, path_bytes(folder), mesh_file(mesh), glb, report)
 
     def html(self) -> str:
         """The interactive page, in one document that needs no network."""

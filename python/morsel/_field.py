@@ -230,8 +230,9 @@ class Field(Immutable):
         return apply(self, name_of(methods), target, count_iterations, on_iteration, progress, 2)
 
     def save(self, path: PathLike, *, progress: Progress = None) -> None:
-        """Writes the field: .txt (a value a line), .ply or .vtp (the surface with the values), as `morsel
-        field` does; vertices have the numbers of the file or arrays that the mesh was made from."""
+        """Writes the field: .txt (a value a line), .ply, .vtp (the surface with the values) or .glb (the
+        surface in colours, with the critical points), as `morsel field` does; vertices have the numbers of
+        the file or arrays that the mesh was made from."""
         from . import _documents
 
         with reporting(progress) as report:

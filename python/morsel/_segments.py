@@ -107,7 +107,7 @@ class Segments(Immutable):
         return frame
 
     def save(self, path: PathLike, *, mesh: PathLike | None = None, progress: Progress = None) -> None:
-        """Writes the labels (.ply, .vtp, .txt) or the table (.json) as `morsel segment` does.
+        """Writes the labels (.ply, .vtp, .txt, .glb) or the table (.json) as `morsel segment` does.
 
         `mesh` is a file, .ply or .off, that the mesh is written to first where it has none; the document then
         names it.

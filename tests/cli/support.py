@@ -1,5 +1,6 @@
 """Helpers of the command-line tests: running the program and making tiny meshes."""
 
+import csv
 import json
 import os
 import pathlib
@@ -127,6 +128,12 @@ def made_in(folder):
 def data_lines(path):
     """The lines of a text file without its comments."""
     return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+def read_csv(path):
+    """The rows of a table, without the comments below them."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 class ProgramTest(unittest.TestCase):

@@ -1,12 +1,11 @@
 """Control over the number of critical points: targets, conditions to stop, origins, snapping."""
 
-import csv
 import json
 import math
 import unittest
 
 import jsonschema
-from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines
+from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines, read_csv
 
 METHODS = ["salient", "tps", "laplacian", "gaussian"]
 
@@ -106,10 +105,10 @@ class Control(ProgramTest):
                 self.assertEqual(other["position"], expected)
                 moved += other["position"] != item["position"]
         self.assertGreater(moved, 10)
-        with open(self.folder / "files" / "salient.points.csv", newline="", encoding="utf-8") as file:
-            for row, item in zip(csv.DictReader(file), snapped["methods"][1]["items"], strict=True):
-                self.assertEqual([float(row[axis]) for axis in "xyz"], item["position"])
-                self.assertEqual(row["origin"], "" if item["origin"] is None else str(item["origin"]))
+        rows = read_csv(self.folder / "files" / "salient.points.csv")
+        for row, item in zip(rows, snapped["methods"][1]["items"], strict=True):
+            self.assertEqual([float(row[axis]) for axis in "xyz"], item["position"])
+            self.assertEqual(row["origin"], "" if item["origin"] is None else str(item["origin"]))
 
     def test_such_reports_are_their_own_regression_tests(self):
         self.report(SAMPLES / "lion-head.off", "--method", "salient", "--target", 81, "--snap")

@@ -1,5 +1,6 @@
 """Documents that the program reads back, damaged in every way; and hostile names."""
 
+import base64
 import copy
 import csv
 import io
@@ -9,6 +10,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree
 
@@ -67,6 +69,8 @@ class Depth(Documents):
     def test_provenance_nested_105000_deep_in_every_format(self):
         """bug: `info` ended by SIGSEGV"""
         lines = OCTAHEDRON.split("\n", 1)
+        encoded = DEEP_PROVENANCE.encode() + b"\0"
+        in_array = base64.b64encode(len(encoded).to_bytes(8, sys.byteorder) + encoded).decode()
         doubled = DEEP_PROVENANCE.replace('"', '""')
         ply = ("ply\nformat ascii 1.0\ncomment " + DEEP_PROVENANCE + "\nelement vertex 3\n"
                "property float x\nproperty float y\nproperty float z\nelement face 1\n"
@@ -89,6 +93,11 @@ class Depth(Documents):
                      '</PolyData></VTKFile>',
             "m.html": f"<html></html>\n<!-- {DEEP_PROVENANCE} -->\n",
             "m.csv": f'vertex,provenance\n1,"{doubled}"\n',
+            "n.csv": f"vertex\n1\n# {DEEP_PROVENANCE}\n",
+            "n.vtp": f'<VTKFile><Array format="binary">\n{in_array}\n</Array></VTKFile>',
+            "m.graphml": '<graphml><graph><data key="key0">' + DEEP_PROVENANCE.replace('"', "&quot;")
+                         + "</data></graph></graphml>",
+            "m.glb": 'glTF{"asset":{"extras":{"provenance":' + DEEP_PROVENANCE + "}}}",
             "m.stl": f"solid {DEEP_PROVENANCE}\nendsolid\n",
         }
         for name, text in files.items():

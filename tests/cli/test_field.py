@@ -6,6 +6,7 @@ import unittest
 
 import jsonschema
 from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, data_lines
+from test_points import read_ply
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 
@@ -37,6 +38,35 @@ class Field(ProgramTest):
         self.morsel("field", "h.ply", "--field", "vertex-scalar:property=mean-curvature", "-o",
                     "from_ply.txt")
         self.assertEqual(data_lines(self.folder / "h.txt"), data_lines(self.folder / "from_ply.txt"))
+
+    def test_ply_has_quality_and_colours_for_meshlab_and_blender(self):
+        mesh = self.file("d.off", DAMAGED)
+        self.morsel("field", mesh, "--repair", "--field", "height:axis=x", "-o", "x.ply")
+        rows = read_ply(self.folder / "x.ply")
+        self.assertEqual(list(rows[0]), ["x", "y", "z", "height", "quality", "red", "green", "blue"])
+        self.assertEqual([row["quality"] for row in rows[:1] + rows[2:]], [0, 1, 1, 0])
+        colors = [(row["red"], row["green"], row["blue"]) for row in rows]
+        self.assertTrue(math.isnan(rows[1]["quality"]))
+        self.assertEqual(colors[1], (128, 128, 128))  # dropped
+        self.assertEqual((colors[0], colors[2]), (colors[4], colors[3]))
+        self.assertEqual(len(set(colors)), 3)
+        # the ends of the colour map of pictures
+        self.morsel("field", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "-o", "z.ply")
+        low, middle, high = ([row[channel] for channel in ("red", "green", "blue")]
+                             for row in (read_ply(self.folder / "z.ply")[v] for v in (1, 2, 0)))
+        self.assertGreater(min(middle), 235)  # diverging, white in the middle
+        self.assertEqual((low[2] > low[0] + 80, high[0] > high[2] + 80), (True, True))  # blue, orange
+        # colours are properties as others are, and the field is found by its name
+        self.assertEqual(json.loads(self.morsel("info", "z.ply", "--json").stdout)["vertex_properties"],
+                         ["height", "quality", "red", "green", "blue"])
+
+    def test_colours_of_values_of_any_size(self):
+        self.file("v.txt", "1.7e308\n-1.7e308\n0\n0\n1e308\n-1e308\n")
+        self.morsel("field", self.file("o.off", OCTAHEDRON), "--field", "vertex-scalar:file=v.txt", "-o",
+                    "v.ply")
+        rows = read_ply(self.folder / "v.ply")
+        self.assertEqual([row["quality"] for row in rows], [1.7e308, -1.7e308, 0, 0, 1e308, -1e308])
+        self.assertEqual(len({(row["red"], row["green"], row["blue"]) for row in rows}), 5)
 
     def test_a_method_can_be_applied(self):
         self.morsel("field", SAMPLES / "lion-head.off", "--method", "salient:iterations=1", "-o", "s.txt")

@@ -9,7 +9,7 @@ import unittest
 
 import bodies
 import jsonschema
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted, made_in
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, interrupted, made_in, read_csv
 
 LANDMARKS_SCHEMA = SCHEMA.parent / "landmarks.schema.json"
 TIPS = ((1, 0, 0), (0, 1, 0), (0, -0.6, 0.8), (-0.8, 0, -0.6), (0, -0.8, -0.6), (-0.6, 0, 0.8))
@@ -71,9 +71,8 @@ class Results(Landmarks):
         document = self.landmarks("--radius", 0, *MAXIMA, listed=listed)
         self.assertEqual(document["rows"][0]["f_score"], {"mean": 1, "interval": None})
         self.assertEqual(document["rows"][0]["within"]["false_positives"], [0] * 25)
-        with open(self.folder / "p.csv", newline="") as file:
-            self.assertEqual(document["meshes"][0]["rows"][0]["points"],
-                             [int(row["vertex"]) for row in csv.DictReader(file)])
+        self.assertEqual(document["meshes"][0]["rows"][0]["points"],
+                         [int(row["vertex"]) for row in read_csv(self.folder / "p.csv")])
 
     def test_figures_are_consistent(self):
         document = self.landmarks("--field", "mean-curvature", "--field", "height", "--method",

@@ -1,6 +1,5 @@
 """morsel points: exact numbers, spacing, four formats that agree, and what is refused."""
 
-import csv
 import json
 import math
 import struct
@@ -8,16 +7,11 @@ import unittest
 
 import jsonschema
 import vtk
-from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+from support import DAMAGED, OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, read_csv
 from vtk.util.numpy_support import vtk_to_numpy
 
 POINTS_SCHEMA = SCHEMA.parent / "points.schema.json"
 COLUMNS = ("value", "persistence", "rank", "distance", "percentile")
-
-
-def read_csv(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def read_ply(path):
@@ -26,7 +20,7 @@ def read_ply(path):
     lines = head.decode().split("element face")[0].splitlines()
     count = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
     properties = [line.split()[1:] for line in lines if line.startswith("property")]
-    form = "<" + "".join({"double": "d", "int": "i"}[kind] for kind, _ in properties)
+    form = "<" + "".join({"double": "d", "int": "i", "uchar": "B"}[kind] for kind, _ in properties)
     rows = [struct.unpack_from(form, body, struct.calcsize(form) * i) for i in range(count)]
     return [dict(zip((name for _, name in properties), row)) for row in rows]
 
@@ -110,7 +104,9 @@ class Points(ProgramTest):
     def test_formats_agree(self):
         arguments = (SAMPLES / "lion-head.off", "--field", "mean-curvature", "--points", 12, "--kind", "all",
                      "--percentiles")
-        expected = self.document(*arguments)["points"]
+        document = self.document(*arguments)
+        expected = document["points"]
+        extent = document["field"]["max"] - document["field"]["min"]
         for kind in ("csv", "json", "ply", "vtp"):
             said = self.morsel("points", *arguments, "-o", f"p.{kind}").stderr
             self.assertIn("points: 12, at least ", said)
@@ -132,6 +128,10 @@ class Points(ProgramTest):
             for name in COLUMNS:
                 number = math.inf if point[name] is None else point[name]
                 self.assertEqual(float(table[i][name]), number)
+                if name == "persistence":
+                    is_essential = point[name] is None
+                    number = extent if is_essential else number
+                    self.assertEqual((cloud[i]["essential"], arrays["essential"][i]), (is_essential,) * 2)
                 self.assertEqual(cloud[i][name], number)
                 self.assertEqual(arrays[name][i], number)
             self.assertEqual([float(table[i][axis]) for axis in "xyz"], point["position"])
@@ -140,7 +140,11 @@ class Points(ProgramTest):
             self.assertEqual((int(table[i]["vertex"]), cloud[i]["vertex"], arrays["vertex"][i]),
                              (point["vertex"],) * 3)
             self.assertEqual(table[i]["type"], point["type"])
-            self.assertEqual(cloud[i]["type"], {"minimum": 1, "saddle": 2, "maximum": 3}[point["type"]])
+            code = {"minimum": 1, "saddle": 2, "maximum": 3}[point["type"]]
+            self.assertEqual((int(table[i]["type_code"]), cloud[i]["type"], arrays["type"][i]), (code,) * 3)
+            self.assertEqual(cloud[i]["quality"], point["value"])
+            self.assertEqual([cloud[i][channel] for channel in ("red", "green", "blue")],
+                             {1: [0x1f, 0x4f, 0xd0], 2: [0x1f, 0xa0, 0x40], 3: [0xd0, 0x1c, 0x1f]}[code])
             self.assertEqual((table[i]["field"], cloud[i]["field"]), (point["field"], 0))
 
     def test_percentiles_that_were_not_asked_for(self):

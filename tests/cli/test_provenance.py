@@ -2,7 +2,6 @@
 parameters; and is the same when it is made again. A reader for each kind of file, written from what the
 documentation says."""
 
-import csv
 import hashlib
 import json
 import re
@@ -13,7 +12,9 @@ import xml.etree.ElementTree as xml
 import zlib
 
 import jsonschema
-from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest
+import networkx
+from glb import read_glb
+from support import OCTAHEDRON, SAMPLES, SCHEMA, ProgramTest, read_csv
 from test_molecule import atom
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
@@ -67,8 +68,17 @@ def of_object(path):
     return json.JSONDecoder().raw_decode(text, text.index('{"schema":"morsel.provenance/1"'))[0]
 
 
-READERS = {".annot": of_object, ".gii": of_object, ".png": of_png, ".svg": of_svg, ".vtp": of_vtp,
-           ".ply": lambda path: of_lines(path, b"comment "),
+def of_glb(path):
+    return read_glb(path)[1]["extras"]["provenance"]
+
+
+def of_graphml(path):
+    return json.loads(networkx.read_graphml(path).graph["provenance"])
+
+
+READERS = {".annot": of_object, ".gii": of_object, ".glb": of_glb, ".graphml": of_graphml,
+           ".csv": lambda path: of_lines(path, b"# "),
+           ".png": of_png, ".svg": of_svg, ".vtp": of_vtp, ".ply": lambda path: of_lines(path, b"comment "),
            ".off": lambda path: of_lines(path, b"# "), ".obj": lambda path: of_lines(path, b"# "),
            ".txt": lambda path: of_lines(path, b"# "), ".html": of_html}
 
@@ -81,8 +91,7 @@ def without_timings(path):
         document.pop("seconds", None)  # of the state of a batch
         return document
     if path.suffix == ".csv":
-        with open(path, newline="", encoding="utf-8") as file:
-            return [{k: v for k, v in row.items() if k != "seconds"} for row in csv.DictReader(file)]
+        return [{k: v for k, v in row.items() if k != "seconds"} for row in read_csv(path)]
     if path.suffix == ".html":
         text = re.sub(r'"timings":\s*\{.*?\}\s*\}', "", path.read_text(), flags=re.DOTALL)
         return re.sub(r"<small>[\d.]+ s</small>|\bout[13]\b", "",
@@ -137,13 +146,7 @@ class Provenance(ProgramTest):
                                      (inputs[0], hashes[0]["sha256"]))
                     self.assertIn("request", document)
                     continue
-                if path.suffix == ".csv":
-                    with open(path, newline="", encoding="utf-8") as file:
-                        first, *others = csv.DictReader(file)
-                    self.assertEqual({row["provenance"] for row in others}, {""})
-                    document = json.loads(first["provenance"])
-                else:
-                    document = READERS[path.suffix](path)
+                document = READERS[path.suffix](path)
                 self.check_document(document, path)
                 self.assertTrue(document["command"].startswith(f"morsel {command} "), document["command"])
                 self.assertNotRegex(document["command"], "out1|threads")
@@ -163,18 +166,19 @@ class Provenance(ProgramTest):
         files = self.written_twice(
             "compare", self.mesh, "-o", "{out}/report.json", "--html", "{out}/page.html", "--figures",
             "{out}", "--size", "60x42",
-            "--export", "{out}", "--thumbnails", "{out}/small", expected={
+            "--export", "{out}", "--glb", "--thumbnails", "{out}/small", expected={
                 "report.json", "page.html", "small.first.png", "small.last.png", "sheet.png",
                 *(f"{all_methods}.{kind}" for all_methods in ("diagrams", "persistence", "iterations")
                   for kind in ("png", "svg")),
                 *(f"{method}.{kind}" for method in methods for kind in (
-                    "png", "diagram.png", "diagram.svg", "surface.vtp", "complex.vtp", "points.csv"))})
+                    "png", "diagram.png", "diagram.svg", "surface.vtp", "complex.vtp", "nodes.vtp",
+                    "complex.graphml", "glb", "points.csv"))})
         shown = {f"{method}.": [method] for method in methods} | {"small.first": ["conventional"],
                                                                   "small.last": ["tps"]}
         self.check(files, "compare", [self.mesh], methods, shown)
 
     def test_field(self):
-        for kind in ("txt", "ply", "vtp", "shape.gii"):
+        for kind in ("txt", "ply", "vtp", "glb", "shape.gii"):
             files = self.written_twice("field", self.octahedron, "--field",
                                        f"vertex-scalar:file={self.values}", "--method",
                                        "salient:iterations=2", "-o", f"{{out}}/f.{kind}",
@@ -192,8 +196,8 @@ class Provenance(ProgramTest):
         self.assertEqual(of_vtp(files["surface.1.vtp"])["request"]["levels"], "0,2")
 
     def test_segment(self):
-        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("annot", {"s.annot"}),
-                            ("label.gii", {"s.label.gii"}),
+        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("glb", {"s.glb"}),
+                            ("annot", {"s.annot"}), ("label.gii", {"s.label.gii"}),
                             ("txt", {"s.vertices.txt", "s.faces.txt"})):
             files = self.written_twice("segment", self.mesh, "--persistence", "1%", "-o", f"{{out}}/s.{kind}",
                                        "--json",
@@ -202,7 +206,7 @@ class Provenance(ProgramTest):
             shutil.rmtree(self.folder / "out1")
 
     def test_points(self):
-        for kind in ("csv", "json", "ply", "vtp"):
+        for kind in ("csv", "json", "ply", "vtp", "glb"):
             files = self.written_twice("points", self.mesh, "--field", "mean-curvature", "--method",
                                        "salient:iterations=2", "--rank", "salience", "-o",
                                        f"{{out}}/p.{kind}", expected={f"p.{kind}"})

@@ -35,10 +35,17 @@ def read_ply(path):
     lines = head.decode().splitlines()
     assert "property int segment" in lines
     vertices, faces = (int(line.split()[2]) for line in lines if line.startswith("element"))
-    points = [struct.unpack_from("<3di", body, 28 * i) for i in range(vertices)]
-    start = 28 * vertices
-    cells = [struct.unpack_from("<B3Ii", body, start + 17 * i) for i in range(faces)]
-    assert len(body) == start + 17 * faces
+    points = [struct.unpack_from("<3di3B", body, 31 * i) for i in range(vertices)]
+    start = 31 * vertices
+    cells = [struct.unpack_from("<B3Ii3B", body, start + 20 * i) for i in range(faces)]
+    assert len(body) == start + 20 * faces
+    # a color for each label, others beside it
+    colors = {}
+    for row in points + [c[1:] for c in cells]:
+        assert colors.setdefault(row[3], row[4:]) == row[4:]
+    for cell in cells:
+        for v in cell[1:4]:
+            assert points[v][3] == cell[4] or points[v][4:] != cell[5:]
     return ([p[:3] for p in points], [p[3] for p in points], [c[1:4] for c in cells], [c[4] for c in cells])
 
 
@@ -229,7 +236,7 @@ class Segment(ProgramTest):
 
     def test_wrong_usage_and_bad_input_are_refused_before_the_work(self):
         mesh = self.file("o.off", OCTAHEDRON)
-        for arguments, code, words in ((["-o", "x.off"], 2, [".ply", ".vtp", ".txt", "x.off"]),
+        for arguments, code, words in ((["-o", "x.off"], 2, [".ply", ".vtp", ".txt", ".glb", "x.off"]),
                                        ([], 2, ["-o OUT"]),
                                        (["-o", "x.ply", "--by", "both"], 2, ["both", "morse-smale"]),
                                        (["-o", "x.ply", "--segments", "0"], 2, ["segments"]),

@@ -156,7 +156,7 @@ TEST_CASE("each option of render that shapes a picture is among the words of its
   picture.show = render::Show::descending;
   picture.points = picture.legend = false;
   picture.transparent = true;
-  picture.scale = {"sand", render::ScaleRequest::Center::zero, 3, {}};
+  picture.scale = {"sand", ScaleRequest::Center::zero, 3, {}};
   picture.inset = picture.frame = render::Inset{5, core::Length::epsilons(3)};
   picture.close_up = render::Inset{4, core::Length::percent(2)};
   render::CameraText camera;

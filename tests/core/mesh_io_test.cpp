@@ -257,23 +257,27 @@ TEST_CASE("whole numbers at vertices and faces are written as such, and the file
   const std::vector<double> heights = {0.1, 0.2, 0.3, 0.4};
   const std::vector<std::int32_t> at_faces = {5, -6};
   const std::vector<double> areas = {0.5, 0.25};
-  const std::vector<core::PropertyView> of_vertices = {{"segment", at_vertices}, {"height", heights}};
+  const std::vector<std::uint8_t> reds = {0, 1, 128, 255};
+  const std::vector<core::PropertyView> of_vertices = {
+      {"segment", at_vertices}, {"height", heights}, {"red", reds}};
   const std::vector<core::PropertyView> of_faces = {{"segment", at_faces}, {"x", areas}};
   core::write_ply(scratch / "a.ply", mesh.positions(), mesh.triangles(), of_vertices, of_faces);
   const std::string bytes = contents(scratch / "a.ply");
   const std::string end = "end_header\n";
   const std::size_t body = bytes.find(end) + end.size();
-  CHECK(bytes.substr(0, body) ==
-        "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
-        "property double z\nproperty int segment\nproperty double height\nelement face 2\n"
-        "property list uchar uint vertex_indices\nproperty int segment\nproperty double x\nend_header\n");
-  REQUIRE(bytes.size() == body + 4 * (3 * 8 + 4 + 8) + 2 * (1 + 3 * 4 + 4 + 8));
-  CHECK(bytes.substr(body + 4 * 36 + 13, 4) == std::string("\5\0\0\0", 4));
-  CHECK(bytes.substr(body + 4 * 36 + 25 + 13, 4) == std::string("\xfa\xff\xff\xff", 4));
+  CHECK(
+      bytes.substr(0, body) ==
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+      "property double z\nproperty int segment\nproperty double height\nproperty uchar red\nelement face 2\n"
+      "property list uchar uint vertex_indices\nproperty int segment\nproperty double x\nend_header\n");
+  REQUIRE(bytes.size() == body + 4 * (3 * 8 + 4 + 8 + 1) + 2 * (1 + 3 * 4 + 4 + 8));
+  CHECK(bytes.substr(body + 4 * 37 + 13, 4) == std::string("\5\0\0\0", 4));
+  CHECK(bytes.substr(body + 4 * 37 + 25 + 13, 4) == std::string("\xfa\xff\xff\xff", 4));
   const LoadedMesh back = core::read_mesh(scratch / "a.ply");
   check_same(back.mesh, mesh);
   CHECK(property(back.source.properties, "segment") == std::vector<double>{7, -1, 2147483647, 0});
   CHECK(property(back.source.properties, "height") == heights);
+  CHECK(property(back.source.properties, "red") == std::vector<double>{0, 1, 128, 255});
 }
 
 TEST_CASE("properties that a PLY file cannot hold are refused before anything is written") {

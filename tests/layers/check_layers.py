@@ -25,7 +25,7 @@ MAY_INCLUDE = {
 }
 # The rooms of tools, from the lowest floor up.
 FLOORS = (
-    ("study", "formats", "results", "drawing"),
+    ("study", "formats", "results", "drawing", "color"),
     ("molecule",),
     ("report",),
     ("export", "html"),

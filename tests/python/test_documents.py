@@ -141,19 +141,20 @@ def test_show_in_a_notebook(in_memory, monkeypatch):
 
 def test_exports(small, tmp_path):
     r = ms.compare(sample("eight.off"), methods=["salient:iterations=1", "salient"])
-    r.export(tmp_path / "out")
+    r.export(tmp_path / "out", glb=True)
     names = sorted(path.name for path in (tmp_path / "out").iterdir() if path.name != ".morsel-results")
     assert names == sorted(f"{name}.{kind}" for name in ("salient", "salient-2")
-                           for kind in ("surface.vtp", "complex.vtp", "points.csv"))
+                           for kind in ("surface.vtp", "complex.vtp", "nodes.vtp", "complex.graphml",
+                                        "points.csv", "glb"))
     with pytest.raises(ms.Error):
         r.export(pathlib.Path(sample("eight.off")).parent)
 
 
 def test_files_of_everything_else(in_memory, tmp_path):
     f = ms.salient(ms.mean_curvature(in_memory), iterations=3)
-    made = {"segments": (ms.segment(f, segments=5), "json ply vtp txt"),
+    made = {"segments": (ms.segment(f, segments=5), "json ply vtp txt glb"),
             "cut": (ms.cut(f), "json off ply vtp"),
-            "points": (ms.points(f, 5), "json csv ply vtp"),
+            "points": (ms.points(f, 5), "json csv ply vtp glb"),
             "quads": (ms.quads(ms.eigenfunction(in_memory, index=8), resolution=4), "json obj")}
     for name, (result, endings) in made.items():
         for ending in endings.split():

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
+#include <stdexcept>
+
 using namespace morsel;
 using tools::csv_field;
 using tools::csv_path;
@@ -30,4 +33,17 @@ TEST_CASE("numbers of a table stay numbers") {
   line.add_json(-3);
   line.add_json("=a");
   CHECK(line.text() == "-0.25,-0.25,./=a,-3,'=a");
+}
+
+TEST_CASE("a table has its names first and its comments last") {
+  std::ostringstream out;
+  tools::CsvTable table(out, {"vertex", "type, or \"kind\"", "value"});
+  tools::CsvLine row;
+  row.add(std::uint64_t{7});
+  row.add("a#b");
+  CHECK_THROWS_AS(table.add(row), std::logic_error);
+  row.add(0.5);
+  table.add(row);
+  table.end({"{\"made\":", "\"by\"}"});
+  CHECK(out.str() == "vertex,\"type, or \"\"kind\"\"\",value\n7,\"a#b\",0.5\n# {\"made\":\n# \"by\"}\n");
 }

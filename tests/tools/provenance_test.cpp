@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/tools/formats/base64.h"
 #include "morsel/tools/formats/csv.h"
+#include "morsel/tools/formats/markup.h"
 
 using namespace morsel;
 using Catch::Contains;
@@ -25,6 +28,12 @@ Provenance awkward() {
   step.name = "tps";
   provenance.add_method({step, step});
   return provenance;
+}
+
+/// As the string of a .vtp file.
+std::string in_array(const std::string& json) {
+  const std::uint64_t size = json.size() + 1;
+  return tools::base64(std::string(reinterpret_cast<const char*>(&size), sizeof size) + json + '\0');
 }
 
 }  // namespace
@@ -76,6 +85,11 @@ TEST_CASE("a provenance is found in every kind of file") {
   CHECK(tools::find_provenance("<html></html>\n" + provenance.html_comment()) == expected);
   CHECK(tools::find_provenance("vertex,provenance\n1," + tools::csv_field(json) + "\n2,\n") == expected);
   CHECK(tools::find_provenance("vertex,provenance\n1," + tools::csv_field(json)) == expected);
+  CHECK(tools::find_provenance("vertex\n1\n" + provenance.text_comment()) == expected);
+  CHECK(tools::find_provenance("<data key=\"key0\">" + tools::markup_text(json) + "</data>") == expected);
+  CHECK(tools::find_provenance("glTF..JSON{\"asset\":{\"extras\":{\"provenance\":" + json + "}}}") ==
+        expected);
+  CHECK(tools::find_provenance("<Array>\n" + in_array(json) + "\n</Array>") == expected);
 }
 
 TEST_CASE("an HTML comment contains nothing that ends it") {
@@ -92,12 +106,19 @@ TEST_CASE("a file without provenance gives null, a damaged one is refused") {
   for (std::size_t size = 0; size < json.size(); ++size) {
     const std::string cut = json.substr(0, size);
     const std::string in_table = "1," + tools::csv_field(cut);
+    const std::string in_markup = tools::markup_text(cut) + "</data>";
+    const std::string of_array = in_array(cut) + "\n";
     if (size < known) {
       CHECK(tools::find_provenance(cut).is_null());
       CHECK(tools::find_provenance(in_table).is_null());
+      CHECK(tools::find_provenance(in_markup).is_null());
+      CHECK(tools::find_provenance(of_array).is_null());
     } else {
       CHECK_THROWS_AS(tools::find_provenance(cut), core::BadInput);
       CHECK_THROWS_AS(tools::find_provenance(in_table), core::BadInput);
+      CHECK_THROWS_AS(tools::find_provenance(in_markup), core::BadInput);
+      CHECK_THROWS_AS(tools::find_provenance(of_array), core::BadInput);
+      CHECK_THROWS_AS(tools::find_provenance(of_array.substr(0, of_array.size() - 2)), core::BadInput);
     }
   }
   std::string damaged = json;
@@ -108,8 +129,9 @@ TEST_CASE("a file without provenance gives null, a damaged one is refused") {
 TEST_CASE("bug: a provenance nested 105,000 deep ended the program") {
   const std::string deep = "{\"schema\":\"morsel.provenance/1\",\"x\":" + std::string(105'000, '[') +
                            std::string(105'000, ']') + "}";
-  for (const std::string& text : {deep, "# " + deep + "\n0\n", "comment " + deep + "\r\n",
-                                  "<!-- " + deep + " -->", "1," + tools::csv_field(deep)})
+  for (const std::string& text :
+       {deep, "# " + deep + "\n0\n", "comment " + deep + "\r\n", "<!-- " + deep + " -->",
+        "1," + tools::csv_field(deep), tools::markup_text(deep), in_array(deep)})
     CHECK_THROWS_WITH(tools::find_provenance(text), Contains("nested deeper than 64 levels"));
   const std::string long_one =
       "{\"schema\":\"morsel.provenance/1\",\"x\":\"" + std::string(1 << 20, 'x') + "\"}";

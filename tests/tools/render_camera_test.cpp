@@ -11,6 +11,7 @@
 
 using namespace morsel;
 using namespace morsel::test;
+using namespace morsel::tools;
 using namespace morsel::tools::render;
 
 TEST_CASE("named views are exactly along the axes") {

@@ -6,15 +6,16 @@
 
 #include "morsel/core/error.h"
 #include "morsel/mscomplex/segmentation.h"
-#include "morsel/tools/render/colormap.h"
-#include "morsel/tools/render/regions.h"
-#include "morsel/tools/render/value_scale.h"
+#include "morsel/tools/color/colormap.h"
+#include "morsel/tools/color/regions.h"
+#include "morsel/tools/color/value_scale.h"
 
 #include "support/fields.h"
 #include "support/meshes.h"
 
 using namespace morsel;
 using namespace morsel::test;
+using namespace morsel::tools;
 using namespace morsel::tools::render;
 
 namespace {

@@ -11,12 +11,6 @@
 namespace morsel::tools::batch {
 namespace {
 
-/// A number or text of a report as a field of the table.
-std::string field_of(const Json& value) {
-  if (value.is_null()) return "";
-  return value.is_string() ? csv_field(value.get<std::string>()) : value.dump();
-}
-
 /// Seconds of all steps of a method.
 double method_seconds(const Json& timings, std::size_t i) {
   double sum = 0;
@@ -25,44 +19,65 @@ double method_seconds(const Json& timings, std::size_t i) {
   return sum;
 }
 
-/// The rows of a mesh, one a method: counts and parameters are empty where there are none.
-std::string csv_rows(const MeshOutcome& outcome, const ComparisonRequest& request, bool with_timings) {
-  const std::vector<std::string>& methods = request.methods;
+/// Adds the rows of a mesh, one a method: counts and parameters are empty where there are none.
+void add_rows(CsvTable& table, const MeshOutcome& outcome, const ComparisonRequest& request,
+              bool with_timings) {
   const bool done = outcome.status == Status::done;
-  std::string rows;
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    std::vector<std::string> fields = {csv_path(outcome.mesh.name), field_of(outcome.sha256),
-                                       to_string(outcome.status)};
-    const Json result = done ? outcome.state.result : Json();
+  const Json result = done ? outcome.state.result : Json();
+  for (std::size_t i = 0; i < request.methods.size(); ++i) {
+    const Json method = done ? result["methods"].at(i) : Json();
+    CsvLine line;
+    const auto add = [&](const Json& section, const char* key) {
+      line.add_json(done ? section.at(key) : Json());
+    };
+    line.add_path(outcome.mesh.name);
+    line.add_json(outcome.sha256);
+    line.add(to_string(outcome.status));
+    const Json mesh = done ? result["mesh"] : Json();
     for (const char* key :
          {"vertices", "edges", "faces", "components", "boundary_loops", "euler_characteristic", "genus"})
-      fields.push_back(done ? field_of(result["mesh"].at(key)) : "");
-    fields.push_back(csv_field(methods[i]));
-    const Json method = done ? result["methods"].at(i) : Json();
-    for (const char* key : {"minima", "saddles", "saddle_multiplicity", "maxima", "total"})
-      fields.push_back(done ? field_of(method["critical_points"].at(key)) : "");
-    fields.push_back(done ? field_of(method["persistence"].at("pairs")) : "");
-    fields.push_back(done ? std::to_string(pairs_over_one_percent(method)) : "");
-    if (with_timings) fields.push_back(done ? Json(method_seconds(outcome.state.timings, i)).dump() : "");
-    fields.push_back(outcome.status == Status::failed ? csv_field(outcome.state.error->message) : "");
-    fields.insert(fields.end(), {kVersion, csv_field(request.field)});
-    fields.push_back(done ? csv_field(json_text(result["field"].at("parameters"))) : "");
-    fields.push_back(done ? csv_field(json_text(method.at("parameters"))) : "");
-    for (std::size_t k = 0; k < fields.size(); ++k) rows += (k == 0 ? "" : ",") + fields[k];
-    rows += '\n';
+      add(mesh, key);
+    line.add(request.methods[i]);
+    const Json points = done ? method["critical_points"] : Json();
+    for (const char* key : {"minima", "saddles", "saddle_multiplicity", "maxima", "total"}) add(points, key);
+    line.add_json(done ? method["persistence"].at("pairs") : Json());
+    line.add_json(done ? Json(pairs_over_one_percent(method)) : Json());
+    if (with_timings) line.add_json(done ? Json(method_seconds(outcome.state.timings, i)) : Json());
+    line.add(outcome.status == Status::failed ? outcome.state.error->message : "");
+    line.add(kVersion);
+    line.add(request.field);
+    line.add_json(done ? result["field"].at("parameters") : Json());
+    line.add_json(done ? method.at("parameters") : Json());
+    table.add(line);
   }
-  return rows;
 }
 
 void write_table(const core::FileTarget& target, const std::vector<MeshOutcome>& outcomes,
                  const ComparisonRequest& request, bool with_timings) {
   core::FileWriter file(target);
-  file.write(
-      "mesh,sha256,status,vertices,edges,faces,components,boundary_loops,euler_characteristic,genus,method,"
-      "minima,saddles,saddle_multiplicity,maxima,total,pairs,pairs_over_1_percent,");
-  file.write(with_timings ? "seconds," : "");
-  file.write("error,version,field,field_parameters,method_parameters\n");
-  for (const MeshOutcome& outcome : outcomes) file.write(csv_rows(outcome, request, with_timings));
+  std::vector<std::string> columns = {"mesh",
+                                      "sha256",
+                                      "status",
+                                      "vertices",
+                                      "edges",
+                                      "faces",
+                                      "components",
+                                      "boundary_loops",
+                                      "euler_characteristic",
+                                      "genus",
+                                      "method",
+                                      "minima",
+                                      "saddles",
+                                      "saddle_multiplicity",
+                                      "maxima",
+                                      "total",
+                                      "pairs",
+                                      "pairs_over_1_percent"};
+  if (with_timings) columns.emplace_back("seconds");
+  for (const char* column : {"error", "version", "field", "field_parameters", "method_parameters"})
+    columns.emplace_back(column);
+  CsvTable table(file.stream(), columns);
+  for (const MeshOutcome& outcome : outcomes) add_rows(table, outcome, request, with_timings);
   file.commit();
 }
 

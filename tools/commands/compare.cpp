@@ -36,6 +36,7 @@ struct Options {
   std::string report;
   bool no_items = false;
   std::string export_folder;
+  bool glb = false;
   std::string figure_folder;
   render::FigureText figure;
   std::string page;
@@ -137,7 +138,7 @@ class Outputs {
       files_.add(page_.emplace(*page_file_, loaded, input.about, options_.request,
                                page_command(options_, common_), provenance));
     if (!options_.export_folder.empty())
-      files_.add(exports_.emplace(folders_.at(options_.export_folder), loaded, provenance));
+      files_.add(exports_.emplace(folders_.at(options_.export_folder), loaded, provenance, options_.glb));
     if (!options_.figure_folder.empty())
       files_.add(plots_.emplace(folders_.at(options_.figure_folder), provenance));
     sinks.push_back(&files_);
@@ -160,7 +161,7 @@ class Outputs {
     report_target_.show(table);
     report_target_.tell("report", console);
     if (page_file_) console.message("page: " + options_.page);
-    if (exports_) console.message("files for ParaView: " + options_.export_folder);
+    if (exports_) console.message("files for other programs: " + options_.export_folder);
     if (figures_) console.message("pictures and plots: " + options_.figure_folder);
   }
 
@@ -218,10 +219,14 @@ void add_outputs(Command& command, Options& options) {
       .in_detail("That is: the critical points and the diagram's pairs");
   command
       .path("--export", options.export_folder,
-            "Write surfaces, complexes (.vtp, for ParaView) and points (.csv) here")
+            "Write surfaces, complexes (.vtp, .graphml) and points (.csv) here")
       .value("DIR")
       .shapes_nothing()
-      .in_detail("One of each method");
+      .in_detail("One of each method: .vtp for ParaView, .graphml for NetworkX and Gephi");
+  command.flag("--glb", options.glb, "And scenes of surface, points and arcs (.glb)")
+      .needs("--export")
+      .shapes_nothing()
+      .in_detail("One of each method, for slides, web pages and Blender");
   command.path("--figures", options.figure_folder, "Write pictures, persistence diagrams and curves here")
       .value("DIR")
       .shapes_nothing()

@@ -26,7 +26,7 @@ void check_points(const Options& options) {
   if (options.points.count && options.json.empty() && !holds_points(options.output))
     throw core::InvalidArgument(
         "a text or GIFTI file has the field's values alone: chosen points need --json, or " + options.output +
-        " as .ply or .vtp");
+        " as .ply, .vtp or .glb");
 }
 
 int write(Options& options, const Run& run) {
@@ -51,8 +51,7 @@ int write(Options& options, const Run& run) {
   if (points && points->fill) provenance.set_fill(*points->fill);
   if (document.is_wanted())
     write_points_document(document.json(), asked, base.source(), *points, base.timings());
-  write_field(options.output, base.field(), base.loaded().source.numbering, base.input_positions(),
-              base.made().input.name, provenance, points ? &*points : nullptr);
+  write_field(options.output, base.source(), base.input_positions(), provenance, points ? &*points : nullptr);
   document.commit();
   document.tell("points", run.console);
   if (!is_shown) run.console.message("field: " + options.output);
@@ -69,11 +68,13 @@ void add_field(Program& program) {
   command.begin_group("What is written");
   add_output_option(
       command, options->output,
-      ".txt (a value a line), .ply or .vtp (with the surface), .shape.gii; - is standard output")
+      ".txt (a value a line), .ply, .vtp (with the surface), .shape.gii or .glb; - is standard output")
       .shortly("The file to write")
       .in_detail(
           "Vertices have the input's numbers; chosen points are marked, but in .txt and GIFTI (.shape.gii, "
-          ".func.gii: values in single precision). Standard output gets a value a line");
+          ".func.gii: values in single precision); .ply has colours, too; .glb, for slides, web pages and "
+          "Blender, has the surface in colours and the chosen points or all critical points as spheres. "
+          "Standard output gets a value a line");
   add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);
   command.examples = {

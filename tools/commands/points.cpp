@@ -48,7 +48,7 @@ int choose(const Options& options, const Run& run) {
   } else {
     Provenance provenance = base.provenance(asked);
     if (made.fill) provenance.set_fill(*made.fill);
-    write_points(options.output, made, base.loaded(), base.made().input.name, provenance);
+    write_points(options.output, made, base.source(), provenance);
   }
   if (options.output != "-") run.console.message("points: " + options.output);
   return kDone;
@@ -63,9 +63,11 @@ void add_points(Program& program) {
   add_field_options(command, options->mesh, options->request);
   add_points_options(command, options->points);
   command.begin_group("What is written");
-  add_output_option(command, options->output, ".csv, .json, .ply or .vtp; - is JSON on standard output")
+  add_output_option(command, options->output, ".csv, .json, .ply, .vtp or .glb; - is JSON on standard output")
       .shortly("The file to write")
-      .in_detail("Points come in the order in which they were chosen, vertices have the input's numbers");
+      .in_detail(
+          "Points come in the order in which they were chosen, vertices have the input's numbers; .glb, for "
+          "slides, web pages and Blender, has the surface in the field's colours and the points on it");
   add_common_options(command, program.common);
   command.examples = {
       {"points bunny.off --points 50 -o points.csv", "50 points that people might mark"},

@@ -11,11 +11,11 @@
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/text/listed.h"
+#include "morsel/tools/color/colormap.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/drawing/pictures.h"
 #include "morsel/tools/formats/png_comment.h"
 #include "morsel/tools/render/caption.h"
-#include "morsel/tools/render/colormap.h"
 #include "morsel/tools/render/picture.h"
 #include "morsel/tools/render/request_text.h"
 
@@ -46,7 +46,7 @@ int draw(const Options& options, const Run& run) {
   request.size = render::parse_size(options.size);
   const bool segments = request.show != render::Show::field && request.show != render::Show::plain;
   request.arcs = options.arcs.value_or(segments);
-  render::parse_range(options.range, request.scale);
+  parse_range(options.range, request.scale);
   options.camera.check();
   for (const std::string& region : {options.frame, options.close_up})
     if (!region.empty()) render::parse_inset(region);
@@ -91,7 +91,6 @@ int draw(const Options& options, const Run& run) {
 }  // namespace
 
 void add_render(Program& program) {
-  using render::ScaleRequest;
   using render::Show;
   auto options = std::make_shared<Options>();
   render::PictureRequest& picture = options->picture;
@@ -140,7 +139,7 @@ void add_render(Program& program) {
       .in_detail("The radius is 15eps if it is not given");
 
   command.begin_group("Colours of the field");
-  const std::vector<std::string> colormaps = render::colormap_names();
+  const std::vector<std::string> colormaps = colormap_names();
   command.text("--colormap", picture.scale.colormap, core::listed(colormaps, " or "))
       .among(colormaps)
       .value("NAME")

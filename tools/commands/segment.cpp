@@ -99,10 +99,11 @@ void add_segment(Program& program) {
       .shortly("Merge all of at most this persistence")
       .shows_default("none")
       .in_detail("In the field's unit or, as in 0.1%, in percent of its range");
-  add_output_option(command, options->output, "Labels: .ply, .vtp, .txt, .annot or .label.gii")
+  add_output_option(command, options->output, "Labels: .ply, .vtp, .txt, .glb, .annot or .label.gii")
       .in_detail(
-          "In the input's vertex numbers: .ply (int properties \"segment\"), .vtp (arrays \"segment\", and "
-          "the field) or .txt (a label a line: OUT.vertices.txt, OUT.faces.txt); of vertices alone .annot "
+          "In the input's vertex numbers: .ply (int properties \"segment\", and colours), .vtp (arrays "
+          "\"segment\", and the field) or .txt (a label a line: OUT.vertices.txt, OUT.faces.txt); .glb, for "
+          "slides, web pages and Blender, has a colour for each segment; of vertices alone .annot "
           "(FreeSurfer) and .label.gii (GIFTI), with names and colours");
   add_json_option(command, options->json, "Write a table of the segments here")
       .in_detail("It has area, critical points, neighbours and boundary length of each");

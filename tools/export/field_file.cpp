@@ -1,11 +1,18 @@
 #include "morsel/tools/export/field_file.h"
 
+#include <algorithm>
+
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
+#include "morsel/morse/critical_points.h"
+#include "morsel/tools/color/surface_colors.h"
 #include "morsel/tools/export/brain_files.h"
+#include "morsel/tools/export/glb_scene.h"
 #include "morsel/tools/export/input_numbers.h"
+#include "morsel/tools/export/ply_colors.h"
 #include "morsel/tools/export/points_file.h"
+#include "morsel/tools/export/surface_file.h"
 #include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
@@ -17,7 +24,7 @@ constexpr const char* kChosen = "chosen";
 std::string extension_of(const std::filesystem::path& path) {
   if (path == kStandardOutput) return ".txt";
   return core::checked_extension(path, "a field is written",
-                                 {".txt", ".ply", ".vtp", ".shape.gii", ".func.gii"});
+                                 {".txt", ".ply", ".vtp", ".glb", ".shape.gii", ".func.gii"});
 }
 
 void write_text(const std::filesystem::path& path, std::span<const double> values,
@@ -47,13 +54,23 @@ void check_field_path(const std::filesystem::path& path) { extension_of(path); }
 
 bool holds_points(const std::filesystem::path& field_path) {
   const std::string extension = extension_of(field_path);
-  return extension == ".ply" || extension == ".vtp";
+  return extension == ".ply" || extension == ".vtp" || extension == ".glb";
 }
 
-void write_field(const std::filesystem::path& path, const core::ScalarField& field,
-                 const core::VertexNumbering& numbering, std::span<const core::Point> input_positions,
-                 const std::string& name, const Provenance& provenance, const MadePoints* chosen) {
+void write_field(const std::filesystem::path& path, const FieldSource& source,
+                 std::span<const core::Point> input_positions, const Provenance& provenance,
+                 const MadePoints* chosen) {
   const std::string extension = extension_of(path);
+  const core::ScalarField& field = source.made.field();
+  const core::VertexNumbering& numbering = source.loaded.source.numbering;
+  const std::string& name = source.made.input.name;
+  if (extension == ".glb") {
+    GlbScene scene(field.mesh());
+    scene.add_surface(value_colors(field.values()));
+    scene.add_marks(chosen != nullptr ? marks_of(*chosen) : marks_of(morse::classify(field)));
+    scene.write(path, provenance);
+    return;
+  }
   const std::vector<double> values = by_input_vertex(field, numbering);
   if (extension == ".txt") {
     write_text(path, values, provenance);
@@ -72,12 +89,23 @@ void write_field(const std::filesystem::path& path, const core::ScalarField& fie
     document.points = {input_positions};
     document.polygons = {triangles, input_positions.size()};
     document.point_arrays = {{name, std::span<const double>(values)}};
+    std::vector<double> original;
+    std::vector<double> change;
+    if (!std::ranges::equal(field.values(), source.made.input.field.values())) {
+      original = by_input_vertex(source.made.input.field, numbering);
+      change = change_of(values, original);
+      document.point_arrays.emplace_back(original_name(name), std::span<const double>(original));
+      document.point_arrays.emplace_back(change_name(name), std::span<const double>(change));
+    }
     if (chosen != nullptr) document.point_arrays.emplace_back(kChosen, std::span<const std::int32_t>(order));
     document.provenance = provenance.json();
     write_vtp(path, document);
   } else {
     std::vector<core::PropertyView> properties = {{name, std::span<const double>(values)}};
     if (chosen != nullptr) properties.emplace_back(kChosen, std::span<const std::int32_t>(order));
+    const PlyColors colors(to_bytes(value_colors(values)));
+    add_quality(properties, values);
+    colors.add_to(properties);
     core::write_ply(path, input_positions, triangles, properties, {}, provenance.lines());
   }
 }

@@ -30,6 +30,7 @@ HierarchyExport::HierarchyExport(ResultFolder& folder, const core::LoadedMesh& l
 
 void HierarchyExport::begin(const HierarchyBasis& basis) {
   field_name_ = basis.made.input.name;
+  original_ = basis.made.input.field;
   provenance_.set_field(basis.made.input);
   provenance_.add_method(basis.made.outcome.steps);
 }
@@ -40,23 +41,22 @@ void HierarchyExport::level(const Level& level) {
   provenance.set("level", {{"place", level.place}, {"asked", level.name.asked}});
   const core::FileTarget surface = folder_.claim("surface." + place + ".vtp");
   const core::FileTarget complex = folder_.claim("complex." + place + ".vtp");
+  std::vector<double> persistence(loaded_.mesh.vertex_count(), 0);
+  for (std::size_t i = 0; i < level.points.points.size(); ++i)
+    persistence[level.points.points[i].vertex] = level.persistence[i];
   core::parallel_for(0, 2, 1, [&](std::size_t i, std::size_t) {
     if (i == 0)
-      write_surface(surface, level, provenance);
+      write_surface(surface, level, persistence, provenance);
     else
-      write_complex(complex, level, provenance);
+      write_complex(complex, level, persistence, provenance);
   });
 }
 
 void HierarchyExport::write_surface(const core::FileTarget& target, const Level& level,
-                                    const Provenance& provenance) const {
+                                    std::span<const double> persistence, const Provenance& provenance) const {
   std::vector<std::uint8_t> types(loaded_.mesh.vertex_count(), 0);
-  std::vector<double> persistence(loaded_.mesh.vertex_count(), 0);
-  for (std::size_t i = 0; i < level.points.points.size(); ++i) {
-    const morse::CriticalPoint& point = level.points.points[i];
+  for (const morse::CriticalPoint& point : level.points.points)
     types[point.vertex] = static_cast<std::uint8_t>(point.type);
-    persistence[point.vertex] = level.persistence[i];
-  }
   std::vector<VtpArray> links;
   links.reserve(2 * mscomplex::kSegmentKinds.size());
   for (const SegmentKind kind : mscomplex::kSegmentKinds) {
@@ -65,12 +65,13 @@ void HierarchyExport::write_surface(const core::FileTarget& target, const Level&
     links.push_back(linked_cells(name + "_parent", labels, level.cell_links(kind).parents));
     links.push_back(linked_cells(name + "_merges_into", labels, level.cell_links(kind).merges_into));
   }
-  write_surface_file(target, {loaded_, field_name_, *level.field, types, persistence, level.segmentation},
+  write_surface_file(target,
+                     {loaded_, field_name_, *level.field, *original_, types, persistence, level.segmentation},
                      provenance, links);
 }
 
 void HierarchyExport::write_complex(const core::FileTarget& target, const Level& level,
-                                    const Provenance& provenance) const {
+                                    std::span<const double> persistence, const Provenance& provenance) const {
   const mscomplex::MorseSmaleComplex& complex = level.complex;
   const std::vector<morse::CriticalPoint>& points = level.points.points;
   const core::VertexNumbering& numbering = loaded_.source.numbering;
@@ -84,7 +85,7 @@ void HierarchyExport::write_complex(const core::FileTarget& target, const Level&
     if (parent != core::kNone) parents[n] = numbering.input_vertex(parent);
   }
   write_complex_file(
-      target, loaded_, complex, provenance,
+      target, {loaded_, complex, field_name_, *level.field, persistence}, provenance,
       {{"parent", parents.size(), numbering.input_count, [&](std::size_t i) { return parents[i]; }}});
 }
 

@@ -2,6 +2,8 @@
 /// The files of `morsel hierarchy --export`.
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "morsel/tools/report/provenance.h"
@@ -25,13 +27,17 @@ class HierarchyExport : public HierarchySink {
   void level(const Level& level) override;
 
  private:
-  void write_surface(const core::FileTarget& target, const Level& level, const Provenance& provenance) const;
-  void write_complex(const core::FileTarget& target, const Level& level, const Provenance& provenance) const;
+  /// `persistence`: per vertex.
+  void write_surface(const core::FileTarget& target, const Level& level, std::span<const double> persistence,
+                     const Provenance& provenance) const;
+  void write_complex(const core::FileTarget& target, const Level& level, std::span<const double> persistence,
+                     const Provenance& provenance) const;
 
   ResultFolder& folder_;
   const core::LoadedMesh& loaded_;
   Provenance provenance_;
   std::string field_name_;
+  std::optional<core::ScalarField> original_;
 };
 
 }  // namespace morsel::tools

@@ -1,15 +1,17 @@
 #include "morsel/tools/export/label_file.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/tools/color/regions.h"
+#include "morsel/tools/color/surface_colors.h"
 #include "morsel/tools/export/brain_files.h"
+#include "morsel/tools/export/glb_scene.h"
 #include "morsel/tools/export/input_numbers.h"
+#include "morsel/tools/export/ply_colors.h"
 #include "morsel/tools/formats/vtp_writer.h"
 
 namespace morsel::tools {
@@ -29,20 +31,7 @@ std::vector<std::int32_t> by_input_vertex(std::span<const core::Index> label,
 
 std::string label_extension(const fs::path& path) {
   return core::checked_extension(path, "labels are written",
-                                 {".ply", ".vtp", ".txt", ".annot", ".label.gii"});
-}
-
-/// The colours of pictures' segments, by turns: Paul Tol's "light" qualitative scheme (BSD).
-std::vector<std::array<std::uint8_t, 3>> colors_of(std::size_t labels) {
-  constexpr std::array<std::uint32_t, 9> kLight = {0x77aadd, 0xee8866, 0xeedd88, 0xffaabb, 0x99ddff,
-                                                   0x44bb99, 0xbbcc33, 0xaaaa00, 0xdddddd};
-  std::vector<std::array<std::uint8_t, 3>> colors(labels);
-  for (std::size_t i = 0; i < labels; ++i) {
-    const std::uint32_t color = kLight[i % kLight.size()];
-    colors[i] = {static_cast<std::uint8_t>(color >> 16), static_cast<std::uint8_t>(color >> 8),
-                 static_cast<std::uint8_t>(color)};
-  }
-  return colors;
+                                 {".ply", ".vtp", ".txt", ".glb", ".annot", ".label.gii"});
 }
 
 void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, const Provenance& provenance) {
@@ -71,12 +60,17 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
                                    std::span<const core::Point> input_positions,
                                    const Provenance& provenance) {
   std::vector<fs::path> files = label_files(path);
+  if (core::file_extension(path) == ".glb") {
+    GlbScene scene(field.mesh());
+    scene.add_segments(labels.triangle, color_labels(field.mesh(), labels.vertex, labels.triangle));
+    scene.write(path, provenance);
+    return files;
+  }
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
   if (const std::string extension = label_extension(path);
       extension == ".annot" || extension == ".label.gii") {
-    const std::size_t count =
-        labels.triangle.empty() ? 0 : std::size_t{*std::ranges::max_element(labels.triangle)} + 1;
-    const std::vector<std::array<std::uint8_t, 3>> colors = colors_of(count);
+    const std::vector<ColorBytes> colors =
+        to_bytes(color_labels(field.mesh(), labels.vertex, labels.triangle));
     const BrainLabels brain{labels.name, at_vertices, colors};
     if (extension == ".annot")
       write_annotation(path, brain, provenance);
@@ -96,9 +90,14 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
   }
   const std::vector<core::Triangle> triangles = on_input_vertices(field.mesh(), numbering);
   if (core::file_extension(path) == ".ply") {
-    const core::PropertyView of_vertices(labels.name, at_vertices);
-    const core::PropertyView of_faces(labels.name, at_triangles);
-    core::write_ply(path, input_positions, triangles, {&of_vertices, 1}, {&of_faces, 1}, provenance.lines());
+    const std::vector<Color> palette = color_labels(field.mesh(), labels.vertex, labels.triangle);
+    const PlyColors vertex_colors(to_bytes(label_colors(at_vertices, palette)));
+    const PlyColors face_colors(to_bytes(label_colors(at_triangles, palette)));
+    std::vector<core::PropertyView> of_vertices = {{labels.name, std::span<const std::int32_t>(at_vertices)}};
+    std::vector<core::PropertyView> of_faces = {{labels.name, std::span<const std::int32_t>(at_triangles)}};
+    vertex_colors.add_to(of_vertices);
+    face_colors.add_to(of_faces);
+    core::write_ply(path, input_positions, triangles, of_vertices, of_faces, provenance.lines());
     return files;
   }
   const std::vector<double> values = by_input_vertex(field, numbering);

@@ -1,5 +1,5 @@
 #pragma once
-/// Labels of vertices and triangles as files: PLY, VTP, text, and for FreeSurfer and GIFTI.
+/// Labels of vertices and triangles as files: PLY, VTP, GLB, text, and for FreeSurfer and GIFTI.
 
 #include <filesystem>
 #include <span>
@@ -21,9 +21,11 @@ struct Labels {
 
 /// Writes labels in the vertex numbers of the input file; an input vertex that the mesh does not have gets
 /// −1, one that repair split the label of its first copy:
-///   .ply  the surface (binary), the labels as int properties of vertices and faces
+///   .ply  the surface (binary), the labels as int properties of vertices and faces, and a colour for each,
+///         different from those of its neighbours (ply_colors.h)
 ///   .vtp  the surface, the labels as arrays of points and cells, and `field` as an array `field_name` of
 ///         points
+///   .glb  the surface, a colour for each label (glb_scene.h)
 ///   .txt  two files, a label a line below lines that begin with #: NAME.vertices.txt, and NAME.faces.txt in
 ///         the order of the faces of the others
 ///   .annot, .label.gii  the labels of vertices, for FreeSurfer and GIFTI (brain_files.h)

@@ -8,20 +8,24 @@
 
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/study/made_points.h"
 
 namespace morsel::tools {
 
 /// Writes the points in the order in which they were chosen, with the vertex numbers of the input file:
-///   .csv  a row for each: vertex, x, y, z, type, multiplicity, value, persistence, rank, distance,
-///   percentile, field
-///   .ply, .vtp  a point for each, with the numbers among these as properties or arrays: `type` is 1 for
-///   minima, 2 for saddles, 3 for maxima, `field` 0, or 1 where the field that fills up has the point
+///   .csv  a row for each: vertex, x, y, z, type, type_code, multiplicity, value, persistence, rank,
+///   distance, percentile, field; the provenance in comments below them .ply, .vtp  a point for each, with
+///   the numbers among these as properties or arrays: `type` (type_code of the table) is 1 for minima, 2 for
+///   saddles, 3 for maxima, `field` 0, or 1 where the field that fills up has the point; persistence is
+///   finite, with `essential` (finite_persistence.h). .ply has the colours of the types, and `value` again as
+///   `quality` (ply_colors.h). .glb  the surface in the colours of the field, and the points on it
+///   (glb_scene.h)
 /// Infinite numbers are "inf"; a percentile that was not asked for is empty, or nan. Throws InvalidArgument
 /// on another ending, WriteFailed where writing fails.
-void write_points(const std::filesystem::path& path, const MadePoints& made, const core::LoadedMesh& loaded,
-                  const std::string& field_name, const Provenance& provenance);
+void write_points(const std::filesystem::path& path, const MadePoints& made, const FieldSource& source,
+                  const Provenance& provenance);
 
 /// The table (.csv) alone, at any path; `sync` as FileWriter's.
 void write_points_table(const core::FileTarget& target, const MadePoints& made,

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <stdexcept>
 
 #include "morsel/core/text/numbers.h"
 
@@ -21,7 +22,7 @@ bool is_number(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  if (text.find_first_of(",\"#\r\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
@@ -49,9 +50,27 @@ void CsvLine::add_json(const Json& value) {
 }
 
 void CsvLine::add_raw(std::string_view field) {
-  if (!first_) line_ += ',';
-  first_ = false;
+  if (fields_ > 0) line_ += ',';
+  ++fields_;
   line_ += field;
+}
+
+CsvTable::CsvTable(std::ostream& out, const std::vector<std::string>& columns)
+    : out_(out), columns_(columns.size()) {
+  CsvLine names;
+  for (const std::string& column : columns) names.add(column);
+  out_ << names.text() << '\n';
+}
+
+void CsvTable::add(const CsvLine& row) {
+  if (row.fields() != columns_)
+    throw std::logic_error("a row of " + std::to_string(row.fields()) + " fields in a table of " +
+                           std::to_string(columns_) + " columns");
+  out_ << row.text() << '\n';
+}
+
+void CsvTable::end(const std::vector<std::string>& comments) {
+  for (const std::string& line : comments) out_ << "# " << line << '\n';
 }
 
 }  // namespace morsel::tools

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "morsel/core/parallel/stop.h"
+#include "morsel/tools/formats/base64.h"
+#include "morsel/tools/formats/markup.h"
 
 namespace morsel::tools {
 
@@ -75,7 +77,7 @@ VtpCells::VtpCells(std::span<const core::Triangle> triangles, std::size_t points
 
 namespace {
 
-/// Writes the XML head with each array's place in the appended block, then the block itself.
+/// Writes the arrays into the XML itself, as base64: ParaView 5.11 refuses raw appended data.
 class VtpWriter {
  public:
   VtpWriter(const core::FileTarget& target, const VtpDocument& document, core::Sync sync)
@@ -99,21 +101,7 @@ class VtpWriter {
     cells("Verts", document_.vertices);
     cells("Lines", document_.lines);
     cells("Polys", document_.polygons);
-    file_.write("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
-    for (const VtpArray& array : appended_) {
-      const std::uint64_t bytes = array.bytes;
-      file_.write_bytes(&bytes, sizeof bytes);
-      for (const std::span<const std::byte> piece : array.pieces) {
-        constexpr std::size_t kPart = std::size_t{1} << 24;
-        for (std::size_t first = 0; first < piece.size(); first += kPart) {
-          core::throw_if_stopped();
-          file_.write_bytes(piece.data() + first, std::min(kPart, piece.size() - first));
-        }
-      }
-      if (array.value && array.type == std::string_view("Int32")) write_values<std::int32_t>(array);
-      if (array.value && array.type == std::string_view("Int64")) write_values<std::int64_t>(array);
-    }
-    file_.write("\n</AppendedData>\n</VTKFile>\n");
+    file_.write("</Piece>\n</PolyData>\n</VTKFile>\n");
     file_.commit();
   }
 
@@ -124,24 +112,20 @@ class VtpWriter {
     VtpArray array("provenance", std::span<const std::uint8_t>());
     array.bytes = text.size();
     array.pieces = {std::as_bytes(text)};
-    file_.write(R"(<FieldData>
-<Array type="String" Name="provenance" NumberOfTuples="1" format="appended" offset=")" +
-                std::to_string(offset_) + "\"/>\n</FieldData>\n");
-    append(array);
-  }
-
-  void append(const VtpArray& array) {
-    offset_ += sizeof(std::uint64_t) + array.bytes;
-    appended_.push_back(array);
+    file_.write(
+        "<FieldData>\n<Array type=\"String\" Name=\"provenance\" NumberOfTuples=\"1\" "
+        "format=\"binary\">\n");
+    contents(array);
+    file_.write("</Array>\n</FieldData>\n");
   }
 
   void section(const std::string& name, const std::vector<VtpArray>& arrays) {
     file_.write("<" + name + ">\n");
     for (const VtpArray& array : arrays) {
-      file_.write("<DataArray type=\"" + std::string(array.type) + "\" Name=\"" + array.name +
-                  "\" NumberOfComponents=\"" + std::to_string(array.components) +
-                  "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n");
-      append(array);
+      file_.write("<DataArray type=\"" + std::string(array.type) + "\" Name=\"" + markup_text(array.name) +
+                  "\" NumberOfComponents=\"" + std::to_string(array.components) + "\" format=\"binary\">\n");
+      contents(array);
+      file_.write("</DataArray>\n");
     }
     file_.write("</" + name + ">\n");
   }
@@ -150,22 +134,48 @@ class VtpWriter {
     section(name, {cells.connectivity, cells.offsets});
   }
 
+  /// The number of bytes and the bytes, one run of base64.
+  void contents(const VtpArray& array) {
+    const std::uint64_t bytes = array.bytes;
+    encode(std::as_bytes(std::span(&bytes, 1)));
+    for (const std::span<const std::byte> piece : array.pieces) {
+      constexpr std::size_t kPart = std::size_t{3} << 16;
+      for (std::size_t first = 0; first < piece.size(); first += kPart)
+        encode(piece.subspan(first, std::min(kPart, piece.size() - first)));
+    }
+    if (array.value && array.type == std::string_view("Int32")) write_values<std::int32_t>(array);
+    if (array.value && array.type == std::string_view("Int64")) write_values<std::int64_t>(array);
+    encoder_.finish(text_);
+    text_ += '\n';
+    flush();
+  }
+
+  void encode(std::span<const std::byte> bytes) {
+    core::throw_if_stopped();
+    encoder_.encode(bytes, text_);
+    flush();
+  }
+
+  void flush() {
+    file_.write(text_);
+    text_.clear();
+  }
+
   template <class Int>
   void write_values(const VtpArray& array) {
     std::array<Int, 4096> buffer;
     const std::size_t count = array.bytes / sizeof(Int);
     for (std::size_t first = 0; first < count; first += buffer.size()) {
-      core::throw_if_stopped();
       const std::size_t some = std::min(buffer.size(), count - first);
       for (std::size_t i = 0; i < some; ++i) buffer[i] = static_cast<Int>(array.value(first + i));
-      file_.write_bytes(buffer.data(), some * sizeof(Int));
+      encode(std::as_bytes(std::span(buffer.data(), some)));
     }
   }
 
   core::FileWriter file_;
   const VtpDocument& document_;
-  std::vector<VtpArray> appended_;
-  std::uint64_t offset_ = 0;
+  Base64Encoder encoder_;
+  std::string text_;
 };
 
 }  // namespace

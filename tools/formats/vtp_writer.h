@@ -61,7 +61,8 @@ struct VtpDocument {
   std::string provenance;  ///< the field array of that name, one string; none if it is empty
 };
 
-/// Writes binary (raw appended) data, whole or not at all. Throws WriteFailed.
+/// Writes binary data within the XML (base64), of which a small part at a time is in memory; the file is
+/// whole or not there at all. Throws WriteFailed.
 void write_vtp(const core::FileTarget& target, const VtpDocument& document,
                core::Sync sync = core::Sync::when_replacing);
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "morsel/tools/render/colormap.h"
+#include "morsel/tools/color/colormap.h"
 #include "morsel/tools/render/image.h"
 
 namespace morsel::tools::render {

@@ -6,6 +6,7 @@
 
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/core/parallel/stop.h"
+#include "morsel/tools/color/surface_colors.h"
 
 namespace morsel::tools::render {
 namespace {
@@ -14,9 +15,6 @@ using core::Index;
 using core::kNone;
 using core::Point;
 using core::TriangleMesh;
-
-const Color kDescendingColor = from_hex(0x24425f);
-const Color kAscendingColor = from_hex(0x6b2a24);
 
 /// Arcs are not smoothed at vertices with more triangles. These are slivers whose bounding boxes lie one in
 /// another, so that a ray passes a share of them, and rays for all arcs there would take quadratic time.
@@ -228,23 +226,6 @@ void add_step(Scene& scene, const Rays& rays, const Knot& a, const Knot& b, doub
 
 }  // namespace
 
-GlyphSizes glyph_sizes(const Body& body, std::size_t points) {
-  const double spacing = points > 0 ? std::sqrt(body.area / static_cast<double>(points)) : 1;
-  const double ball = std::clamp(0.13 * spacing, 0.0025, 0.0085);
-  return {ball, std::clamp(0.4 * ball, 0.0011, 0.0026)};
-}
-
-Color color_of(morse::CriticalType type) {
-  switch (type) {
-    case morse::CriticalType::minimum:
-      return from_hex(0x1f4fd0);
-    case morse::CriticalType::maximum:
-      return from_hex(0xd01c1f);
-    default:
-      return from_hex(0x1fa040);
-  }
-}
-
 void add_points(Scene& scene, const morse::CriticalPoints& points, double radius,
                 std::span<const Index> places) {
   for (std::size_t i = 0; i < points.points.size(); ++i) {
@@ -266,7 +247,7 @@ void add_arcs(Scene& scene, const Rays& rays, const mscomplex::MorseSmaleComplex
   for (const Net::Step& step : net.steps) {
     core::throw_if_stopped();
     add_step(scene, rays, net.knots[step.a], net.knots[step.b], radius,
-             step.descending ? kDescendingColor : kAscendingColor, 5);
+             color_of(step.descending ? mscomplex::ArcKind::descending : mscomplex::ArcKind::ascending), 5);
   }
 }
 

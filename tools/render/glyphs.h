@@ -1,7 +1,6 @@
 #pragma once
 /// Critical points as spheres and arcs as tubes.
 
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -12,19 +11,6 @@
 #include "morsel/tools/render/scene.h"
 
 namespace morsel::tools::render {
-
-/// Radii in the body's unit.
-struct GlyphSizes {
-  double ball;
-  double tube;
-};
-
-/// Large enough to be visible and small enough that `points` of them, spread over the surface, do not hide
-/// it.
-GlyphSizes glyph_sizes(const Body& body, std::size_t points);
-
-/// The paper's colours: minima blue, saddles green, maxima red.
-Color color_of(morse::CriticalType type);
 
 /// Adds a sphere at each point, more than half of it above the surface. `places`, if not empty, are the
 /// vertices to put them at instead.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "morsel/tools/color/value_scale.h"
 #include "morsel/tools/render/canvas.h"
-#include "morsel/tools/render/value_scale.h"
 
 namespace morsel::tools::render {
 

@@ -6,12 +6,13 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/tools/color/mark_sizes.h"
+#include "morsel/tools/color/regions.h"
 #include "morsel/tools/render/best_view.h"
 #include "morsel/tools/render/canvas.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/glyphs.h"
 #include "morsel/tools/render/inset.h"
-#include "morsel/tools/render/regions.h"
 #include "morsel/tools/render/tracer.h"
 
 namespace morsel::tools::render {
@@ -109,7 +110,7 @@ Image Studio::take(const View& view, const Subject& subject, const PictureReques
   if (measured) {
     const morse::CriticalPoints& points =
         subject.points != nullptr ? *subject.points : subject.measurement->critical_points;
-    GlyphSizes sizes = glyph_sizes(body_, points.total());
+    MarkSizes sizes = mark_sizes(body_.area, points.total());
     if (request.close_up) {
       sizes.ball = std::min(sizes.ball, kCloseBall * radius_of(*request.close_up));
       sizes.tube = std::min(sizes.tube, 0.4 * sizes.ball);

@@ -10,12 +10,12 @@
 #include "morsel/core/mesh/length.h"
 #include "morsel/core/parallel/progress.h"
 #include "morsel/mscomplex/segmentation.h"
+#include "morsel/tools/color/value_scale.h"
 #include "morsel/tools/render/body.h"
 #include "morsel/tools/render/camera.h"
 #include "morsel/tools/render/image.h"
 #include "morsel/tools/render/legend.h"
 #include "morsel/tools/render/rays.h"
-#include "morsel/tools/render/value_scale.h"
 #include "morsel/tools/study/comparison.h"
 
 namespace morsel::tools::render {

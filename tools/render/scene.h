@@ -5,9 +5,10 @@
 #include <variant>
 #include <vector>
 
+#include "morsel/tools/color/color.h"
+#include "morsel/tools/color/colormap.h"
+#include "morsel/tools/color/regions.h"
 #include "morsel/tools/render/body.h"
-#include "morsel/tools/render/color.h"
-#include "morsel/tools/render/colormap.h"
 #include "morsel/tools/render/rays.h"
 
 namespace morsel::tools::render {
@@ -17,13 +18,6 @@ namespace morsel::tools::render {
 struct ValueColors {
   std::vector<float> values;
   Colormap map;
-};
-
-/// A colour for each third of each triangle, that of the corner with the largest barycentric weight: entry 3t
-/// + i for corner i. So a region may be made of triangles, of vertices' dual cells, or of both.
-struct RegionColors {
-  std::vector<std::uint32_t> corner;  ///< into `palette`
-  std::vector<Color> palette;
 };
 
 using SurfaceColors = std::variant<Color, ValueColors, RegionColors>;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
+#include "morsel/tools/color/color.h"
 #include "morsel/tools/render/caption.h"
-#include "morsel/tools/render/color.h"
 
 namespace morsel::tools::render {
 namespace {

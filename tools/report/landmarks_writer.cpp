@@ -133,9 +133,32 @@ void write_landmarks(JsonSink& json, const LandmarksReport& report) {
 }
 
 void write_landmarks_csv(std::ostream& out, const LandmarksReport& report) {
-  out << "version,mesh,sha256,marks_file,marks_sha256,seed,radius,spacing,kind,rank,field,field_parameters,"
-         "method,method_parameters,fill_parameters,marks,wanted,points,recall,precision,f_score,"
-         "matched_recall,matched_precision,matched_f_score,false_negatives,false_positives\n";
+  CsvTable table(out, {"version",
+                       "mesh",
+                       "sha256",
+                       "marks_file",
+                       "marks_sha256",
+                       "seed",
+                       "radius",
+                       "spacing",
+                       "kind",
+                       "rank",
+                       "field",
+                       "field_parameters",
+                       "method",
+                       "method_parameters",
+                       "fill_parameters",
+                       "marks",
+                       "wanted",
+                       "points",
+                       "recall",
+                       "precision",
+                       "f_score",
+                       "matched_recall",
+                       "matched_precision",
+                       "matched_f_score",
+                       "false_negatives",
+                       "false_positives"});
   const LandmarksPlan& plan = report.plan;
   for (std::size_t i = 0; i < report.meshes.size(); ++i) {
     const LandmarksOnMesh& mesh = report.meshes[i];
@@ -163,7 +186,7 @@ void write_landmarks_csv(std::ostream& out, const LandmarksReport& report) {
       line.add(std::uint64_t{mesh.marks});
       line.add(std::uint64_t{mesh.wanted});
       add_scores(line, made);
-      out << line.text() << '\n';
+      table.add(line);
     }
   }
 }

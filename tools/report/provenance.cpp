@@ -5,6 +5,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_content.h"
+#include "morsel/tools/formats/base64.h"
 #include "morsel/tools/formats/json_view.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -15,6 +16,9 @@ namespace {
 
 constexpr std::string_view kBegin = R"({"schema":"morsel.provenance/1")";
 constexpr std::string_view kBeginInTable = R"({""schema"":""morsel.provenance/1"")";
+constexpr std::string_view kBeginInMarkup = "{&quot;schema&quot;:&quot;morsel.provenance/1&quot;";
+constexpr std::string_view kBeginInArray =
+    R"("schema":"morsel.provenance/1")";  // of a .vtp file, after a brace
 constexpr std::size_t kLine = 150;
 constexpr std::size_t kMost = 1 << 20;  // bytes of a provenance; the rest of the file may be large
 
@@ -78,6 +82,32 @@ std::string table_field(std::string_view text) {
     field += text[i];
   }
   return field;
+}
+
+/// Text of XML up to the next tag, without its entities.
+std::string markup_content(std::string_view text) {
+  std::string content(text.substr(0, text.find('<')));
+  replace_all(content, "&quot;", "\"");
+  replace_all(content, "&apos;", "'");
+  replace_all(content, "&lt;", "<");
+  replace_all(content, "&gt;", ">");
+  replace_all(content, "&amp;", "&");
+  return content;
+}
+
+/// Where an array of bytes that begins with an object of kBegin has its digits: of the last two bytes of its
+/// size, and of the brace. So three bytes stand before kBeginInArray, whose own digits are whole groups.
+std::size_t find_in_array(std::string_view bytes) {
+  static_assert(kBeginInArray.size() % 3 == 0);
+  static const std::string kDigits = base64(kBeginInArray);
+  const std::size_t at = bytes.find(kDigits);
+  return at == std::string_view::npos || at < 4 ? std::string_view::npos : at - 4;
+}
+
+/// What the digits from there on encode, without what stands before the object; empty if they are cut off.
+std::string array_content(std::string_view digits) {
+  const std::string bytes = decoded_base64(digits).value_or(std::string());
+  return bytes.substr(std::min(bytes.size(), std::size_t{2}));
 }
 
 /// Checks it against provenance.schema.json.
@@ -179,6 +209,10 @@ Json find_provenance(std::string_view bytes) {
     text = marked_lines(bytes.substr(0, at + std::min(kMost, bytes.size() - at)), at);
   else if (const std::size_t in_table = bytes.find(kBeginInTable); in_table != std::string_view::npos)
     text = table_field(bytes.substr(in_table, kMost));
+  else if (const std::size_t in_markup = bytes.find(kBeginInMarkup); in_markup != std::string_view::npos)
+    text = markup_content(bytes.substr(in_markup, kMost));
+  else if (const std::size_t in_array = find_in_array(bytes); in_array != std::string_view::npos)
+    text = array_content(bytes.substr(in_array, kMost));
   else
     return {};
   const std::string_view object = first_object(text);

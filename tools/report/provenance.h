@@ -25,9 +25,10 @@ namespace morsel::tools {
 /// same bytes.
 ///
 /// JSON documents have the same in members of their own; the other formats hold this object: as a PNG's
-/// comment, in an SVG's <metadata>, as a .vtp file's field array "provenance", in a page's last comment, in
-/// comment lines of meshes and texts (joined without their marks, they are the object), in the
-/// first row of a table's column "provenance". find_provenance() reads it back from any of them.
+/// comment, in an SVG's <metadata>, as a .vtp file's field array "provenance", as a .graphml file's property
+/// of the graph, in a .glb file's asset.extras, in a page's last comment, in comment lines of meshes, texts
+/// and tables (joined without their marks, they are the object). find_provenance() reads it back from any of
+/// them, and from the column "provenance" of earlier tables.
 class Provenance {
  public:
   Provenance(std::string_view command, Json request, const std::vector<HashedFile>& inputs);

@@ -167,11 +167,21 @@ void write_stability(JsonSink& json, const StabilityReport& report) {
 }
 
 void write_stability_csv(std::ostream& out, const StabilityReport& report) {
-  out << "version,mesh,sha256,seed,radius,compared,field,field_parameters,method,method_parameters,target,"
-         "clean_points,agreement,agreement_chance,perturbation,amount,kind,trials,points,points_half_width,f_"
-         "score,"
-         "f_score_half_width,recall,recall_half_width,precision,precision_half_width,drift,drift_half_width,"
-         "chance,chance_half_width\n";
+  CsvTable table(out, {"version",      "mesh",
+                       "sha256",       "seed",
+                       "radius",       "compared",
+                       "field",        "field_parameters",
+                       "method",       "method_parameters",
+                       "target",       "clean_points",
+                       "agreement",    "agreement_chance",
+                       "perturbation", "amount",
+                       "kind",         "trials",
+                       "points",       "points_half_width",
+                       "f_score",      "f_score_half_width",
+                       "recall",       "recall_half_width",
+                       "precision",    "precision_half_width",
+                       "drift",        "drift_half_width",
+                       "chance",       "chance_half_width"});
   const StabilityResult& result = report.result;
   std::vector<Json> parameters;
   parameters.reserve(result.fields.size());
@@ -205,7 +215,7 @@ void write_stability_csv(std::ostream& out, const StabilityReport& report) {
       add(line, perturbed.precision());
       add(line, in_edges(perturbed.drift(), result.mean_edge_length));
       add(line, perturbed.chance());
-      out << line.text() << '\n';
+      table.add(line);
     }
 }
 

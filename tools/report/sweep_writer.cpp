@@ -92,15 +92,14 @@ void write_sweep(JsonSink& json, const SweepReport& report) {
 }
 
 void write_sweep_csv(std::ostream& out, const SweepReport& report) {
-  CsvLine head;
-  for (const char* column : {"version", "mesh", "sha256", "field", "method"}) head.add(column);
-  for (const Variation& variation : report.plan.variations) head.add(variation.key);
+  std::vector<std::string> columns = {"version", "mesh", "sha256", "field", "method"};
+  for (const Variation& variation : report.plan.variations) columns.push_back(variation.key);
   for (const char* column : {"iterations_run", "minima", "saddles", "saddle_multiplicity", "maxima", "total",
                              "pairs", "infinite_pairs", "essential_saddles", "largest_persistence",
                              "pairs_over_0.1_percent", "pairs_over_1_percent", "pairs_over_5_percent", "min",
                              "max", "field_parameters", "method_parameters", "seconds"})
-    head.add(column);
-  out << head.text() << '\n';
+    columns.emplace_back(column);
+  CsvTable table(out, columns);
   for (std::size_t i = 0; i < report.rows.size(); ++i) {
     const Combination& combination = report.plan.combinations[i];
     const SweepRow& row = report.rows[i];
@@ -125,7 +124,7 @@ void write_sweep_csv(std::ostream& out, const SweepReport& report) {
     line.add_json(field_parameters(row.field, report.files));
     line.add_json(parameters_section(row.steps));
     line.add(row.seconds.sum());
-    out << line.text() << '\n';
+    table.add(line);
   }
 }
 

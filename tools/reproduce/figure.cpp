@@ -60,9 +60,9 @@ class SharedScales {
  public:
   void add(const PanelRecipe& panel, const core::ScalarField& field) {
     if (panel.scale.empty() || panel.show != Show::field) return;
-    const render::ValueScale scale = render::choose_scale(field.values());
+    const ValueScale scale = choose_scale(field.values());
     const auto [place, is_new] = requests_.try_emplace(panel.scale);
-    render::ScaleRequest& request = place->second;
+    ScaleRequest& request = place->second;
     if (is_new) {
       request.limits = {scale.low, scale.high};
       request.colormap = scale.map.name();
@@ -70,13 +70,13 @@ class SharedScales {
     request.limits = {rounded_out(std::min(request.limits->first, scale.low)),
                       rounded_out(std::max(request.limits->second, scale.high))};
   }
-  render::ScaleRequest of(const PanelRecipe& panel) const {
+  ScaleRequest of(const PanelRecipe& panel) const {
     const auto found = requests_.find(panel.scale);
-    return found == requests_.end() || panel.show != Show::field ? render::ScaleRequest{} : found->second;
+    return found == requests_.end() || panel.show != Show::field ? ScaleRequest{} : found->second;
   }
 
  private:
-  std::map<std::string_view, render::ScaleRequest> requests_;
+  std::map<std::string_view, ScaleRequest> requests_;
 };
 
 /// The arguments of `morsel render` that make the panel, without its output.

@@ -116,8 +116,8 @@ Reproduction run(const Prepared& prepared, const core::Progress& progress) {
     });
   reproduction.timings.emplace_back("total", total.seconds());
 
-  csv.write(table_csv(reproduction.table));
-  controls.write(controls_csv(reproduction.controls));
+  write_table_csv(csv.stream(), reproduction.table);
+  write_controls_csv(controls.stream(), reproduction.controls);
   JsonStream json(json_file.stream());
   write_document(json, prepared, reproduction);
   page.write(make_page(prepared, reproduction));

@@ -53,13 +53,13 @@ std::vector<core::Index> ranked_extrema(const Model& model, const MethodRun& run
 }
 
 /// What both tables end with: version, the mesh's hash, and all resolved parameters.
-std::string origin_fields(const Model& model, const MethodRun& run) {
-  return std::string(kVersion) + "," + model.sha256() + "," + std::string(kField) + "," +
-         csv_field(json_text(to_json(run.made.input.parameters))) + "," +
-         csv_field(json_text(parameters_section(run.made.outcome.steps))) + "\r\n";
+void add_origin(CsvLine& line, const Model& model, const MethodRun& run) {
+  line.add(kVersion);
+  line.add(model.sha256());
+  line.add(kField);
+  line.add_json(to_json(run.made.input.parameters));
+  line.add_json(parameters_section(run.made.outcome.steps));
 }
-
-std::string optional_field(const std::optional<double>& value) { return value ? core::shortest(*value) : ""; }
 
 }  // namespace
 
@@ -88,36 +88,48 @@ std::vector<ControlOutcome> make_controls(const std::vector<std::unique_ptr<Mode
   return outcomes;
 }
 
-std::string table_csv(const std::vector<TableRowOutcome>& table) {
-  std::string text =
-      "model,mesh,vertices,figure,iterations,method,points,paper_points,seconds,paper_seconds,percentile,"
-      "version,sha256,field,field_parameters,method_parameters\r\n";
-  for (const TableRowOutcome& row : table)
-    for (const TableCell& cell : row.cells)
-      text += std::string(row.model->recipe().name) + "," +
-              csv_path(row.model->file().path.filename().string()) + "," +
-              std::to_string(row.model->mesh().vertex_count()) + "," + std::string(row.recipe->figure) + "," +
-              std::to_string(row.recipe->iterations) + "," + csv_field(cell.run->plan.chain.specification) +
-              "," + std::to_string(cell.run->total()) + "," +
-              (row.recipe->paper_points ? std::to_string(*row.recipe->paper_points) : "") + "," +
-              core::shortest(cell.run->seconds) + "," + optional_field(row.recipe->paper_seconds) + "," +
-              optional_field(cell.percentile) + "," + origin_fields(*row.model, *cell.run);
-  return text;
+void write_table_csv(std::ostream& out, const std::vector<TableRowOutcome>& rows) {
+  CsvTable table(out, {"model", "mesh", "vertices", "figure", "iterations", "method", "points",
+                       "paper_points", "seconds", "paper_seconds", "percentile", "version", "sha256", "field",
+                       "field_parameters", "method_parameters"});
+  for (const TableRowOutcome& row : rows)
+    for (const TableCell& cell : row.cells) {
+      CsvLine line;
+      line.add(row.model->recipe().name);
+      line.add_path(row.model->file().path.filename().string());
+      line.add(std::uint64_t{row.model->mesh().vertex_count()});
+      line.add(row.recipe->figure);
+      line.add(static_cast<std::uint64_t>(row.recipe->iterations));
+      line.add(cell.run->plan.chain.specification);
+      line.add(std::uint64_t{cell.run->total()});
+      line.add_json(row.recipe->paper_points ? Json(*row.recipe->paper_points) : Json());
+      line.add(cell.run->seconds);
+      line.add(row.recipe->paper_seconds);
+      line.add(cell.percentile);
+      add_origin(line, *row.model, *cell.run);
+      table.add(line);
+    }
 }
 
-std::string controls_csv(const std::vector<ControlOutcome>& controls) {
-  std::string text =
-      "model,mesh,figure,iterations,control,method,rank,points,extrema,percentile,version,sha256,field,"
-      "field_parameters,method_parameters\r\n";
-  for (const ControlOutcome& control : controls)
-    text += std::string(control.model->recipe().name) + "," +
-            csv_path(control.model->file().path.filename().string()) + "," +
-            std::string(control.row->figure) + "," + std::to_string(control.row->iterations) + "," +
-            csv_field(control.recipe->title) + "," + csv_field(control.run->plan.chain.specification) + "," +
-            (control.recipe->rank ? std::string(to_string(*control.recipe->rank)) : "") + "," +
-            std::to_string(control.run->total()) + "," + std::to_string(control.extrema) + "," +
-            optional_field(control.percentile) + "," + origin_fields(*control.model, *control.run);
-  return text;
+void write_controls_csv(std::ostream& out, const std::vector<ControlOutcome>& controls) {
+  CsvTable table(out,
+                 {"model", "mesh", "figure", "iterations", "control", "method", "rank", "points", "extrema",
+                  "percentile", "version", "sha256", "field", "field_parameters", "method_parameters"});
+  for (const ControlOutcome& control : controls) {
+    CsvLine line;
+    line.add(control.model->recipe().name);
+    line.add_path(control.model->file().path.filename().string());
+    line.add(control.row->figure);
+    line.add(static_cast<std::uint64_t>(control.row->iterations));
+    line.add(control.recipe->title);
+    line.add(control.run->plan.chain.specification);
+    line.add(control.recipe->rank ? std::string(to_string(*control.recipe->rank)) : "");
+    line.add(std::uint64_t{control.run->total()});
+    line.add(std::uint64_t{control.extrema});
+    line.add(control.percentile);
+    add_origin(line, *control.model, *control.run);
+    table.add(line);
+  }
 }
 
 std::string table_text(const Reproduction& reproduction) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The paper's Table 1 beside the results, and the controls.
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,10 @@ std::string method_of(const TableRow& row, const TableSetting& setting);
 /// A line for each row and setting: model, mesh, vertices, figure, iterations, method, points, paper_points,
 /// seconds, paper_seconds (empty where the paper has no number), percentile (the mean saliency percentile of
 /// the extrema, empty without one), version, the mesh's sha256, and all resolved parameters. RFC 4180.
-std::string table_csv(const std::vector<TableRowOutcome>& table);
+void write_table_csv(std::ostream& out, const std::vector<TableRowOutcome>& rows);
 
 /// A line for each control: model, mesh, figure, iterations, control, method, rank (empty: all extrema),
 /// points, extrema, percentile, version, sha256 and parameters as above. RFC 4180.
-std::string controls_csv(const std::vector<ControlOutcome>& controls);
+void write_controls_csv(std::ostream& out, const std::vector<ControlOutcome>& controls);
 
 }  // namespace morsel::tools::reproduce

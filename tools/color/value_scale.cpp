@@ -1,4 +1,4 @@
-#include "morsel/tools/render/value_scale.h"
+#include "morsel/tools/color/value_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/text/parameters.h"
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 namespace {
 
 /// The percentile of the values: a share of them lies below.
@@ -90,4 +90,4 @@ ValueScale choose_scale(std::span<const double> given, const ScaleRequest& reque
   return {std::move(map), low, high, center, *least<low, *largest> high};
 }
 
-}  // namespace morsel::tools::render
+}  // namespace morsel::tools

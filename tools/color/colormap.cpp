@@ -1,4 +1,4 @@
-#include "morsel/tools/render/colormap.h"
+#include "morsel/tools/color/colormap.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/text/nearest_name.h"
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 namespace {
 
 using Lab = Eigen::Vector3f;
@@ -104,4 +104,4 @@ std::vector<std::string> colormap_names() {
   return names;
 }
 
-}  // namespace morsel::tools::render
+}  // namespace morsel::tools

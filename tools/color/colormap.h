@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "morsel/tools/render/color.h"
+#include "morsel/tools/color/color.h"
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 
 /// A path through the colours.
 class Colormap {
@@ -33,4 +33,4 @@ class Colormap {
 /// the upper.
 std::vector<std::string> colormap_names();
 
-}  // namespace morsel::tools::render
+}  // namespace morsel::tools

@@ -1,4 +1,4 @@
-#include "morsel/tools/render/regions.h"
+#include "morsel/tools/color/regions.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "morsel/core/parallel/parallel.h"
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 namespace {
 
 using core::Index;
@@ -196,4 +196,30 @@ RegionColors color_segments(const core::TriangleMesh& mesh, const mscomplex::Seg
   return result;
 }
 
-}  // namespace morsel::tools::render
+std::vector<Color> color_labels(const core::TriangleMesh& mesh, std::span<const Index> vertex,
+                                std::span<const Index> triangle) {
+  Index labels = 0;
+  for (const std::span<const Index> list : {vertex, triangle})
+    for (const Index label : list) labels = std::max(labels, label + 1);
+  std::vector<Edge> edges;
+  const auto meet = [&](Index a, Index b) {
+    if (a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
+  };
+  for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+    const Index here = triangle[core::TriangleMesh::triangle_of(h)];
+    meet(here, vertex[mesh.origin(h)]);
+    meet(vertex[mesh.origin(h)], vertex[mesh.target(h)]);
+    const Index twin = mesh.twin(h);
+    if (twin != core::kNone) meet(here, triangle[core::TriangleMesh::triangle_of(twin)]);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<Color> palette;
+  const std::vector<std::uint32_t> numbers = color_graph(labels, edges, palette);
+  std::vector<Color> colors;
+  colors.reserve(labels);
+  for (const std::uint32_t number : numbers) colors.push_back(palette[number]);
+  return colors;
+}
+
+}  // namespace morsel::tools

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 
 /// Linear light, red, green and blue of sRGB's primaries, in [0, 1].
 using Color = Eigen::Vector3f;
@@ -21,4 +21,4 @@ Eigen::Vector3f to_oklab(const Color& color);
 /// The inverse; may lie outside [0, 1].
 Color from_oklab(const Eigen::Vector3f& lab);
 
-}  // namespace morsel::tools::render
+}  // namespace morsel::tools

@@ -1,9 +1,9 @@
-#include "morsel/tools/render/color.h"
+#include "morsel/tools/color/color.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 namespace {
 
 float decoded(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
@@ -42,4 +42,4 @@ Color from_oklab(const Eigen::Vector3f& lab) {
           -0.0041960863f * l - 0.7034186147f * m + 1.7076147010f * s};
 }
 
-}  // namespace morsel::tools::render
+}  // namespace morsel::tools

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "morsel/tools/render/colormap.h"
+#include "morsel/tools/color/colormap.h"
 
-namespace morsel::tools::render {
+namespace morsel::tools {
 
 /// The request, before the values are known.
 struct ScaleRequest {
@@ -48,4 +48,4 @@ struct ValueScale {
 /// O(n).
 ValueScale choose_scale(std::span<const double> values, const ScaleRequest& request = {});
 
-}  // namespace morsel::tools::render
+}  // namespace morsel::tools
