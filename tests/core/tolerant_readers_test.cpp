@@ -78,7 +78,7 @@ TEST_CASE("numbers of an OFF file may be on any lines") {
 TEST_CASE("an OFF file that has too few numbers or others is refused in one sentence") {
   const auto read = [](const std::string& rest) { return parsed("OFF\n3 1 0\n" + rest, MeshFormat::off); };
   CHECK(polygons(read("0 0 0 1 0 0\n0 1 0 3\n0 1 2")) == Polygons{{0, 1, 2}});
-  CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1 0 3\n0 1"), Contains("it ends at line 4, after 0 of 1 faces"));
+  CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1 0 3\n0 1"), Contains("it ends at line 5, after 0 of 1 faces"));
   CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1      "), Contains("it ends at line 4, after 2 of 3 vertices"));
   CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1 0\n3 0 1"), Contains("it ends at line 5, after 0 of 1 faces"));
   CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1 0\n3 0 1 3"), Contains("line 5: face 0 names vertex 3"));
