@@ -101,8 +101,11 @@ class Weld(ProgramTest):
                 else:
                     self.validate(outputs.values(), command, [self.told])
                 joined = run(self.mesh, "--weld")
-                self.assertEqual(joined.returncode, 0, joined.stderr)
                 self.assertNotIn("coincide", joined.stderr)
+                if command == "quads":  # the height of a sphere has no saddle
+                    self.assertIn("there is no quad layout", joined.stderr)
+                    continue
+                self.assertEqual(joined.returncode, 0, joined.stderr)
                 self.validate(outputs.values(), command, None)
 
     def validate(self, endings, command, warnings):
