@@ -77,8 +77,8 @@ class Terrain(ProgramTest):
         (self.folder / "t.tif").write_bytes(float_tiff(GRID))
         result = self.morsel("info", "t.tif", code=None)
         if result.returncode == 2:
-            self.assertIn("this morsel was built without GeoTIFF: build it with -DMORSEL_WITH_GEOTIFF=ON, for "
-                          "which the package libgdal-dev is needed", result.stderr)
+            self.assertIn("this morsel was built without GeoTIFF: build it with -DMORSEL_WITH_GEOTIFF=ON, "
+                          "for which the package libgdal-dev is needed", result.stderr)
             return False
         return True
 
