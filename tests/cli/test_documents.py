@@ -97,7 +97,7 @@ class Depth(Documents):
             "n.vtp": f'<VTKFile><Array format="binary">\n{in_array}\n</Array></VTKFile>',
             "m.graphml": '<graphml><graph><data key="key0">' + DEEP_PROVENANCE.replace('"', "&quot;")
                          + "</data></graph></graphml>",
-            "m.glb": 'glTF{"asset":{"extras":{"provenance":' + DEEP_PROVENANCE + "}}}",
+            "m.bin": 'glTF{"asset":{"extras":{"provenance":' + DEEP_PROVENANCE + "}}}",
             "m.stl": f"solid {DEEP_PROVENANCE}\nendsolid\n",
         }
         for name, text in files.items():
