@@ -1,6 +1,7 @@
 #pragma once
 /// The options of residues at segments, the same in all commands that make segments of molecular surfaces.
 
+#include <span>
 #include <string>
 #include <vector>
 
