@@ -44,7 +44,7 @@ class AnnotationReader {
     ValueFile result{std::vector<double>(count, -1), entry_place};
     for (const Labelled& one : labelled) {
       const auto known = number_.find(one.color);
-      result.values[one.vertex] = one.color == 0 || known == number_.end() ? -1 : known->second;
+      result.values[one.vertex] = one.color == 0 || known == number_.end() ? -1.0 : known->second;
     }
     return result;
   }
