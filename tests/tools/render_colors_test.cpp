@@ -16,7 +16,6 @@
 using namespace morsel;
 using namespace morsel::test;
 using namespace morsel::tools;
-using namespace morsel::tools::render;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
 #include "morsel/morse/functions/height.h"
+#include "morsel/tools/color/surface_colors.h"
 #include "morsel/tools/render/caption.h"
 #include "morsel/tools/render/glyphs.h"
 #include "morsel/tools/render/picture.h"

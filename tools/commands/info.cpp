@@ -55,7 +55,7 @@ std::vector<core::Defect> try_to_make(const core::LoadedSoup& file, const core::
   }
 }
 
-Findings inspect(const MeshFile& mesh, const core::BuildOptions& options, const core::Progress& progress) {
+Findings inspect(const MeshOrigin& mesh, const core::BuildOptions& options, const core::Progress& progress) {
   const std::string path = mesh.path.string();
   Findings findings{read_polygon_soup(mesh, progress), std::nullopt, {}, {}};
   findings.defects = try_to_make(findings.file, options, path, progress, findings.loaded);
@@ -81,7 +81,7 @@ Json properties_section(const Findings& findings) {
 
 Json head_section() { return {{"schema", "morsel.info/1"}, {"tool", tool_section()}}; }
 
-Json as_json(const std::string& path, const MeshFile& file, const Findings& findings) {
+Json as_json(const std::string& path, const MeshOrigin& file, const Findings& findings) {
   Json document = head_section();
   document["valid"] = findings.loaded.has_value();
   if (findings.loaded) {
@@ -180,7 +180,7 @@ void print_provenance(const Json& provenance) {
 }
 
 /// A mesh is described though what it holds of its provenance is damaged.
-Json provenance_of(const std::string& path, const MeshFile& file, bool is_mesh, Console& console) {
+Json provenance_of(const std::string& path, const MeshOrigin& file, bool is_mesh, Console& console) {
   try {
     return file.bytes ? find_provenance(core::DecodedBytes(*file.bytes, path).view()) : read_provenance(path);
   } catch (const core::BadInput& error) {
@@ -192,7 +192,7 @@ Json provenance_of(const std::string& path, const MeshFile& file, bool is_mesh, 
 
 int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
-  const MeshFile file = mesh_file(options.file, run);
+  const MeshOrigin file = mesh_file(options.file, run);
   if (file.format || core::has_mesh_extension(options.file) || core::recognised_format(options.file))
     findings = inspect(file, run.common.build, run.console.progress());
   if (findings && options.json)  // which may go to another program

@@ -23,8 +23,8 @@ std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFile
                                         ResultFolder::Options{files.outputs(), run.console.stop_token()});
 }
 
-MeshFile mesh_file(const std::string& path, const Run& run) {
-  MeshFile file{path};
+MeshOrigin mesh_file(const std::string& path, const Run& run) {
+  MeshOrigin file{path};
   if (!run.common.format.empty()) file.format = core::mesh_format_named(run.common.format);
   if (path != kStandardInput) return file;
   if (!file.format)

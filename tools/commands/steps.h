@@ -38,7 +38,7 @@ struct MeshInput {
 };
 /// MESH as the command line names it: a file, or - for standard input, of which all is read at its first use.
 /// Throws InvalidArgument where - has no --format, BadInput as standard_input().
-MeshFile mesh_file(const std::string& path, const Run& run);
+MeshOrigin mesh_file(const std::string& path, const Run& run);
 /// `items`: whether documents list what grows with the mesh.
 MeshInput read_input(const std::string& path, const Run& run, bool items = true);
 

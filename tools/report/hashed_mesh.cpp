@@ -14,7 +14,7 @@ namespace {
 
 /// Returns the result of `read`, and the hash.
 template <class Hashed, class Read>
-Hashed read_hashed(const MeshFile& file, const Read& read) {
+Hashed read_hashed(const MeshOrigin& file, const Read& read) {
   std::optional<std::invoke_result_t<Read>> loaded;
   std::string hash;
   std::exception_ptr hash_error;  // if a file cannot be read, the reader's error is more specific
@@ -35,7 +35,7 @@ Hashed read_hashed(const MeshFile& file, const Read& read) {
 
 }  // namespace
 
-core::LoadedSoup read_polygon_soup(const MeshFile& file, const core::Progress& progress) {
+core::LoadedSoup read_polygon_soup(const MeshOrigin& file, const core::Progress& progress) {
   if (file.bytes && !file.format)
     throw core::InvalidArgument(file.path.string() +
                                 " has no name that says its format, which must be given");
@@ -44,11 +44,11 @@ core::LoadedSoup read_polygon_soup(const MeshFile& file, const core::Progress& p
   return core::read_polygon_soup(file.path, progress);
 }
 
-std::string sha256_of(const MeshFile& file) {
+std::string sha256_of(const MeshOrigin& file) {
   return file.bytes ? sha256_of(*file.bytes) : sha256_of_file(file.path);
 }
 
-HashedMesh read_hashed_mesh(const MeshFile& file, const core::BuildOptions& options,
+HashedMesh read_hashed_mesh(const MeshOrigin& file, const core::BuildOptions& options,
                             const core::Progress& progress) {
   return read_hashed<HashedMesh>(file, [&] {
     return core::make_mesh(read_polygon_soup(file, progress), file.path.string(), options, progress);
@@ -57,15 +57,15 @@ HashedMesh read_hashed_mesh(const MeshFile& file, const core::BuildOptions& opti
 
 HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::BuildOptions& options,
                             const core::Progress& progress) {
-  return read_hashed_mesh(MeshFile{path}, options, progress);
+  return read_hashed_mesh(MeshOrigin{path}, options, progress);
 }
 
 HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path, const core::BuildOptions& options,
                                        const core::Progress& progress) {
-  return read_hashed_whole_mesh(MeshFile{path}, options, progress);
+  return read_hashed_whole_mesh(MeshOrigin{path}, options, progress);
 }
 
-HashedWholeMesh read_hashed_whole_mesh(const MeshFile& file, const core::BuildOptions& options,
+HashedWholeMesh read_hashed_whole_mesh(const MeshOrigin& file, const core::BuildOptions& options,
                                        const core::Progress& progress) {
   return read_hashed<HashedWholeMesh>(file, [&] {
     return core::make_whole_mesh(read_polygon_soup(file, progress), file.path.string(), options, progress);

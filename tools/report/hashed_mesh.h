@@ -11,16 +11,16 @@
 namespace morsel::tools {
 
 /// Where a mesh is read from.
-struct MeshFile {
+struct MeshOrigin {
   std::filesystem::path path;                   ///< of the file; of bytes, what errors call them
   std::optional<core::MeshFormat> format = {};  ///< that of the extension if none is given
   std::optional<std::string_view> bytes = {};   ///< in place of a file, such as standard input; of `format`
 };
 
 /// core::read_polygon_soup() of it. Throws InvalidArgument for bytes without a format.
-core::LoadedSoup read_polygon_soup(const MeshFile& file, const core::Progress& progress = {});
+core::LoadedSoup read_polygon_soup(const MeshOrigin& file, const core::Progress& progress = {});
 /// sha256_of_file() of it.
-std::string sha256_of(const MeshFile& file);
+std::string sha256_of(const MeshOrigin& file);
 
 struct HashedMesh {
   core::LoadedMesh loaded;
@@ -31,7 +31,7 @@ struct HashedMesh {
 HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::BuildOptions& options = {},
                             const core::Progress& progress = {});
 
-HashedMesh read_hashed_mesh(const MeshFile& file, const core::BuildOptions& options = {},
+HashedMesh read_hashed_mesh(const MeshOrigin& file, const core::BuildOptions& options = {},
                             const core::Progress& progress = {});
 
 struct HashedWholeMesh {
@@ -43,7 +43,7 @@ struct HashedWholeMesh {
 HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path,
                                        const core::BuildOptions& options = {},
                                        const core::Progress& progress = {});
-HashedWholeMesh read_hashed_whole_mesh(const MeshFile& file, const core::BuildOptions& options = {},
+HashedWholeMesh read_hashed_whole_mesh(const MeshOrigin& file, const core::BuildOptions& options = {},
                                        const core::Progress& progress = {});
 
 }  // namespace morsel::tools

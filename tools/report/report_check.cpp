@@ -18,7 +18,7 @@ namespace {
 /// The report that the same request gives now.
 ReportDocument run_again(const LoadedReport& report, const std::filesystem::path& mesh_path,
                          const Registry& registry, const core::Progress& progress) {
-  MeshFile file{mesh_path};
+  MeshOrigin file{mesh_path};
   if (!report.format.empty()) file.format = core::mesh_format_named(report.format);
   const HashedMesh input = read_hashed_mesh(file, report.build, progress);
   ReportCollector again;
