@@ -96,8 +96,8 @@ TEST_CASE("FreeSurfer's surfaces go by their names") {
     CHECK(core::has_mesh_extension(name));
     CHECK(core::mesh_format(name) == core::MeshFormat::freesurfer);
   }
-  for (const char* name : {"lh.sulc", "lh.curv", "lh.curv.pial.x", "lh.white.H", "lh.aparc.annot",
-                           "lh.pial.asc", "white", "pial.lh", "lh.whitening", "lh.reg", "LH.white"}) {
+  for (const char* name : {"lh.sulc", "lh.curv", "lh.curv.pial.x", "lh.white.H", "lh.aparc.annot", "white",
+                           "pial.lh", "lh.whitening", "lh.reg", "LH.white"}) {
     INFO(name);
     CHECK_FALSE(core::has_mesh_extension(name));
   }
@@ -157,7 +157,8 @@ TEST_CASE("values that are cut off anywhere are refused") {
   for (const char* name : {"lh.sulc", "aparc.annot", "old_table.annot", "one.shape.gii", "matrix.func.gii"}) {
     const std::string bytes = contents(corpus_folder() + "/values/" + name);
     const std::string file = std::string("damaged.") + name;
-    for (std::size_t length = 0; length + 1 < bytes.size(); ++length) {
+    // Without its mark it is a text, of no values.
+    for (std::size_t length = name == std::string("lh.sulc") ? 3 : 0; length + 1 < bytes.size(); ++length) {
       INFO(name << " cut to " << length << " of " << bytes.size());
       CHECK_THROWS_AS(core::parse_value_file(bytes.substr(0, length), file, "1"), core::BadInput);
     }

@@ -79,6 +79,7 @@ TEST_CASE("files of the corpus that both take are read as CGAL reads them") {
     // beyond an array where vertices have texture coordinates.
     if (file.name.starts_with("binary_") && file.name.ends_with(".ply")) continue;
     if (file.name.starts_with("st") && file.name.ends_with("off.off")) continue;
+    if (file.name == "binary_count_zero.stl") continue;  // CGAL takes the header's word for it
     try {
       core::read_polygon_soup(file.path);
     } catch (const core::BadInput&) {
