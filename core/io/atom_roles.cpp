@@ -36,6 +36,12 @@ std::string_view without_digits(std::string_view name) {
   return name;
 }
 
+/// Whether water models have a site without mass that is so called.
+bool is_massless_site(std::string_view atom) {
+  return atom.starts_with('M') || atom == "IW" || atom == "OM" || atom.starts_with("EP") ||
+         atom.starts_with("LP");
+}
+
 /// Whether a water has atoms so called; sites without mass count.
 bool is_of_water(std::string_view atom) {
   atom = without_digits(atom);
@@ -44,7 +50,7 @@ bool is_of_water(std::string_view atom) {
     return atom.size() == 1 || is_digit(atom[1]) || atom[1] == 'W' || atom[1] == 'H' || atom[1] == 'O';
   if (atom[0] == 'O')
     return atom.size() == 1 || atom[1] == 'W' || atom[1] == 'H' || atom[1] == 'M' || is_digit(atom[1]);
-  return atom[0] == 'M' || atom == "IW" || atom.starts_with("EP") || atom.starts_with("LP");
+  return is_massless_site(atom);
 }
 
 /// Whether an atom is called as an ion of that residue and element: "CLA", "CL", "CL-", "CL1".
@@ -201,9 +207,11 @@ class Identification {
     if (atom.ion) {
       by_name = name.ion;
     } else if (atom.water) {
-      const std::string_view letters = without_digits(atom.name);
-      const std::string first = in_capitals(letters.substr(0, 1));
-      by_name = (first == "H" || first == "D" || first == "O") && in_capitals(letters) != "OM" ? first : "X";
+      const std::string letters = in_capitals(without_digits(atom.name));
+      if (is_massless_site(letters))
+        by_name = "X";
+      else if (letters.starts_with('H') || letters.starts_with('D') || letters.starts_with('O'))
+        by_name = letters.substr(0, 1);
     } else if (of_chain) {
       by_name = element_of_polymer(atom.name);
       if (by_name == "X") by_name.clear();

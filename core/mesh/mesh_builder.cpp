@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -195,6 +196,9 @@ WeldedSoup welded(PolygonSoup soup, const std::optional<Length>& length, const P
   if (length) {
     progress.update("joining vertices", 0);
     const double within = length_on(*length, soup);
+    if (!std::isfinite(within))
+      throw BadInput(
+          "the mesh is too large in space: the length within which its vertices are joined overflows");
     return weld(std::move(soup), within, progress);
   }
   WeldedSoup unwelded;

@@ -190,8 +190,7 @@ class Brains(ProgramTest):
         self.morsel("batch", "surf", "--out", "out", "--plan", "--method", "conventional")
         self.morsel("batch", "surf", "--out", "out", "--method", "conventional", "--no-thumbnails")
         summary = json.loads((self.folder / "out/summary.json").read_text())
-        self.assertEqual([mesh["mesh"]["path"] if isinstance(mesh["mesh"], dict) else mesh["mesh"]
-                          for mesh in summary["meshes"]], ["lh.white"])
+        self.assertEqual([mesh["mesh"]["path"] for mesh in summary["meshes"]], ["surf/lh.white"])
 
     def refuse(self, words, *arguments):
         error = self.morsel(*arguments, code=3).stderr
@@ -215,7 +214,7 @@ class Brains(ProgramTest):
     def test_outputs_have_names_of_their_kind(self):
         mesh = self.surface()
         for name in ("b.gii", "b.shape.gii", "b.curv"):
-            self.assertIn(".annot or .label.gii", self.morsel("segment", mesh, "-o", name, code=2).stderr)
+            self.assertIn(".annot, .label.gii or .glb", self.morsel("segment", mesh, "-o", name, code=2).stderr)
         for name in ("b.gii", "b.label.gii", "b.annot"):
             self.assertIn(".shape.gii or .func.gii", self.morsel("field", mesh, "-o", name, code=2).stderr)
 

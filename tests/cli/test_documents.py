@@ -94,7 +94,8 @@ class Depth(Documents):
             "m.html": f"<html></html>\n<!-- {DEEP_PROVENANCE} -->\n",
             "m.csv": f'vertex,provenance\n1,"{doubled}"\n',
             "n.csv": f"vertex\n1\n# {DEEP_PROVENANCE}\n",
-            "n.vtp": f'<VTKFile><Array format="binary">\n{in_array}\n</Array></VTKFile>',
+            "n.vtp": '<VTKFile type="PolyData"><PolyData><FieldData><Array type="String" format="binary">'
+                     f'\n{in_array}\n</Array></FieldData></PolyData></VTKFile>',
             "m.graphml": '<graphml><graph><data key="key0">' + DEEP_PROVENANCE.replace('"', "&quot;")
                          + "</data></graph></graphml>",
             "m.bin": 'glTF{"asset":{"extras":{"provenance":' + DEEP_PROVENANCE + "}}}",

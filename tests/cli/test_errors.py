@@ -293,8 +293,10 @@ class Writing(ProgramTest):
     def test_an_output_of_another_format_is_refused_in_one_wording(self):
         """Before it is found to be the input, in every command."""
         for words, said in (
-                (("field", "x.jpg", "-o", "x.jpg"), ".txt, .ply, .vtp, .glb, .shape.gii or .func.gii"),
-                (("segment", "x.jpg", "-o", "x.jpg"), ".ply, .vtp, .txt, .glb, .annot or .label.gii"),
+                (("field", "x.jpg", "-o", "x.jpg"),
+                 "a field is written to .txt, .ply, .vtp, .glb, .shape.gii or .func.gii"),
+                (("segment", "x.jpg", "-o", "x.jpg"),
+                 "labels are written to .ply, .vtp, .txt, .annot, .label.gii or .glb"),
                 (("points", "x.jpg", "-o", "x.jpg"), "points are written to .csv, .json, .ply, .vtp or .glb"),
                 (("cut", "x.jpg", "-o", "x.jpg"), "a cut mesh is written to .off or .ply"),
                 (("cut", "x.jpg", "-o", "x.off", "--graph", "x.jpg"),
