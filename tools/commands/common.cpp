@@ -141,13 +141,13 @@ Option& add_json_option(Command& command, std::string& json, std::string help) {
   return command.path("--json", json, std::move(help) + "; - is standard output").shapes_nothing();
 }
 
-std::string mesh_help() { return "Triangle mesh: .off, .obj, .ply, .stl, … (all: morsel info --help); or -"; }
+std::string mesh_help() { return "Triangle mesh: .off, .obj, .ply, … (all: morsel info --help); or -"; }
 
 void add_specification_notes(Command& command) {
   command.notes +=
       "F and M are written name or name:key=value,key=value; methods chain as M+M. Lengths are in the mesh's "
       "unit or as in 8eps (eps: 0.3 % of the bounding box's diagonal), 5% (of it), 3edges (mean ones) and "
-      "0.02rootarea. `morsel fields`, `morsel methods` and `morsel methods salient` list names and keys.";
+      "0.02rootarea. `morsel fields` and `morsel methods` list names and keys.";
   command.details += "A backslash keeps , : + = / in names and values literal.";
 }
 

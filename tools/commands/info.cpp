@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/file_bytes.h"
 #include "morsel/core/io/file_content.h"
+#include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/parameters.h"
@@ -190,6 +192,12 @@ Json provenance_of(const std::string& path, const MeshOrigin& file, bool is_mesh
   }
 }
 
+/// "; it is xz data" of a file that is recognised.
+std::string remark_on_kind(const std::string& path) {
+  const std::string_view kind = core::file_kind(core::FileBytes(path, path).view());
+  return kind.empty() ? "" : "; it is " + std::string(kind);
+}
+
 int inform(const Options& options, const Run& run) {
   std::optional<Findings> findings;
   const MeshOrigin file = mesh_file(options.file, run);
@@ -202,7 +210,7 @@ int inform(const Options& options, const Run& run) {
   if (findings && !provenance.is_null() && findings->file.soup.polygon_count() == 0) findings.reset();
   if (!findings && provenance.is_null())
     throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
-                         ") and has no provenance");
+                         ") and has no provenance" + remark_on_kind(options.file));
   if (options.json) {
     Json document = findings ? as_json(options.file, file, *findings) : head_section();
     if (!provenance.is_null()) document["provenance"] = provenance;
