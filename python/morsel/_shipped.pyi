@@ -159,7 +159,7 @@ class _vertex_scalar(_Shipped):
         *,
         file: float | str | PathLike[str] | None = None,
         property: float | str | PathLike[str] | None = None,
-        column: float | str | PathLike[str] = None,
+        column: float | str | PathLike[str] | None = None,
         progress: Progress = None,
     ) -> Field: ...
 

@@ -104,7 +104,7 @@ class Depth(Documents):
         for name, text in files.items():
             with self.subTest(name):
                 (self.folder / name).write_bytes(text.encode("latin-1"))
-                is_mesh = name in ("m.off", "m.obj", "m.ply", "m.stl", "m.vtk", "m.vtp")
+                is_mesh = name in ("m.off", "m.obj", "m.ply", "m.stl", "m.vtk", "m.vtp", "n.vtp")
                 code, _, errors = self.run_any("info", name, codes=(0,) if is_mesh else (3,))
                 self.run_any("info", "--json", name, codes=(code,))
                 self.assertIn("nested deeper than 64 levels", errors)

@@ -32,12 +32,12 @@ def ply_body(path):
 
 
 class VtkFiles(ProgramTest):
-    """The lion's head, with irregular positions, written by others in each of their ways."""
+    """A mesh with irregular positions, written by others in each of their ways."""
 
     @classmethod
     def setUpClass(cls):
-        cls.lion = SAMPLES / "lion-head.off"
-        cls.positions, cls.faces = off_arrays(cls.lion)
+        cls.mesh = SAMPLES / "hand.off"
+        cls.positions, cls.faces = off_arrays(cls.mesh)
         cls.values = numpy.sin(37 * cls.positions[:, 0]) / 3
 
     def polydata(self):
@@ -66,15 +66,15 @@ class VtkFiles(ProgramTest):
     def check(self, name, exact=True):
         """The file has the mesh and the values."""
         with self.subTest(name):
-            if not (self.folder / "lion.ply").exists():
-                self.morsel("field", self.lion, "--field", "height:axis=x", "-o", "lion.ply")
+            if not (self.folder / "mesh.ply").exists():
+                self.morsel("field", self.mesh, "--field", "height:axis=x", "-o", "mesh.ply")
                 (self.folder / "wave.txt").write_text("".join(f"{float(v)!r}\n" for v in self.values))
             result = self.morsel("field", name, "--field", "height:axis=x", "-o", "again.ply")
             self.assertEqual(result.stderr.count("warning"), 0)
             if exact:
-                self.assertEqual(ply_body(self.folder / "again.ply"), ply_body(self.folder / "lion.ply"))
+                self.assertEqual(ply_body(self.folder / "again.ply"), ply_body(self.folder / "mesh.ply"))
             self.morsel("field", name, "--field", "vertex-scalar:property=wave", "-o", "again.txt")
-            self.morsel("field", self.lion, "--field", f"vertex-scalar:file={name},column=wave", "-o",
+            self.morsel("field", self.mesh, "--field", f"vertex-scalar:file={name},column=wave", "-o",
                         "other.txt")
             again = [float(line) for line in data_lines(self.folder / "again.txt")]
             if exact:
@@ -126,29 +126,29 @@ class VtkFiles(ProgramTest):
                 if "file_format" not in options:
                     raise
                 continue  # this version of meshio has no such form
-            self.check(name, exact=True)
+            self.check(name, exact=name != "e.vtu")  # where meshio writes twelve digits
 
     def test_what_the_program_writes_is_read_back(self):
-        self.morsel("field", self.lion, "--field", "height:axis=x", "-o", "lion.ply")
-        self.morsel("field", self.lion, "--field", "height:axis=x", "-o", "height.vtp")
+        self.morsel("field", self.mesh, "--field", "height:axis=x", "-o", "mesh.ply")
+        self.morsel("field", self.mesh, "--field", "height:axis=x", "-o", "height.vtp")
         self.morsel("field", "height.vtp", "--field", "height:axis=x", "-o", "again.ply")
-        self.assertEqual(ply_body(self.folder / "again.ply"), ply_body(self.folder / "lion.ply"))
-        self.morsel("compare", self.lion, "--field", "height:axis=x", "--method", "salient:iterations=1",
+        self.assertEqual(ply_body(self.folder / "again.ply"), ply_body(self.folder / "mesh.ply"))
+        self.morsel("compare", self.mesh, "--field", "height:axis=x", "--method", "salient:iterations=1",
                     "--export", "out", "-o", "report.json")
         surfaces = sorted(path for path in (self.folder / "out").glob("*.vtp")
-                          if not path.name.endswith(".complex.vtp"))
+                          if path.name.endswith(".surface.vtp"))
         self.assertTrue(surfaces)
         for path in surfaces:
             with self.subTest(path.name):
                 self.morsel("field", path, "--field", "height:axis=x", "-o", "again.ply")
-                self.assertEqual(ply_body(self.folder / "again.ply"), ply_body(self.folder / "lion.ply"))
-        self.morsel("segment", self.lion, "--field", "height:axis=x", "-o", "segments.vtp")
-        self.morsel("segment", self.lion, "--field", "height:axis=x", "-o", "segments.ply")
+                self.assertEqual(ply_body(self.folder / "again.ply"), ply_body(self.folder / "mesh.ply"))
+        self.morsel("segment", self.mesh, "--field", "height:axis=x", "-o", "segments.vtp")
+        self.morsel("segment", self.mesh, "--field", "height:axis=x", "-o", "segments.ply")
         for name in ("segments.vtp", "segments.ply"):
             self.morsel("field", name, "--field", "vertex-scalar:property=segment", "-o", name + ".txt")
         self.assertEqual(data_lines(self.folder / "segments.vtp.txt"),
                          data_lines(self.folder / "segments.ply.txt"))
-        self.morsel("points", self.lion, "--field", "height:axis=x", "-o", "points.vtp")
+        self.morsel("points", self.mesh, "--field", "height:axis=x", "-o", "points.vtp")
         said = self.morsel("info", "points.vtp").stdout
         self.assertIn("made by", said)
         self.assertNotIn("defect", said)
@@ -171,7 +171,8 @@ class ValueFiles(ProgramTest):
         key = f"vertex-scalar:file={name}" + ("" if column is None else f",column={column}")
         result = self.morsel("field", self.mesh, "--field", key, "-o", "out.txt")
         self.assertIn(said, result.stderr)
-        self.assertEqual(bool(said), "warning" in result.stderr, result.stderr)
+        told = [line for line in result.stderr.splitlines() if "warning" in line and name in line]
+        self.assertEqual(bool(said), bool(told), result.stderr)
         return [float(line) for line in data_lines(self.folder / "out.txt")]
 
     def test_arrays_of_numpy(self):

@@ -79,7 +79,8 @@ TEST_CASE("files of the corpus that both take are read as CGAL reads them") {
     // beyond an array where vertices have texture coordinates.
     if (file.name.starts_with("binary_") && file.name.ends_with(".ply")) continue;
     if (file.name.starts_with("st") && file.name.ends_with("off.off")) continue;
-    if (file.name == "binary_count_zero.stl") continue;  // CGAL takes the header's word for it
+    // CGAL takes the header's word for it, and knows no triangle strips.
+    if (file.name == "binary_count_zero.stl" || file.name.find("strip") != std::string::npos) continue;
     try {
       core::read_polygon_soup(file.path);
     } catch (const core::BadInput&) {

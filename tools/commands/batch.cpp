@@ -165,6 +165,8 @@ void add_what_is_made(Command& command, Options& options) {
   command.flag("--export", request.exports,
                "Write surfaces, complexes (.vtp, for ParaView) and points (.csv)");
   add_figure_options(command, request.figure);
+  for (const char* option : {"--size", "--view", "--up", "--inset"})
+    command.option(option).told_by = "compare";
 }
 
 void add_how_it_is_run(Command& command, Options& options) {

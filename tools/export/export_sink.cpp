@@ -50,7 +50,7 @@ void write_critical_points(const core::FileTarget& target, const core::LoadedMes
 void write_scene(const core::FileTarget& target, const core::LoadedMesh& loaded, const MethodOutcome& outcome,
                  const Provenance& provenance) {
   GlbScene scene(loaded.mesh);
-  const std::vector<Mark> marks = marks_of(outcome.shown_points(), outcome.shown_places());
+  const std::vector<SceneMark> marks = marks_of(outcome.shown_points(), outcome.shown_places());
   scene.add_surface(value_colors(outcome.field.values()));
   scene.add_marks(marks);
   scene.add_arcs(outcome.measurement.complex, marks.size());

@@ -116,15 +116,15 @@ void add_tube(const std::vector<Point>& line, double radius, std::vector<Point>&
 
 }  // namespace
 
-std::vector<Mark> marks_of(const morse::CriticalPoints& points, std::span<const Index> places) {
-  std::vector<Mark> marks;
+std::vector<SceneMark> marks_of(const morse::CriticalPoints& points, std::span<const Index> places) {
+  std::vector<SceneMark> marks;
   for (std::size_t i = 0; i < points.points.size(); ++i)
     marks.push_back({places.empty() ? points.points[i].vertex : places[i], points.points[i].type});
   return marks;
 }
 
-std::vector<Mark> marks_of(const MadePoints& made) {
-  std::vector<Mark> marks;
+std::vector<SceneMark> marks_of(const MadePoints& made) {
+  std::vector<SceneMark> marks;
   for (std::size_t i = 0; i < made.chosen.points.size(); ++i)
     marks.push_back({made.places[i], made.chosen.points[i].candidate.point.type});
   return marks;
@@ -180,7 +180,7 @@ void GlbScene::add_segments(std::span<const Index> labels, std::span<const Color
   parts_.push_back(std::move(part));
 }
 
-void GlbScene::add_marks(std::span<const Mark> marks) {
+void GlbScene::add_marks(std::span<const SceneMark> marks) {
   const double radius = mark_sizes(area_, marks.size()).ball * diagonal_;
   const Sphere sphere = sphere_for(marks.size());
   using morse::CriticalType;
@@ -188,7 +188,7 @@ void GlbScene::add_marks(std::span<const Mark> marks) {
        {std::pair{CriticalType::minimum, "minima"}, std::pair{CriticalType::saddle, "saddles"},
         std::pair{CriticalType::maximum, "maxima"}}) {
     Part part{name, {}, {}, {}, {}, color_of(type)};
-    for (const Mark& mark : marks) {
+    for (const SceneMark& mark : marks) {
       if (mark.type != type) continue;
       core::throw_if_stopped();
       const Index first = static_cast<Index>(part.positions.size());

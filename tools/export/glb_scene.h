@@ -16,13 +16,14 @@
 namespace morsel::tools {
 
 /// A critical point as it is shown.
-struct Mark {
+struct SceneMark {
   core::Index vertex;  ///< at whose position
   morse::CriticalType type;
 };
 
-std::vector<Mark> marks_of(const morse::CriticalPoints& points, std::span<const core::Index> places = {});
-std::vector<Mark> marks_of(const MadePoints& made);
+std::vector<SceneMark> marks_of(const morse::CriticalPoints& points,
+                                std::span<const core::Index> places = {});
+std::vector<SceneMark> marks_of(const MadePoints& made);
 
 /// The parts "surface", "minima", "saddles", "maxima", "descending arcs" and "ascending arcs", in the colours
 /// and sizes of pictures.
@@ -37,7 +38,7 @@ class GlbScene {
   /// there once for each of these.
   void add_segments(std::span<const core::Index> labels, std::span<const Color> palette);
   /// Spheres, the smaller and the coarser the more there are.
-  void add_marks(std::span<const Mark> marks);
+  void add_marks(std::span<const SceneMark> marks);
   /// Tubes; what arcs share is there once. `marks`: as many as there are, on which their radius depends.
   void add_arcs(const mscomplex::MorseSmaleComplex& complex, std::size_t marks);
 
