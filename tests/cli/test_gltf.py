@@ -130,21 +130,20 @@ class Gltf(ProgramTest):
 
     def test_an_input_that_a_mesh_names_is_not_overwritten(self):
         """`field own.gltf -o own.txt` once replaced the buffer own.txt of the mesh."""
-        mesh, buffer = self.in_two_files("own.gltf", "own.txt")
-        shutil.copy(mesh, self.folder / "own.json")
-        (self.folder / "link.txt").symlink_to(buffer)
-        before = buffer.read_bytes()
-        for arguments in (("field", "own.gltf", "-o", "own.txt"), ("field", "own.gltf", "-o", "link.txt"),
-                          ("field", "own.json", "--format", "gltf", "-o", "own.txt"),
-                          ("points", "own.gltf", "-o", "own.txt"), ("compare", "own.gltf", "-o", "own.txt"),
-                          ("compare", "own.json", "--format", "gltf", "-o", "own.txt"),
-                          ("sweep", "own.gltf", "--vary", "iterations=1..2", "-o", "own.txt"),
-                          ("stability", "own.gltf", "-o", "own.txt"),
-                          ("hierarchy", "own.gltf", "-o", "own.txt")):
-            with self.subTest(arguments=arguments):
-                self.assertIn("is the file that is read as a buffer of MESH",
-                              self.morsel(*arguments, "--field", "height", code=2).stderr)
-                self.assertEqual(buffer.read_bytes(), before)
+        for name, *arguments in (
+                ("own.txt", "field"), ("link.txt", "field"), ("own.csv", "points"), ("own.txt", "compare"),
+                ("own.csv", "sweep", "--vary", "iterations=1..2"), ("own.csv", "stability"),
+                ("own.txt", "hierarchy")):
+            _, buffer = self.in_two_files("own.gltf", name.replace("link", "own"))
+            shutil.copy(self.folder / "own.gltf", self.folder / "own.scene")
+            if name != buffer.name:
+                (self.folder / name).symlink_to(buffer)
+            before = buffer.read_bytes()
+            for mesh in (("own.gltf",), ("own.scene", "--format", "gltf")):
+                with self.subTest(arguments=arguments, name=name, mesh=mesh):
+                    error = self.morsel(*arguments, *mesh, "--field", "height", "-o", name, code=2).stderr
+                    self.assertIn(f"is the file that is read as a buffer of MESH {buffer.name}", error)
+                    self.assertEqual(buffer.read_bytes(), before)
         self.morsel("field", "own.gltf", "--field", "height", "-o", "other.txt")
 
     def test_a_changed_buffer_is_a_changed_mesh(self):
