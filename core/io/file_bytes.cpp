@@ -41,10 +41,10 @@ void check_regular_file(const std::filesystem::path& path, const std::string& wh
   static_cast<void>(size_of(file, what));
 }
 
-FileBytes::FileBytes(const std::filesystem::path& path, const std::string& name) {
+FileBytes::FileBytes(const std::filesystem::path& path, const std::string& name, std::size_t most) {
   const std::string what = "cannot read \"" + name + "\"";
   const Descriptor file{open_to_read(path)};
-  const std::size_t size = size_of(file, what);
+  const std::size_t size = std::min(size_of(file, what), most);
   bytes_ = std::make_unique_for_overwrite<char[]>(size);
   while (size_ < size) {
     const ssize_t got =

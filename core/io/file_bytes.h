@@ -13,12 +13,15 @@ namespace morsel::core {
 /// pipe, opening it or reading its bytes can take for ever.
 void check_regular_file(const std::filesystem::path& path, const std::string& what);
 
-/// All bytes of a file. Read, not mapped: a mapped file that is truncated while it is parsed ends the program
+/// The bytes of a file. Read, not mapped: a mapped file that is truncated while it is parsed ends the program
 /// (SIGBUS).
 class FileBytes {
  public:
-  /// Throws BadInput, naming the file as `name`, if it is missing, unreadable or not a regular file.
-  FileBytes(const std::filesystem::path& path, const std::string& name);
+  static constexpr std::size_t kAll = static_cast<std::size_t>(-1);
+
+  /// Of a longer file the first `most`. Throws BadInput, naming the file as `name`, if it is missing,
+  /// unreadable or not a regular file.
+  FileBytes(const std::filesystem::path& path, const std::string& name, std::size_t most = kAll);
   std::string_view view() const { return {bytes_.get(), size_}; }
 
  private:

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/core/parallel/progress.h"
@@ -23,10 +24,15 @@ namespace morsel::core {
 /// Buffers are the binary part, data URIs, or files in `folder` itself; without it, those are refused. Every
 /// accessor is compared with the lengths of its buffers before it is read. Points, lines, skins, morph
 /// targets and instances are left out with a warning; compressed primitives (Draco, meshopt) and other
-/// required extensions that change geometry are refused by name. Repetition is limited: 2²³ vertices and
+/// required extensions that change geometry are refused by name. Of a scene that morsel wrote, by the
+/// generator in it, the surface alone is read, with a warning. Repetition is limited: 2²³ vertices and
 /// corners and 16 for each byte.
 LoadedSoup read_gltf(std::string_view bytes, const std::string& file, const Progress& progress);
 LoadedSoup read_gltf(std::string_view bytes, const std::string& file, const Progress& progress,
                      const std::filesystem::path& folder);
+
+/// The files that the buffers of a glTF file name, each once and by name, whether they exist or not. Throws
+/// BadInput if it cannot be read.
+std::vector<std::filesystem::path> gltf_companions(const std::filesystem::path& path);
 
 }  // namespace morsel::core

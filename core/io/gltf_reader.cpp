@@ -31,8 +31,10 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_formats.h"
 #include "morsel/core/io/gltf.h"
+#include "morsel/core/text/base64.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -48,9 +50,10 @@ constexpr std::size_t kMostValues = std::size_t{1}
 constexpr std::size_t kRepeated = std::size_t{1}
                                   << 23;  // vertices, corners and values, whatever the file's length
 constexpr std::size_t kPerByte = 16;      // and for each of its bytes
+constexpr std::size_t kJsonSizeAt = 12, kJsonAt = 20;  // in binary glTF
 
 /// "2 primitives are", "1 primitive is".
-std::string counted(std::size_t count, const std::string& name) {
+std::string counted_as(std::size_t count, const std::string& name) {
   return std::to_string(count) + " " + name + (count == 1 ? " is" : "s are");
 }
 
@@ -137,20 +140,28 @@ class JsonFilter {
     switch (event) {
       case json::parse_event_t::key:
         key_ = value.get_ref<const std::string&>();
-        if (depth <= extensions_) extensions_ = kNowhere;
-        if (key_ == "extensions" && extensions_ == kNowhere) extensions_ = depth;
-        return depth == 1 ? is_needed() : key_ != "extras";
+        if (depth <= unchecked_) unchecked_ = kNowhere;
+        return begin_member(depth);
       case json::parse_event_t::object_start:
       case json::parse_event_t::array_start:
         count();
         return true;
       case json::parse_event_t::value:
         count();
-        if (extensions_ == kNowhere) check(value);  // theirs have other types
+        if (unchecked_ == kNowhere) check(value);
         return true;
-      default:
+      default:  // the end of an object or an array, within the one at `depth`
+        if (depth < unchecked_) unchecked_ = kNowhere;
         return true;
     }
+  }
+
+  /// Whether the member that key_ begins is kept. Values in extensions, and in what is not kept, of which
+  /// this is told, too, have types of their own.
+  bool begin_member(int depth) {
+    const bool is_kept = depth == 1 ? is_needed() : key_ != "extras";
+    if (unchecked_ == kNowhere && (!is_kept || key_ == "extensions")) unchecked_ = depth;
+    return is_kept;
   }
 
   bool is_needed() const {
@@ -194,7 +205,7 @@ class JsonFilter {
   const Progress& progress_;
   static constexpr int kNowhere = -1;
   std::string key_;
-  int extensions_ = kNowhere;  // the level of the key "extensions" that this is within
+  int unchecked_ = kNowhere;  // the level of the key that this is within, of values that are not checked
   std::size_t steps_ = 0;
   std::size_t values_ = 0;
 };
@@ -246,7 +257,7 @@ class Buffers {
   struct Loaded {
     bool done = false;
     std::string_view bytes;
-    std::vector<unsigned char> decoded;
+    std::string decoded;
     std::unique_ptr<FileBytes> neighbour;
   };
 
@@ -296,15 +307,10 @@ class Buffers {
     if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
       fail_reading(file_, "the data URI of its " + name + " is not in base64");
     const std::string_view text = std::string_view(uri).substr(comma + 1);
-    const std::size_t end = text.find_last_not_of('=');
-    const std::size_t digits = end == std::string_view::npos ? 0 : end + 1;
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    if (text.size() - digits > 2 || digits % 4 == 1 ||
-        text.substr(0, digits).find_first_not_of(kDigits) != std::string_view::npos)
-      fail_reading(file_, "the data URI of its " + name + " is damaged: it is no base64");
-    const std::string decoded = gltf::base64_decode(std::string(text));
-    loaded.decoded.assign(decoded.begin(), decoded.end());
-    loaded.bytes = {reinterpret_cast<const char*>(loaded.decoded.data()), loaded.decoded.size()};
+    std::optional<std::string> decoded = decode_base64(text);
+    if (!decoded) fail_reading(file_, "the data URI of its " + name + " is damaged: it is no base64");
+    loaded.decoded = std::move(*decoded);
+    loaded.bytes = loaded.decoded;
   }
 
   json list_;
@@ -396,9 +402,9 @@ class GltfReader {
     check_extensions();
     visit_nodes();
     if (result_.soup.polygon_count() == 0)
-      fail_reading(file_,
-                   "it has no triangles" +
-                       (left_out_ == 0 ? "" : ": " + counted(left_out_, "primitive") + " points or lines"));
+      fail_reading(
+          file_, "it has no triangles" +
+                     (left_out_ == 0 ? "" : ": " + counted_as(left_out_, "primitive") + " points or lines"));
     finish();
     return std::move(result_);
   }
@@ -568,11 +574,22 @@ class GltfReader {
     return result;
   }
 
+  static constexpr std::string_view kSurface = "surface";
+
+  /// Whether it is a scene that morsel wrote (tools/export/glb_scene.h): a surface, and the points and arcs
+  /// on it as parts of their own.
+  bool is_own_scene() const {
+    return model_.asset.generator.starts_with("morsel ") &&
+           std::ranges::any_of(
+               model_.nodes, [](const gltf::Node& node) { return node.mesh >= 0 && node.name == kSurface; });
+  }
+
   void visit_nodes() {
     if (model_.scenes.empty() && model_.nodes.empty()) {
       for (std::size_t m = 0; m < model_.meshes.size(); ++m) add_mesh(m, {});
       return;
     }
+    const bool is_own = is_own_scene();
     std::vector<bool> seen(model_.nodes.size(), false);
     std::vector<std::pair<int, Placed>> open;
     const auto push = [&](const std::vector<int>& nodes, const Placed& placed) {
@@ -590,6 +607,12 @@ class GltfReader {
       seen[static_cast<std::size_t>(n)] = true;
       const gltf::Node& node = model_.nodes[static_cast<std::size_t>(n)];
       const Placed placed = placed_by(node, n, parent);
+      const bool is_mark = is_own && node.mesh >= 0 && node.name != kSurface;
+      has_marks_ = has_marks_ || is_mark;
+      if (is_mark) {
+        push(node.children, placed);
+        continue;
+      }
       instanced_ += node.mesh >= 0 && node.extensions.contains("EXT_mesh_gpu_instancing") ? 1 : 0;
       if (node.mesh >= 0) {
         const bool is_skinned = node.skin >= 0;
@@ -744,9 +767,12 @@ class GltfReader {
       for_each_element(primitive.indices, indices, [&](std::size_t i, const Elements& source, std::size_t k) {
         corners[i] = source.whole(k);
       });
-      for (const Index v : corners)
-        if (v >= count)
-          fail_reading(file_, name + " names vertex " + std::to_string(v) + " of " + std::to_string(count));
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if ((i & 0xFFFF) == 0) progress_.throw_if_cancelled();
+        if (corners[i] >= count)
+          fail_reading(file_,
+                       name + " names vertex " + std::to_string(corners[i]) + " of " + std::to_string(count));
+      }
     } else {
       make_room(count);
       corners.resize(count);
@@ -764,11 +790,15 @@ class GltfReader {
       soup.offsets.push_back(soup.corners.size());
     };
     if (is_list) {
-      for (std::size_t i = 0; i < corners.size(); i += 3) add(corners[i], corners[i + 1], corners[i + 2]);
+      for (std::size_t i = 0; i < corners.size(); i += 3) {
+        if (i % (3 << 16) == 0) progress_.throw_if_cancelled();
+        add(corners[i], corners[i + 1], corners[i + 2]);
+      }
       return;
     }
     const bool is_strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
     for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+      if ((i & 0xFFFF) == 0) progress_.throw_if_cancelled();
       const Index a = is_strip ? corners[i] : corners[0];
       const Index b = is_strip ? corners[i + (1 + i % 2)] : corners[i + 1];
       const Index c = is_strip ? corners[i + (2 - i % 2)] : corners[i + 2];
@@ -784,17 +814,20 @@ class GltfReader {
       if (!std::ranges::any_of(property.values, [](double value) { return std::isnan(value); })) continue;
       warnings.push_back("not all of its vertices have a value of " + shown(property.name));
     }
-    if (left_out_ > 0) warnings.push_back(counted(left_out_, "primitive") + " points or lines, and left out");
+    if (has_marks_) warnings.emplace_back("the points and arcs of the scene are left out");
+    if (left_out_ > 0)
+      warnings.push_back(counted_as(left_out_, "primitive") + " points or lines, and left out");
     if (without_positions_ > 0)
-      warnings.push_back(counted(without_positions_, "primitive") + " without positions, and left out");
+      warnings.push_back(counted_as(without_positions_, "primitive") + " without positions, and left out");
     if (instanced_ > 0)
-      warnings.push_back(counted(instanced_, "node") +
+      warnings.push_back(counted_as(instanced_, "node") +
                          " instanced (EXT_mesh_gpu_instancing), of which one instance is read");
     if (skinned_ > 0)
-      warnings.push_back(counted(skinned_, "node") +
+      warnings.push_back(counted_as(skinned_, "node") +
                          " skinned: the mesh is read as it is without its skeleton, at the origin");
     if (morphed_ > 0)
-      warnings.push_back(counted(morphed_, "node") + " morphed: the mesh is read without its morph targets");
+      warnings.push_back(counted_as(morphed_, "node") +
+                         " morphed: the mesh is read without its morph targets");
   }
 
   const std::string& file_;
@@ -804,11 +837,53 @@ class GltfReader {
   gltf::Model model_;
   std::map<std::map<std::string, int>, Index> shared_;  // of a node: accessors to their first vertex
   std::size_t used_ = 0;
+  bool has_marks_ = false;  // of an own scene, which are left out
   std::size_t left_out_ = 0, without_positions_ = 0, instanced_ = 0, skinned_ = 0, morphed_ = 0;
   LoadedSoup result_;
 };
 
+/// The JSON of a file, of which the bytes may end behind it.
+std::string_view json_of_head(std::string_view bytes, const std::string& file) {
+  if (!bytes.starts_with("glTF")) return bytes;
+  if (bytes.size() < kJsonAt) fail_reading(file, "it ends within the header of binary glTF");
+  return bytes.substr(kJsonAt, load_u32(bytes, kJsonSizeAt));
+}
+
+/// The bytes of a file, of binary glTF those to the end of its JSON: the others may be many.
+FileBytes bytes_of_head(const std::filesystem::path& path, const std::string& file) {
+  const FileBytes start(path, file, kJsonAt);
+  const std::string_view bytes = start.view();
+  const bool is_binary = bytes.starts_with("glTF") && bytes.size() == kJsonAt;
+  return {path, file, is_binary ? kJsonAt + load_u32(bytes, kJsonSizeAt) : FileBytes::kAll};
+}
+
 }  // namespace
+
+std::vector<std::filesystem::path> gltf_companions(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const FileBytes bytes = bytes_of_head(path, file);
+  const DecodedBytes decoded(bytes.view(), file);
+  std::string_view content = decoded.view();
+  std::string converted;
+  if (is_utf16(content)) content = converted = utf8_of_utf16(content, file);
+  const Progress progress;
+  const json document = JsonFilter(file, progress).parse(json_of_head(content, file));
+  std::vector<std::filesystem::path> companions;
+  const auto buffers = document.find("buffers");
+  if (buffers == document.end() || !buffers->is_array()) return companions;
+  for (const json& buffer : *buffers) {
+    if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+    const auto& uri = buffer["uri"].get_ref<const std::string&>();
+    if (uri.starts_with("data:")) continue;
+    try {
+      companions.push_back(path.parent_path() / neighbour_name(uri, file));
+    } catch (const BadInput&) {  // it is not read either
+    }
+  }
+  std::ranges::sort(companions);
+  companions.erase(std::ranges::unique(companions).begin(), companions.end());
+  return companions;
+}
 
 LoadedSoup read_gltf(std::string_view bytes, const std::string& file, const Progress& progress) {
   return GltfReader(bytes, file, progress, nullptr).read();

@@ -194,6 +194,18 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat forma
   return parse_in(path.parent_path(), FileBytes(path, name).view(), format, name, progress);
 }
 
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path,
+                                                   std::optional<MeshFormat> format) {
+  const Format* named = find_format(path);
+  if (!format && named != nullptr) format = named->format;
+  if (format != MeshFormat::gltf) return {};
+  try {
+    return gltf_companions(path);
+  } catch (const BadInput&) {  // reading it as a mesh says why
+    return {};
+  }
+}
+
 namespace {
 
 /// Per vertex of the input the one whose place it takes in the mesh; itself where it does not.

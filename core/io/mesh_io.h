@@ -77,6 +77,12 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, MeshFormat forma
 LoadedSoup parse_polygon_soup(std::string_view bytes, MeshFormat format, const std::string& name,
                               const Progress& progress = {});
 
+/// The files beside a mesh's file that its content names and that are read with it: the buffers of glTF
+/// files, each once and by name, whether they exist or not. None of other formats, and of files that cannot
+/// be read: reading them as meshes says why. Without `format`, that of the file's name.
+std::vector<std::filesystem::path> companion_files(const std::filesystem::path& path,
+                                                   std::optional<MeshFormat> format = {});
+
 /// read_polygon_soup() and make_mesh(). A MeshError names the file.
 LoadedMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {},
                      const Progress& progress = {});

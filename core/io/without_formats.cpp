@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/brain_values.h"
@@ -28,6 +29,10 @@ LoadedSoup read_gltf(std::string_view, const std::string&, const Progress&) {
 LoadedSoup read_gltf(std::string_view, const std::string&, const Progress&, const std::filesystem::path&) {
   require_formats("a glTF file");
   return {};
+}
+
+std::vector<std::filesystem::path> gltf_companions(const std::filesystem::path&) {
+  return {};  // reading says why
 }
 
 LoadedSoup read_gifti(std::string_view, const std::string& file, const Progress&) {

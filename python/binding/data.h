@@ -2,11 +2,13 @@
 /// The meshes, fields and results that Python's objects hold. None is changed once it is made; pointers to
 /// them are not to constants since pybind11 holds none.
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -28,12 +30,23 @@ struct MeshData {
   core::LoadedMesh loaded;
   std::string path = {};                           ///< of its file, as given; empty for a mesh made in memory
   core::BuildOptions build = {};                   ///< how it was made of that
-  std::filesystem::file_time_type file_time = {};  ///< when the file was last changed before it was read
+  std::filesystem::file_time_type file_time = {};  ///< last_change() before it was read
   std::string file = {};                           ///< `path`, made absolute when it was read
 
   const core::TriangleMesh& mesh() const { return loaded.mesh; }
 };
 using MeshHandle = std::shared_ptr<MeshData>;
+
+/// When a mesh's file, or one that it names (core::companion_files()), was last changed.
+inline std::filesystem::file_time_type last_change(const std::string& file, std::error_code& error) {
+  auto time = std::filesystem::last_write_time(file, error);
+  for (const std::filesystem::path& companion : core::companion_files(file)) {
+    std::error_code missing;  // of which reading the mesh tells, if it needs it
+    const auto changed = std::filesystem::last_write_time(companion, missing);
+    if (!missing) time = std::max(time, changed);
+  }
+  return time;
+}
 
 /// How a field was made, in the syntax of the command line.
 struct FieldStory {

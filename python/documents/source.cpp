@@ -11,6 +11,7 @@
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/tools/formats/command_line.h"
 #include "morsel/tools/formats/sha256.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/output_check.h"
 #include "morsel/tools/report/request_words.h"
 
@@ -48,7 +49,7 @@ void check_unchanged(const MeshData& mesh) {
   std::error_code error;
   if (!std::filesystem::exists(mesh.file, error))
     throw core::BadInput(mesh.file + ", which the mesh was read from, is missing");
-  if (std::filesystem::last_write_time(mesh.file, error) != mesh.file_time || error)
+  if (last_change(mesh.file, error) != mesh.file_time || error)
     throw core::BadInput(mesh.path + " has changed since it was read");
 }
 
@@ -70,7 +71,7 @@ std::vector<core::Point> DocumentMesh::input_positions(const core::Progress& pro
 void check_outputs(const DocumentPlace& place, const std::string& mesh,
                    const std::vector<std::string>& read) {
   tools::RunFiles files;
-  files.reads("the mesh", mesh).writes("mesh =", place.mesh_file.value_or(""));
+  files.reads_mesh_file("the mesh", mesh).writes("mesh =", place.mesh_file.value_or(""));
   for (const std::string& file : read) files.reads("a file of the field,", file);
   place.is_no_mesh ? files.writes_no_mesh("path =", place.path) : files.writes("path =", place.path);
   files.check();
@@ -103,7 +104,7 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
   }
   if (!mesh.path.empty() && !has_values) {
     check_unchanged(mesh);
-    return {mesh.loaded, {mesh.path, tools::sha256_of_file(mesh.file)}, mesh.build, mesh.file};
+    return {mesh.loaded, {mesh.path, tools::sha256_of(tools::MeshOrigin{mesh.file})}, mesh.build, mesh.file};
   }
   if (place.mesh_must_be_file)
     throw core::InvalidArgument(

@@ -95,7 +95,7 @@ MeshHandle read(const std::string& path, bool repair, const Weld& weld, const py
   const core::BuildOptions build = build_options(repair, weld);
   return compute(report, [&](const core::Progress& progress) {
     std::error_code error;  // of which reading has more to tell
-    const std::filesystem::file_time_type time = std::filesystem::last_write_time(path, error);
+    const std::filesystem::file_time_type time = last_change(path, error);
     return std::make_shared<MeshData>(MeshData{core::read_mesh(path, build, progress), path, build, time,
                                                std::filesystem::absolute(path).string()});
   });

@@ -1,5 +1,6 @@
 """Scenes as GLB files, read by what the specification says: colours, points, arcs, segments."""
 
+import json
 import unittest
 
 import numpy as np
@@ -112,6 +113,24 @@ class Glb(ProgramTest):
                 nearest = [np.abs(vertices - center).sum(axis=1).min() for center in centers]
                 self.assertLess(max(nearest), 1e-6)
         self.assertIn("--export", self.morsel("compare", LION, "--glb", code=2).stderr)
+
+    def test_a_scene_is_read_back_as_its_surface(self):
+        """`info` of an own scene once counted the spheres of its points, too."""
+        self.morsel("compare", LION, "--method", "salient", "--export", "out", "--glb")
+        self.morsel("field", LION, "--field", "height:axis=z", "-o", "x.glb")
+        expected = json.loads(self.morsel("info", "--json", LION).stdout)
+        left_out = ["the points and arcs of the scene are left out"]
+        for name in ("x.glb", "out/salient.glb"):
+            info = json.loads(self.morsel("info", "--json", name).stdout)
+            for key in ("vertices", "edges", "faces", "components", "boundary_loops", "genus"):
+                self.assertEqual(info["mesh"][key], expected["mesh"][key], (name, key))
+            self.assertEqual(info["mesh"]["warnings"], left_out)
+            self.assertIn("provenance", info)
+        # Another program's scene is read as it is.
+        data = (self.folder / "x.glb").read_bytes().replace(b'"morsel 0', b'"Morsel 0', 1)
+        (self.folder / "y.glb").write_bytes(data)
+        info = json.loads(self.morsel("info", "--json", "y.glb").stdout)
+        self.assertGreater(info["mesh"]["vertices"], expected["mesh"]["vertices"])
 
     def test_far_and_tiny_and_huge_surfaces(self):
         """Single precision holds neither the places nor the sizes."""

@@ -1,8 +1,10 @@
 """glTF files of an independent writer, as meshes of the program."""
 
+import hashlib
 import json
 import math
 import random
+import shutil
 import struct
 import unittest
 
@@ -65,6 +67,21 @@ def wavy_sphere(steps):
 
 
 class Gltf(ProgramTest):
+    def in_two_files(self, mesh, buffer):
+        """A tetrahedron: the paths of its .gltf file and of the file of its buffer."""
+        writer = Writer()
+        position = writer.accessor("f", 5126, "VEC3", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+        corners = writer.accessor("I", 5125, "SCALAR", [(v,) for v in (0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3)])
+        writer.document["meshes"].append(
+            {"primitives": [{"attributes": {"POSITION": position}, "indices": corners}]})
+        writer.document["nodes"].append({"mesh": 0})
+        paths = self.folder / mesh, self.folder / buffer
+        writer.document["buffers"] = [{"byteLength": len(writer.binary), "uri": paths[1].name}]
+        paths[0].parent.mkdir(exist_ok=True)
+        paths[0].write_text(json.dumps(writer.document))
+        paths[1].write_bytes(writer.binary)
+        return paths
+
     def test_a_mesh_and_its_values_are_those_of_the_off_file(self):
         positions, triangles, values = wavy_sphere(9)
         writer = Writer()
@@ -110,6 +127,59 @@ class Gltf(ProgramTest):
                 if not line.startswith("#")]
         for value, expected in zip(read, [0, 2, 0, 0, 10, 10, 8, 10], strict=True):
             self.assertAlmostEqual(value, expected)
+
+    def test_an_input_that_a_mesh_names_is_not_overwritten(self):
+        """`field own.gltf -o own.txt` once replaced the buffer own.txt of the mesh."""
+        for name, *arguments in (
+                ("own.txt", "field"), ("link.txt", "field"), ("own.csv", "points"), ("own.txt", "compare"),
+                ("own.csv", "sweep", "--vary", "iterations=1..2"), ("own.csv", "stability"),
+                ("own.txt", "hierarchy")):
+            _, buffer = self.in_two_files("own.gltf", name.replace("link", "own"))
+            shutil.copy(self.folder / "own.gltf", self.folder / "own.scene")
+            if name != buffer.name:
+                (self.folder / name).symlink_to(buffer)
+            before = buffer.read_bytes()
+            for mesh in (("own.gltf",), ("own.scene", "--format", "gltf")):
+                with self.subTest(arguments=arguments, name=name, mesh=mesh):
+                    error = self.morsel(*arguments, *mesh, "--field", "height", "-o", name, code=2).stderr
+                    self.assertIn(f"is the file that is read as a buffer of MESH {buffer.name}", error)
+                    self.assertEqual(buffer.read_bytes(), before)
+        self.morsel("field", "own.gltf", "--field", "height", "-o", "other.txt")
+
+    def test_a_changed_buffer_is_a_changed_mesh(self):
+        """A second `batch` once took a mesh whose buffer had changed for one of earlier runs."""
+        mesh, buffer = self.in_two_files("meshes/m.gltf", "meshes/m.bin")
+
+        def batch():
+            return self.morsel("batch", "meshes", "--out", "out", "--field", "height", "--method",
+                               "conventional", "--no-thumbnails").stdout
+
+        def hashes():
+            one = lambda data: hashlib.sha256(data).hexdigest()
+            expected = one(f"{one(mesh.read_bytes())}\n{one(buffer.read_bytes())}\n".encode())
+            info = json.loads(self.morsel("info", "--json", mesh).stdout)
+            report = self.report(mesh, "--field", "height", "--method", "conventional")
+            self.assertEqual([info["mesh"]["sha256"], report["mesh"]["sha256"]], [expected, expected])
+            return expected
+
+        self.assertNotIn("earlier runs", batch())
+        self.assertIn("1 by earlier runs", batch())
+        first = hashes()
+        self.morsel("check", "report.json")
+        data = bytearray(buffer.read_bytes())
+        data[44:48] = struct.pack("<f", 5)
+        buffer.write_bytes(data)
+        self.morsel("check", "report.json", code=1)
+        self.assertNotIn("earlier runs", batch())
+        self.assertIn("1 by earlier runs", batch())
+        self.assertNotEqual(hashes(), first)
+
+    def test_a_missing_buffer_that_the_triangles_do_not_need(self):
+        mesh, _ = self.in_two_files("m.gltf", "m.bin")
+        document = json.loads(mesh.read_text())
+        document["buffers"].append({"byteLength": 4, "uri": "animation.bin"})
+        mesh.write_text(json.dumps(document))
+        self.assertTrue(json.loads(self.morsel("info", "--json", mesh).stdout)["valid"])
 
     def test_refusals_are_one_sentence(self):
         for name, text, sentence in (

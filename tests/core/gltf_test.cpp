@@ -5,6 +5,7 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -118,6 +119,47 @@ TEST_CASE("buffers are read from files in the same folder only") {
   std::ofstream(scratch / "short.gltf") << square(R"({"byteLength":53,"uri":"a%20b.bin"})");
   CHECK_THROWS_WITH(core::read_polygon_soup(scratch / "short.gltf"),
                     Catch::Contains("announces 53 bytes, and there are 52"));
+}
+
+TEST_CASE("the files of a mesh are known before it is read") {
+  const Scratch scratch;
+  using Paths = std::vector<std::filesystem::path>;
+  const std::string buffers =
+      R"({"byteLength":48,"uri":"b.bin"},{"byteLength":48,"uri":"a%20b.bin"},{"byteLength":4,"uri":"b.bin"},
+         {"byteLength":3,"uri":"data:;base64,AAAA"},{"byteLength":3,"uri":"../up.bin"},{"byteLength":3},7)";
+  const Paths both = {scratch / "a b.bin", scratch / "b.bin"};
+  CHECK(core::companion_files(scratch.file("a.gltf", square(buffers))) == both);
+  CHECK(core::companion_files(scratch.file("a.txt", square(buffers))).empty());
+  CHECK(core::companion_files(scratch / "a.txt", core::MeshFormat::gltf) == both);
+  CHECK(core::companion_files(scratch / "a.gltf", core::MeshFormat::off).empty());
+
+  const auto word = [](std::size_t value) {
+    const auto small = static_cast<std::uint32_t>(value);
+    return std::string(reinterpret_cast<const char*>(&small), sizeof small);
+  };
+  const std::string json = square(buffers);
+  const std::string binary =
+      "glTF" + word(2) + word(20 + json.size() + 12) + word(json.size()) + "JSON" + json;
+  CHECK(core::companion_files(scratch.file("a.glb", binary + word(4) + std::string("BIN\0data", 8))) == both);
+  CHECK(core::companion_files(scratch.file("cut.glb", binary)) == both);
+  // Bad files name none; reading says why.
+  for (std::size_t length = 0; length < binary.size(); ++length)
+    REQUIRE(core::companion_files(scratch.file("cut.glb", binary.substr(0, length))).empty());
+  CHECK(core::companion_files(scratch.file("bad.gltf", R"({"buffers":{"uri":"b.bin"}})")).empty());
+  CHECK(core::companion_files(scratch.file("bad.gltf", "{")).empty());
+  CHECK(core::companion_files(scratch / "none.gltf").empty());
+  CHECK(core::companion_files(scratch.path()).empty());
+}
+
+TEST_CASE("custom properties are left out, whatever they hold") {
+  for (const char* name : {"extras_mode.gltf", "extras_underscore.gltf", "extras_of_material.gltf"}) {
+    INFO(name);
+    CHECK(from_corpus(name).soup.corners == kFaces);
+  }
+  // What follows is checked again.
+  const std::string text = square(R"({"extras":{"a":[{"count":"x"}]},"byteLength":"48"})");
+  CHECK_THROWS_WITH(core::parse_polygon_soup(text, core::MeshFormat::gltf, "test"),
+                    Catch::Contains("\"byteLength\", which should be a whole number"));
 }
 
 TEST_CASE("primitives of a node that share their accessors share the vertices") {

@@ -84,7 +84,7 @@ std::vector<Corners> corners(const core::TriangleMesh& mesh) {
     Corners places;
     for (std::size_t i = 0; i < 3; ++i)
       for (int axis = 0; axis < 3; ++axis) places[i][axis] = mesh.position(triangle[i])[axis];
-    std::ranges::rotate(places, std::ranges::min_element(places));
+    std::rotate(places.begin(), std::ranges::min_element(places), places.end());
     result.push_back(places);
   }
   return result;

@@ -44,6 +44,14 @@ class CheckLayers(unittest.TestCase):
             with self.subTest(code=code):
                 self.assertEqual(complaints({"core/b.cpp": code}), [])
 
+    def test_exceptions_are_of_one_source(self):
+        code = "#include <nlohmann/json.hpp>\n"
+        self.assertEqual(complaints({"core/io/gltf_reader.cpp": code}), [])
+        for name in ("core/io/obj_reader.cpp", "core/gltf_reader.cpp"):
+            with self.subTest(name=name):
+                self.assertEqual(len(complaints({name: code})), 1)
+        self.assertEqual(len(complaints({"core/io/gltf_reader.cpp": "#include <iostream>\n"})), 1)
+
     def test_includes(self):
         for name, code in (("core/b.h", '#include "morsel/morse/critical_points.h"'),
                            ("core/b.h", "#include <morsel/tools/registry.h>"),

@@ -4,9 +4,9 @@
 
 #include "morsel/core/error.h"
 #include "morsel/tools/formats/command_line.h"
-#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/render/request_words.h"
 #include "morsel/tools/report/build_options.h"
+#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/input_files.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/request_words.h"
@@ -88,7 +88,7 @@ Json mesh_key(const Json& common, const fs::path& mesh) {
   Json key = common;
   key["sha256"] = nullptr;
   try {
-    key["sha256"] = sha256_of_file(mesh);
+    key["sha256"] = sha256_of(MeshOrigin{mesh});
   } catch (const core::BadInput&) {  // the reader of meshes reports the error
   }
   return key;

@@ -121,7 +121,7 @@ class Outputs {
       : options_(options),
         common_(run.common),
         figure_size_(render::parse_size(options.figure.size)),
-        folders_(options, checked_files(options), run.console.stop_token()),
+        folders_(options, checked_files(options, run.common), run.console.stop_token()),
         report_target_(options.report) {
     if (!options.page.empty()) page_file_.emplace(options.page);
   }
@@ -167,9 +167,9 @@ class Outputs {
 
  private:
   /// All files of the run; throws if two of them are the same.
-  static RunFiles checked_files(const Options& options) {
+  static RunFiles checked_files(const Options& options, const CommonOptions& common) {
     RunFiles files;
-    files.reads_mesh(options.mesh).reads_of_field(options.request.field);
+    files.reads_mesh(options.mesh, common.format).reads_of_field(options.request.field);
     reads_of_points(files, options.request.points);
     files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
     if (!options.thumbnails.empty())

@@ -56,7 +56,7 @@ int make_hierarchy(const Options& options, const Run& run) {
   const HierarchyPlan prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
   RunFiles files;
-  files.reads_mesh(options.mesh).reads_of_field(request.field.field);
+  files.reads_mesh(options.mesh, run.common.format).reads_of_field(request.field.field);
   ResiduesRun residues(options.residues, run);
   residues.add_files(files);
   files.writes_document("-o", options.output).fills("--export", options.export_folder).check();

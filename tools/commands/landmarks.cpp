@@ -45,7 +45,8 @@ RunFiles files_of(const Options& options, const MarkedFiles& files) {
   RunFiles named;
   named.reads("LIST", options.list);
   for (std::size_t i = 0; i < files.size(); ++i)
-    named.reads("mesh of LIST,", files.path_of(i)).reads("vertices of LIST,", files.marks_path_of(i));
+    named.reads_mesh_file("mesh of LIST,", files.path_of(i))
+        .reads("vertices of LIST,", files.marks_path_of(i));
   for (const std::string& field : options.request.fields) named.reads_of_field(field);
   reads_of_points(named, options.request.choice);
   write_table(named, options.output).fills("--figures", options.figure_folder).check();

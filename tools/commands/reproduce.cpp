@@ -18,7 +18,7 @@ int make_again(reproduce::Request& request, const Run& run) {
   const reproduce::Prepared prepared = reproduce::prepare(request);
   RunFiles files;
   for (const reproduce::MeshFile& file : prepared.files)
-    if (!file.is_made) files.reads("the mesh", file.path);
+    if (!file.is_made) files.reads_mesh_file("the mesh", file.path);
   files.fills("DIR", request.folder).check();
   const reproduce::Reproduction reproduction = reproduce::run(prepared, run.console.progress());
   for (std::size_t i = 0; i < prepared.files.size(); ++i)

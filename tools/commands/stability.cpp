@@ -42,7 +42,7 @@ int measure_stability(const Options& options, const Run& run) {
   const StabilityPlan prepared = prepare(options.request);
   const StabilityRequest request = with_defaults(options.request);
   RunFiles files;
-  files.reads_mesh(options.mesh);
+  files.reads_mesh(options.mesh, run.common.format);
   for (const std::string& field : request.fields) files.reads_of_field(field);
   if (!request.reference_field.empty()) files.reads_of_field(request.reference_field, "--reference-field");
   write_table(files, options.output).fills("--figures", options.figure_folder).check();

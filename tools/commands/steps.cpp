@@ -81,7 +81,7 @@ void tell_points(const MadePoints& made, const PointsRequest& request, Console& 
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
     : run_(run), plan_(prepare(request)), file_{mesh, {}} {
-  files_.reads_mesh(mesh).reads_of_field(request.field);
+  files_.reads_mesh(mesh, run.common.format).reads_of_field(request.field);
 }
 
 FieldRun& FieldRun::writes(const std::string& option, const std::filesystem::path& path,

@@ -44,7 +44,7 @@ int sweep(const Options& options, const Run& run) {
   if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   const SweepPlan prepared = prepare(options.request);
   RunFiles named;
-  named.reads_mesh(options.mesh);
+  named.reads_mesh(options.mesh, run.common.format);
   for (const std::string& field : fields_of(prepared)) named.reads_of_field(field);
   write_table(named, options.output).fills("--figures", options.figure_folder).check();
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <optional>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -45,7 +46,13 @@ core::LoadedSoup read_polygon_soup(const MeshOrigin& file, const core::Progress&
 }
 
 std::string sha256_of(const MeshOrigin& file) {
-  return file.bytes ? sha256_of(*file.bytes) : sha256_of_file(file.path);
+  if (file.bytes) return sha256_of(*file.bytes);
+  std::string hash = sha256_of_file(file.path), of_companions;
+  for (const std::filesystem::path& companion : core::companion_files(file.path, file.format)) {
+    std::error_code error;  // what the mesh does not need may be missing; for what it needs, reading it fails
+    if (std::filesystem::is_regular_file(companion, error)) of_companions += sha256_of_file(companion) + "\n";
+  }
+  return of_companions.empty() ? hash : sha256_of(hash + "\n" + of_companions);
 }
 
 HashedMesh read_hashed_mesh(const MeshOrigin& file, const core::BuildOptions& options,

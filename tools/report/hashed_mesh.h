@@ -1,5 +1,5 @@
 #pragma once
-/// A mesh with the hash of its file.
+/// A mesh with the hash of its files.
 
 #include <filesystem>
 #include <optional>
@@ -19,7 +19,8 @@ struct MeshOrigin {
 
 /// core::read_polygon_soup() of it. Throws InvalidArgument for bytes without a format.
 core::LoadedSoup read_polygon_soup(const MeshOrigin& file, const core::Progress& progress = {});
-/// sha256_of_file() of it.
+/// sha256_of_file() of it. Where core::companion_files() exist, the hash of a text: a line for the file and
+/// for each of these, in their order, with the hash of its bytes.
 std::string sha256_of(const MeshOrigin& file);
 
 struct HashedMesh {
@@ -27,7 +28,7 @@ struct HashedMesh {
   std::string sha256;
 };
 
-/// core::read_mesh() and, meanwhile, sha256_of_file().
+/// core::read_mesh() and, meanwhile, sha256_of().
 HashedMesh read_hashed_mesh(const std::filesystem::path& path, const core::BuildOptions& options = {},
                             const core::Progress& progress = {});
 
@@ -39,7 +40,7 @@ struct HashedWholeMesh {
   std::string sha256;
 };
 
-/// core::read_whole_mesh() and, meanwhile, sha256_of_file().
+/// core::read_whole_mesh() and, meanwhile, sha256_of().
 HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path,
                                        const core::BuildOptions& options = {},
                                        const core::Progress& progress = {});

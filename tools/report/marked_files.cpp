@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "morsel/core/io/file_bytes.h"
-#include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/mesh_section.h"
 
 namespace morsel::tools {

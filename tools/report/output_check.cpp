@@ -1,5 +1,7 @@
 #include "morsel/tools/report/output_check.h"
 
+#include <optional>
+
 #include "morsel/core/error.h"
 #include "morsel/core/io/links.h"
 #include "morsel/core/io/mesh_io.h"
@@ -17,9 +19,18 @@ RunFiles& RunFiles::reads(const std::string& option, const std::filesystem::path
   return *this;
 }
 
-RunFiles& RunFiles::reads_mesh(const std::filesystem::path& mesh) {
+RunFiles& RunFiles::reads_mesh(const std::filesystem::path& mesh, const std::string& format) {
   // Standard input may be a file, which is not to be replaced either.
-  return reads("MESH", mesh == "-" ? "/dev/stdin" : mesh);
+  return mesh == "-" ? reads("MESH", "/dev/stdin") : reads_mesh_file("MESH", mesh, format);
+}
+
+RunFiles& RunFiles::reads_mesh_file(const std::string& option, const std::filesystem::path& file,
+                                    const std::string& format) {
+  std::optional<core::MeshFormat> given;
+  if (!format.empty()) given = core::mesh_format_named(format);
+  for (const std::filesystem::path& companion : core::companion_files(file, given))
+    reads("a buffer of " + option, companion);
+  return reads(option, file);
 }
 
 RunFiles& RunFiles::reads_of_field(const std::string& specification, const std::string& option,

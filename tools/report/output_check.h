@@ -15,8 +15,12 @@ namespace morsel::tools {
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
-  /// MESH of a command, of which - is standard input.
-  RunFiles& reads_mesh(const std::filesystem::path& mesh);
+  /// MESH of a command, of which - is standard input, in the format of that name; if empty, that of the
+  /// file's name.
+  RunFiles& reads_mesh(const std::filesystem::path& mesh, const std::string& format = {});
+  /// The file of a mesh, and those that it names (core::companion_files()).
+  RunFiles& reads_mesh_file(const std::string& option, const std::filesystem::path& file,
+                            const std::string& format = {});
   /// The files that keys of a Morse function, given by `option`, name.
   RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field",
                            const Registry& registry = Registry::standard());
