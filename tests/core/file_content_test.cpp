@@ -165,7 +165,8 @@ std::string in_base64(const std::string& bytes) {
       group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
     for (const int shift : {18, 12, 6, 0}) text += kDigits[group >> shift & 63];
   }
-  if (bytes.size() % 3 > 0) std::fill(text.end() - (3 - static_cast<std::ptrdiff_t>(bytes.size() % 3)), text.end(), '=');
+  if (bytes.size() % 3 > 0)
+    std::fill(text.end() - (3 - static_cast<std::ptrdiff_t>(bytes.size() % 3)), text.end(), '=');
   return text;
 }
 
