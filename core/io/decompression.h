@@ -29,6 +29,23 @@ struct DecompressionLimit {
   }
 };
 
+/// What the compressed parts of one file may still become in memory, as numbers: all of them together as much
+/// as DecompressionLimit has for the file's size.
+class DecompressionBudget {
+ public:
+  explicit DecompressionBudget(std::size_t file_size, const DecompressionLimit& limit = {})
+      : file_size_(file_size), most_(limit.for_size(file_size)), left_(most_) {}
+
+  /// Takes `count` times `size` bytes for `what`, before they are allocated. Throws BadInput, which names
+  /// `file`, if there are not as many left.
+  void take(std::uint64_t count, std::uint64_t size, const std::string& file, const std::string& what);
+
+ private:
+  std::size_t file_size_;
+  std::size_t most_;
+  std::size_t left_;
+};
+
 /// Bytes in memory that grow without being copied where the system can move pages, and are not set to 0
 /// first.
 class GrowingBytes {

@@ -22,6 +22,16 @@ Compression compression_of(std::string_view bytes) {
   return Compression::none;
 }
 
+void DecompressionBudget::take(std::uint64_t count, std::uint64_t size, const std::string& file,
+                               const std::string& what) {
+  if (size != 0 && count > left_ / size)
+    fail_reading(file, "its data expand to more than " + std::to_string(most_ >> 20) + " MiB, over " +
+                           std::to_string(most_ / std::max<std::size_t>(file_size_, 1)) +
+                           " times its size, at " + what +
+                           ", which is refused: write it without compression if that is meant");
+  left_ -= static_cast<std::size_t>(count * size);
+}
+
 char* GrowingBytes::room_for(std::size_t more) {
   if (capacity_ - size_ < more) {
     const std::size_t capacity = std::max(size_ + more, capacity_ + capacity_ / 2);

@@ -145,11 +145,11 @@ bool is_unmarked_utf16(std::string_view bytes) {
 }  // namespace
 
 std::string_view file_kind(std::string_view bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // a byte-order mark
   for (const Mark& mark : kMarks)
     if (bytes.size() >= mark.at && bytes.substr(mark.at).starts_with(mark.bytes)) return mark.kind;
   if (is_unmarked_utf16(bytes)) return "UTF-16 text without a byte-order mark";
   bytes = bytes.substr(0, 4096);
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   return text_kind(bytes);
 }
 

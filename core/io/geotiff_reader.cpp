@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/io/decompression.h"
 #include "morsel/core/io/elevation_grid.h"
 #include "morsel/core/io/geotiff.h"
 #include "morsel/core/text/text_scanner.h"
@@ -100,13 +101,10 @@ class GeoTiffReader {
     grid_.columns = static_cast<std::size_t>(std::max(0, GDALGetRasterXSize(dataset_.get())));
     grid_.rows = static_cast<std::size_t>(std::max(0, GDALGetRasterYSize(dataset_.get())));
     check_grid_size(grid_.columns, grid_.rows, file_);
-    // The best that a usual compression does is 1 : 1,032.
-    constexpr std::size_t kCellsPerByte = 4096;
-    if (grid_.columns * grid_.rows / kCellsPerByte > size_)
-      fail_reading(file_, "it announces " + std::to_string(grid_.columns * grid_.rows) +
-                              " cells, more than its " + std::to_string(size_) + " bytes can hold");
     band_ = GDALGetRasterBand(dataset_.get(), 1);
     const GDALDataType type = GDALGetRasterDataType(band_);
+    check_expansion(static_cast<std::uint64_t>(bands) *
+                    static_cast<std::uint64_t>(GDALGetDataTypeSizeBytes(type)));
     if (GDALDataTypeIsComplex(type) != 0)
       fail_reading(file_, std::string("its band 1 has numbers of type ") + GDALGetDataTypeName(type) +
                               ", which are no elevations");
@@ -116,6 +114,19 @@ class GeoTiffReader {
                               (colour == GCI_RedBand ? "the red of colours" : "numbers of colours"));
     if (bands > 1)
       warnings_.push_back("it has " + std::to_string(bands) + " bands, of which the first is read");
+  }
+
+  /// Of the grid, and of a block, which GDAL decompresses as a whole, whose cells may have all bands.
+  void check_expansion(std::uint64_t bytes_per_cell) const {
+    const std::string cells = std::to_string(grid_.columns * grid_.rows) + " cells";
+    DecompressionBudget(size_).take(grid_.columns * grid_.rows,
+                                    std::max<std::uint64_t>(sizeof(double), bytes_per_cell), file_, cells);
+    int columns = 0, rows = 0;
+    GDALGetBlockSize(band_, &columns, &rows);
+    DecompressionBudget(size_).take(
+        static_cast<std::uint64_t>(std::max(columns, 0)) * static_cast<std::uint64_t>(std::max(rows, 0)),
+        bytes_per_cell, file_,
+        "a block of " + std::to_string(columns) + " by " + std::to_string(rows) + " cells");
   }
 
   void read_place() {

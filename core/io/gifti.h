@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "morsel/core/io/decompression.h"
 #include "morsel/core/parallel/progress.h"
 
 namespace morsel::core {
@@ -32,8 +33,8 @@ class GiftiFile {
   /// "data array 2 (NIFTI_INTENT_SHAPE)", counted from 1.
   std::string called(std::size_t i) const;
   /// The numbers of array i, row by row. Throws BadInput if they are damaged, are in another file, or do not
-  /// have the sizes announced.
-  std::vector<double> values(std::size_t i) const;
+  /// have the sizes announced, or if what is compressed in all that were asked for expands too much.
+  std::vector<double> values(std::size_t i);
   /// What was odd but could be read, a sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -42,6 +43,7 @@ class GiftiFile {
 
   const std::string& file_;
   const Progress& progress_;
+  DecompressionBudget budget_;
   std::unique_ptr<Document> document_;
   std::vector<Array> arrays_;
   std::vector<std::string> warnings_;

@@ -24,6 +24,8 @@ namespace morsel::core {
 namespace gifti {
 namespace {
 
+constexpr std::size_t kPause = 1 << 16;  // elements between two checks for cancellation
+
 constexpr std::string_view kPoints = "NIFTI_INTENT_POINTSET";
 constexpr std::string_view kTriangles = "NIFTI_INTENT_TRIANGLE";
 
@@ -95,7 +97,7 @@ std::string contents_of(const GiftiFile& gifti) {
 }
 
 /// Sets of one value a vertex, as properties.
-void add_properties(const GiftiFile& gifti, LoadedSoup& result) {
+void add_properties(GiftiFile& gifti, LoadedSoup& result) {
   std::set<std::string, std::less<>> names;
   for (std::size_t i = 0; i < gifti.arrays().size(); ++i) {
     const GiftiFile::Array& array = gifti.arrays()[i];
@@ -121,7 +123,7 @@ struct GiftiFile::Document {
 };
 
 GiftiFile::GiftiFile(std::string_view bytes, const std::string& file, const Progress& progress)
-    : file_(file), progress_(progress), document_(std::make_unique<Document>()) {
+    : file_(file), progress_(progress), budget_(bytes.size()), document_(std::make_unique<Document>()) {
   if (bytes.empty()) fail_reading(file, "it is empty");
   const pugi::xml_parse_result parsed = document_->xml.load_buffer(bytes.data(), bytes.size());
   progress.throw_if_cancelled();
@@ -175,7 +177,7 @@ std::string GiftiFile::called(std::size_t i) const {
   return "data array " + std::to_string(i + 1) + " (" + arrays_[i].intent + ")";
 }
 
-std::vector<double> GiftiFile::values(std::size_t i) const {
+std::vector<double> GiftiFile::values(std::size_t i) {
   progress_.throw_if_cancelled();
   const pugi::xml_node& node = document_->arrays[i];
   const Array& array = arrays_[i];
@@ -188,12 +190,10 @@ std::vector<double> GiftiFile::values(std::size_t i) const {
   const std::optional<NumberType> type = gifti::number_type(node.attribute("DataType").value());
   if (!type)
     throw BadInput(what + "its numbers have the unknown type " + shown(node.attribute("DataType").value()));
-  // A number takes at least a bit, the smallest share that deflate has of a byte being a thousandth.
   const std::string text = gifti::text_of(node.child("Data"));
-  constexpr std::uint64_t kMost = 1100;
-  if (array.columns != 0 && array.rows > kMost * (text.size() + 1) / array.columns)
+  if (array.columns != 0 && array.rows > std::numeric_limits<std::uint64_t>::max() / 8 / array.columns)
     throw BadInput(what + "it announces " + std::to_string(array.rows) + " rows of " +
-                   std::to_string(array.columns) + ", but its data are too short for them");
+                   std::to_string(array.columns) + ", more than any file has");
   const std::uint64_t count = array.rows * array.columns;
   std::vector<double> numbers;
   if (encoding == "ASCII") {
@@ -202,16 +202,18 @@ std::vector<double> GiftiFile::values(std::size_t i) const {
     const std::string_view order = node.attribute("Endian").value();
     if (order != "LittleEndian" && order != "BigEndian")
       throw BadInput(what + "its Endian is " + shown(order) + ", neither LittleEndian nor BigEndian");
-    std::optional<std::string> bytes = decode_base64(text);
+    std::optional<std::string> bytes = decode_base64(text, progress_);
     if (!bytes) throw BadInput(what + "its data are not base64");
     const std::uint64_t size = count * size_of(*type);
-    if (encoding == "GZipBase64Binary")
+    if (encoding == "GZipBase64Binary") {
+      budget_.take(count, sizeof(double), file_, called(i));
       bytes = inflated(*bytes, size, what, progress_);
-    else if (bytes->size() != size)
+    } else if (bytes->size() != size) {
       throw BadInput(what + "it has " + std::to_string(bytes->size()) + " bytes, but its sizes need " +
                      std::to_string(size));
-    numbers =
-        binary_numbers(*bytes, *type, order == "BigEndian" ? std::endian::big : std::endian::little, count);
+    }
+    numbers = binary_numbers(*bytes, *type, order == "BigEndian" ? std::endian::big : std::endian::little,
+                             count, progress_);
   } else {
     throw BadInput(what + "its encoding " + shown(encoding) +
                    " is none of ASCII, Base64Binary and GZipBase64Binary");
@@ -220,14 +222,15 @@ std::vector<double> GiftiFile::values(std::size_t i) const {
       std::string_view(node.attribute("ArrayIndexingOrder").value()) != "ColumnMajorOrder")
     return numbers;
   std::vector<double> by_row(numbers.size());
-  for (std::uint64_t row = 0; row < array.rows; ++row)
-    for (std::uint64_t column = 0; column < array.columns; ++column)
-      by_row[row * array.columns + column] = numbers[column * array.rows + row];
+  for (std::uint64_t at = 0; at < count; ++at) {
+    if (at % gifti::kPause == 0) progress_.throw_if_cancelled();
+    by_row[at] = numbers[at % array.columns * array.rows + at / array.columns];
+  }
   return by_row;
 }
 
 LoadedSoup read_gifti(std::string_view bytes, const std::string& file, const Progress& progress) {
-  const GiftiFile gifti(bytes, file, progress);
+  GiftiFile gifti(bytes, file, progress);
   LoadedSoup result;
   result.warnings = gifti.warnings();
   const std::optional<std::size_t> points = gifti::find_array(gifti, gifti::kPoints, result.warnings);
@@ -250,14 +253,18 @@ LoadedSoup read_gifti(std::string_view bytes, const std::string& file, const Pro
   const std::vector<double> coordinates = gifti.values(*points);
   auto& positions = result.soup.positions;
   positions.resize(coordinates.size() / 3);
-  for (std::size_t v = 0; v < positions.size(); ++v)
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (v % gifti::kPause == 0) progress.throw_if_cancelled();
     positions[v] = {coordinates[3 * v], coordinates[3 * v + 1], coordinates[3 * v + 2]};
+  }
   progress.update("reading the mesh", 0.5);
   const std::vector<double> corners = gifti.values(*triangles);
   const std::string what = "cannot read \"" + file + "\": " + gifti.called(*triangles) + ": ";
   result.soup.corners.resize(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i)
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i % gifti::kPause == 0) progress.throw_if_cancelled();
     result.soup.corners[i] = gifti::corner(corners[i], positions.size(), i / 3, what);
+  }
   result.soup.offsets.resize(corners.size() / 3 + 1);
   for (std::size_t f = 0; f < result.soup.offsets.size(); ++f) result.soup.offsets[f] = 3 * f;
   gifti::add_properties(gifti, result);

@@ -61,7 +61,7 @@ Column chosen(const GiftiFile& gifti, const std::vector<Column>& columns, const 
 }  // namespace gifti
 
 ValueFile read_gifti_values(std::string_view bytes, const ValueRequest& request) {
-  const GiftiFile gifti(bytes, request.file, request.progress);
+  GiftiFile gifti(bytes, request.file, request.progress);
   std::vector<gifti::Column> columns;
   for (std::size_t i = 0; i < gifti.arrays().size(); ++i) {
     const GiftiFile::Array& array = gifti.arrays()[i];

@@ -115,7 +115,8 @@ std::optional<MeshFormat> recognised_format(const std::filesystem::path& path) {
   if (find_format(path) != nullptr) return std::nullopt;
   try {
     const FileBytes bytes(path, path.string());
-    if (is_freesurfer_surface(bytes.view())) return MeshFormat::freesurfer;
+    if (is_freesurfer_surface(DecodedBytes(bytes.view(), path.string()).view()))
+      return MeshFormat::freesurfer;
   } catch (const BadInput&) {  // reading it as a mesh says why
   }
   return std::nullopt;
@@ -182,9 +183,10 @@ LoadedSoup read_polygon_soup(const std::filesystem::path& path, const Progress& 
   const FileBytes bytes(path, name);
   if (const Format* format = find_format(path))
     return parse_in(path.parent_path(), bytes.view(), format->format, name, progress);
-  if (is_freesurfer_surface(bytes.view()))
-    return parse_polygon_soup(bytes.view(), MeshFormat::freesurfer, name, progress);
-  const std::string_view kind = file_kind(bytes.view());
+  const DecodedBytes decoded(bytes.view(), name, progress);
+  if (is_freesurfer_surface(decoded.view()))
+    return parse_polygon_soup(decoded.view(), MeshFormat::freesurfer, name, progress);
+  const std::string_view kind = file_kind(decoded.view());
   fail_reading(name, unknown_extension(path) +
                          (kind.empty() ? "" : "; it is " + std::string(kind) + remedy_for(kind)));
 }
@@ -249,7 +251,7 @@ LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOption
     warn(difference_warning(source));
     for (VertexProperty& made : face_values_at_vertices(faces, representatives(source.numbering)))
       source.properties.push_back(std::move(made));
-    warn(unwelded_warning(loaded.mesh, source.numbering));
+    warn(unwelded_warning(loaded.mesh, source.numbering, progress));
     return loaded;
   } catch (const MeshError& error) {
     throw error.about("\"" + name + "\"");

@@ -280,6 +280,23 @@ class ColumnReader {
     return static_cast<std::size_t>(found - cells.begin());
   }
 
+  /// Whether the first record is one of names: a cell is no number, or has quotes and that below it has none.
+  static bool has_names(const std::vector<Cell>& first, Records following) {
+    if (std::ranges::any_of(first, [](const Cell& cell) { return !is_number(cell); })) return true;
+    if (std::ranges::none_of(first, &Cell::quoted) || !following.next()) return false;
+    const std::vector<Cell>& below = following.cells();
+    for (std::size_t i = 0; i < std::min(first.size(), below.size()); ++i)
+      if (first[i].quoted && !below[i].quoted) return true;
+    return false;
+  }
+
+  /// Whether choose_by_number() takes the text.
+  bool is_column_number(std::string_view text) const {
+    std::size_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && stop == text.data() + text.size() && number >= 1 && number <= width_;
+  }
+
   static bool is_number(const Cell& cell) {
     double value = 0;
     return parse_value(trimmed(cell.text), value);
@@ -292,9 +309,10 @@ class ColumnReader {
     const std::vector<Cell> comment = records.comment_names();
     width_ = first.size();
     const std::string& name = request_.column;
-    const bool has_names = std::ranges::any_of(first, [](const Cell& cell) { return !is_number(cell); });
+    const bool is_header = has_names(first, records);
     if (!name.empty()) {
-      if (const auto found = find(first, name); found && has_names) {
+      // Years, say, are names only where they are no numbers of columns.
+      if (const auto found = find(first, name); found && (is_header || !is_column_number(name))) {
         column_ = *found;
         return records.next();
       }
@@ -303,7 +321,8 @@ class ColumnReader {
         return true;
       }
     }
-    if (!name.empty() || width_ > 1) column_ = choose_by_number(has_names ? first : comment);
+    if (!name.empty() || width_ > 1) column_ = choose_by_number(is_header ? first : comment);
+    if (is_header && first[column_].quoted && is_number(first[column_])) return records.next();
     if (is_number(first[column_])) return true;
     return skip_header(records, first[column_].text);
   }

@@ -13,6 +13,7 @@
 #include "morsel/core/io/file_kind.h"
 #include "morsel/core/io/freesurfer.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -89,9 +90,8 @@ std::size_t numbered_column(const ValueRequest& request, std::size_t count, cons
 }
 
 bool parse_value(std::string_view text, double& value) {
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
+  const auto [stop, error] = read_number(text.data(), end, value);
   return error == std::errc() && stop == end;
 }
 

@@ -61,7 +61,13 @@ constexpr auto kLegacyTypes = std::to_array<LegacyType>({{"char", NumberType::in
 class LegacyCursor {
  public:
   LegacyCursor(std::string_view bytes, const std::string& file, const Progress& progress)
-      : bytes_(bytes), file_(file), progress_(progress) {}
+      : bytes_(bytes), file_(file), progress_(progress) {
+    if (bytes.starts_with("\xEF\xBB\xBF")) at_ = start_ = 3;  // a byte-order mark
+    const std::string_view ends = bytes.substr(std::min(bytes.find_first_of("\r\n"), bytes.size()));
+    if (ends.starts_with('\r') &&
+        !ends.substr(std::min(ends.find_first_not_of('\r'), ends.size())).starts_with('\n'))
+      terminator_ = '\r';  // as on old Macs
+  }
 
   void set_binary(bool binary) { binary_ = binary; }
 
@@ -82,14 +88,17 @@ class LegacyCursor {
   }
   /// The next word of this line; empty at its end.
   std::string_view word_on_line() {
-    const std::size_t first = bytes_.find_first_not_of(" \t\r\v\f", at_);
-    if (first == std::string_view::npos || bytes_[first] == '\n') return {};
+    std::size_t first = at_;
+    while (first < bytes_.size() && bytes_[first] != terminator_ &&
+           kSpace.find(bytes_[first]) != std::string_view::npos)
+      ++first;
+    if (first == bytes_.size() || bytes_[first] == terminator_) return {};
     return word();
   }
   /// The rest of this line, and past its end.
   std::string_view line() {
     start_ = at_;
-    const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+    const std::size_t end = std::min(bytes_.find(terminator_, at_), bytes_.size());
     std::string_view text = bytes_.substr(at_, end - at_);
     at_ = std::min(end + 1, bytes_.size());
     if (text.ends_with('\r')) text.remove_suffix(1);
@@ -187,7 +196,7 @@ class LegacyCursor {
   [[noreturn]] void fail(const std::string& what) const {
     const std::string place =
         binary_ ? "byte " + std::to_string(start_)
-                : "line " + std::to_string(std::ranges::count(bytes_.substr(0, start_), '\n') + 1);
+                : "line " + std::to_string(std::ranges::count(bytes_.substr(0, start_), terminator_) + 1);
     fail_reading(file_, place + ": " + what);
   }
 
@@ -225,6 +234,7 @@ class LegacyCursor {
   const std::string& file_;
   const Progress& progress_;
   bool binary_ = false;
+  char terminator_ = '\n';  // of lines: \n or \r
   std::size_t at_ = 0;
   std::size_t start_ = 0;  // of the last word or line
   std::size_t steps_ = 0;

@@ -11,6 +11,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/oddities.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core::vtk {
@@ -193,16 +194,15 @@ std::vector<std::int64_t> decoded_whole(std::string_view bytes, NumberType type,
 bool parse_number(std::string_view word, NumberType type, double& value) {
   bool good = false;
   with_type(type, [&]<class T>(T number) {
-    const char* end = word.data() + word.size();
-    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-    const auto [stop, error] = std::from_chars(word.data() + (plus ? 1 : 0), end, number);
-    good = error == std::errc() && stop == end;
-    if constexpr (std::is_floating_point_v<T>) {
-      if (error == std::errc::result_out_of_range && stop == end && is_tiny(word)) {
-        good = true;
-        number = word.front() == '-' ? -T{0} : T{0};
-      }
-    }
+    const char* begin = word.data();
+    const char* end = begin + word.size();
+    std::from_chars_result result{};
+    if constexpr (std::is_floating_point_v<T>)
+      result = read_number(begin, end, number);
+    else
+      result =
+          std::from_chars(begin + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0), end, number);
+    good = result.ec == std::errc() && result.ptr == end;
     value = static_cast<double>(number);
   });
   return good;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 
 #include "morsel/core/text/text_scanner.h"
 
@@ -30,13 +31,15 @@ constexpr std::uint64_t kMostDeflated = 1032;
 class BlockReader {
  public:
   BlockReader(ByteStream& stream, const XmlEncoding& encoding, const std::string& file,
-              const std::string& what, const Progress& progress)
-      : stream_(stream), encoding_(encoding), file_(file), what_(what), progress_(progress) {}
+              const std::string& what, const std::function<void(std::uint64_t)>& check,
+              const Progress& progress)
+      : stream_(stream), encoding_(encoding), file_(file), what_(what), check_(check), progress_(progress) {}
 
   std::string plain() {
     const std::uint64_t length = word();
     if (length > stream_.room())
       fail("is said to have " + std::to_string(length) + " bytes, but the file is too short for them");
+    check_(length);
     std::string result;
     result.reserve(length);
     constexpr std::uint64_t kPart = std::uint64_t{1} << 24;
@@ -57,11 +60,15 @@ class BlockReader {
       fail("is said to have " + std::to_string(blocks) + " blocks, but the file is too short for them");
     std::vector<std::uint64_t> lengths(blocks);
     for (std::uint64_t& length : lengths) length = word();
+    const std::uint64_t ending = last > 0 ? last : size;
+    if (size > (std::numeric_limits<std::uint64_t>::max() - ending) / blocks)
+      fail("is said to have " + std::to_string(blocks) + " blocks of " + std::to_string(size) + " bytes");
+    check_(size * (blocks - 1) + ending);
     std::string result;
     std::string deflated;
     for (std::size_t i = 0; i < blocks; ++i) {
       progress_.throw_if_cancelled();
-      const std::uint64_t expected = i + 1 == blocks && last > 0 ? last : size;
+      const std::uint64_t expected = i + 1 == blocks ? ending : size;
       if (lengths[i] > stream_.room() || expected / kMostDeflated > lengths[i])
         fail("is said to have a block of " + std::to_string(expected) + " bytes compressed to " +
              std::to_string(lengths[i]) + ", for which the file is too short");
@@ -104,6 +111,7 @@ class BlockReader {
   const XmlEncoding& encoding_;
   const std::string& file_;
   const std::string& what_;
+  const std::function<void(std::uint64_t)>& check_;
   const Progress& progress_;
 };
 
@@ -160,8 +168,9 @@ std::string_view ByteStream::rest() {
 }
 
 std::string read_block(ByteStream& stream, const XmlEncoding& encoding, const std::string& file,
-                       const std::string& what, const Progress& progress) {
-  BlockReader reader(stream, encoding, file, what, progress);
+                       const std::string& what, const std::function<void(std::uint64_t)>& check,
+                       const Progress& progress) {
+  BlockReader reader(stream, encoding, file, what, check, progress);
   return encoding.compressed ? reader.inflated() : reader.plain();
 }
 

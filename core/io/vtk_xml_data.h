@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,8 +46,10 @@ class ByteStream {
 
 /// The bytes of one array, which `stream` is at the start of. Throws BadInput, naming the file and the array
 /// as `what`, if they are damaged. Lengths in the data are compared with the length of the stream first; of
-/// compressed data with what zlib can make of it.
+/// compressed data with what zlib can make of it. `check` is called with the number of bytes that come out
+/// before they are allocated, and throws if it is wrong.
 std::string read_block(ByteStream& stream, const XmlEncoding& encoding, const std::string& file,
-                       const std::string& what, const Progress& progress);
+                       const std::string& what, const std::function<void(std::uint64_t)>& check,
+                       const Progress& progress);
 
 }  // namespace morsel::core::vtk

@@ -5,6 +5,7 @@
 #include <bit>
 #include <charconv>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <pugixml.hpp>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/io/decompression.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/io/vtk_surface.h"
 #include "morsel/core/io/vtk_xml_data.h"
@@ -55,7 +57,11 @@ CutDocument cut_out_appended(std::string_view bytes, const std::string& file) {
 class XmlReader {
  public:
   XmlReader(std::string_view bytes, const std::string& file, const Progress& progress)
-      : file_(file), progress_(progress), cut_(cut_out_appended(bytes, file)), builder_(file, progress) {}
+      : file_(file),
+        progress_(progress),
+        cut_(cut_out_appended(bytes, file)),
+        builder_(file, progress),
+        budget_(bytes.size()) {}
 
   LoadedSoup read() {
     // Neither parsing nor destruction recurses, and entities of a document are not expanded.
@@ -143,15 +149,17 @@ class XmlReader {
     const std::size_t cells_before = builder_.cell_count();
     const std::uint64_t points = count_of(piece, "NumberOfPoints", 0);
     const pugi::xml_node coordinates = piece.child("Points").child("DataArray");
-    if (coordinates) builder_.add_points(numbers(coordinates, "the array of points"));
+    if (coordinates) builder_.add_points(numbers(coordinates, times(points, 3), "the array of points"));
     if (builder_.point_count() - first != points)
       fail("a piece announces " + std::to_string(points) + " points, but has " +
            std::to_string(builder_.point_count() - first));
     if (is_grid_) {
       const pugi::xml_node node = piece.child("Cells");
-      const Cells cells = cells_of(node, count_of(piece, "NumberOfCells", 0), "Cells");
+      const std::uint64_t count = count_of(piece, "NumberOfCells", 0);
+      const Cells cells = cells_of(node, count, "Cells");
       std::vector<std::int64_t> types;
-      if (const pugi::xml_node array = named(node, "types")) types = whole(array, "the array of cell types");
+      if (const pugi::xml_node array = named(node, "types"))
+        types = whole(array, count, "the array of cell types");
       builder_.add_cells(cells, types, first);
     } else {
       struct Kind {
@@ -168,8 +176,8 @@ class XmlReader {
                            kind.type, first);
     }
     if (builder_.point_count() == first && builder_.cell_count() == cells_before) return;  // has no arrays
-    read_arrays(piece.child("PointData"), point_arrays_, "points");
-    read_arrays(piece.child("CellData"), cell_arrays_, "cells");
+    read_arrays(piece.child("PointData"), point_arrays_, points, "points");
+    read_arrays(piece.child("CellData"), cell_arrays_, builder_.cell_count() - cells_before, "cells");
     ++pieces_;
   }
 
@@ -181,17 +189,17 @@ class XmlReader {
 
   Cells cells_of(const pugi::xml_node& node, std::uint64_t count, const std::string& what) {
     Cells cells;
-    if (const pugi::xml_node array = named(node, "connectivity"))
-      cells.connectivity = whole(array, "the connectivity of " + what);
     if (const pugi::xml_node array = named(node, "offsets"))
-      cells.ends = whole(array, "the offsets of " + what);
+      cells.ends = whole(array, count, "the offsets of " + what);
     if (cells.ends.size() != count)
       fail("a piece announces " + std::to_string(count) + " cells in " + what + ", but has offsets of " +
            std::to_string(cells.ends.size()));
     return cells;
   }
 
-  void read_arrays(const pugi::xml_node& section, Arrays& arrays, const std::string& owner) {
+  /// Arrays of `tuples` tuples each.
+  void read_arrays(const pugi::xml_node& section, Arrays& arrays, std::uint64_t tuples,
+                   const std::string& owner) {
     std::size_t unnamed = 0;
     for (const pugi::xml_node node : section.children()) {
       const std::string_view element = node.name();
@@ -208,7 +216,7 @@ class XmlReader {
         continue;
       }
       const std::size_t components = count_of(node, "NumberOfComponents", 1);
-      std::vector<double> values = numbers(node, what);
+      std::vector<double> values = numbers(node, times(tuples, components), what);
       const auto [found, is_new] = arrays.by_name.try_emplace(name, arrays.all.size());
       if (is_new) {
         // One that is not in the first piece is left out at the end.
@@ -232,23 +240,31 @@ class XmlReader {
     return type;
   }
 
-  std::vector<double> numbers(const pugi::xml_node& array, const std::string& what) {
+  /// The product, or the largest number if that is less.
+  static std::uint64_t times(std::uint64_t a, std::uint64_t b) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+    return b != 0 && a > kMost / b ? kMost : a * b;
+  }
+
+  /// The numbers of an array, which has `count` of them by what the file announces: one that is said to have
+  /// another number is refused before it is decompressed. Of texts the caller sees it.
+  std::vector<double> numbers(const pugi::xml_node& array, std::uint64_t count, const std::string& what) {
     const NumberType type = *type_of(array, what);
     if (is_text(array, what))
       return parsed<double>(array, what, [type](std::string_view word, double& value) {
         return parse_number(word, type, value);
       });
-    return decoded(block(array, type, what), type, encoding_.swap, progress_);
+    return decoded(block(array, type, count, what), type, encoding_.swap, progress_);
   }
 
-  std::vector<std::int64_t> whole(const pugi::xml_node& array, const std::string& what) {
+  std::vector<std::int64_t> whole(const pugi::xml_node& array, std::uint64_t count, const std::string& what) {
     const NumberType type = *type_of(array, what);
     if (!is_whole(type)) fail(what + " has numbers that are not whole");
     if (is_text(array, what))
       return parsed<std::int64_t>(array, what, [type](std::string_view word, std::int64_t& value) {
         return parse_whole(word, type, value);
       });
-    return decoded_whole(block(array, type, what), type, encoding_.swap, progress_);
+    return decoded_whole(block(array, type, count, what), type, encoding_.swap, progress_);
   }
 
   bool is_text(const pugi::xml_node& array, const std::string& what) const {
@@ -275,7 +291,8 @@ class XmlReader {
   }
 
   /// The bytes of a binary array.
-  std::string block(const pugi::xml_node& array, NumberType type, const std::string& what) {
+  std::string block(const pugi::xml_node& array, NumberType type, std::uint64_t count,
+                    const std::string& what) {
     const bool is_appended = attribute_of(array, "format") == "appended";
     std::string_view text = array.child_value();
     if (is_appended) {
@@ -288,7 +305,13 @@ class XmlReader {
     }
     ByteStream stream(text, !is_appended || appended_base64_);
     if (!is_appended && stream.rest().empty()) return {};
-    std::string bytes = read_block(stream, encoding_, file_, what, progress_);
+    const auto check = [&](std::uint64_t size) {
+      if (size != times(count, size_of(type)))
+        fail(what + " is said to have " + std::to_string(size) + " bytes, but " + std::to_string(count) +
+             " numbers of " + std::to_string(size_of(type)) + " are announced");
+      budget_.take(count, sizeof(double), file_, what);
+    };
+    std::string bytes = read_block(stream, encoding_, file_, what, check, progress_);
     if (is_appended) {
       // Arrays that lie one over the other could make any amount of work of a small file.
       const std::size_t used = text.size() - stream.rest().size();
@@ -297,9 +320,6 @@ class XmlReader {
     } else if (!bytes.empty() && !stream.at_end()) {
       fail(what + " goes on after its end, with " + shown(stream.rest().substr(0, 20)));
     }
-    if (bytes.size() % size_of(type) != 0)
-      fail(what + " has " + std::to_string(bytes.size()) + " bytes, not a whole number of " +
-           std::to_string(size_of(type)));
     return bytes;
   }
 
@@ -308,6 +328,7 @@ class XmlReader {
   CutDocument cut_;
   SurfaceBuilder builder_;
   XmlEncoding encoding_;
+  DecompressionBudget budget_;
   bool is_grid_ = false;
   bool appended_base64_ = false;
   std::uint64_t appended_budget_ = 0;  // bytes of it that may still be read, some more than once

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -19,9 +20,11 @@ namespace {
 constexpr std::size_t kPause = 1 << 16;  // numbers between two looks at whether to stop
 
 template <class T>
-std::vector<double> converted(std::string_view bytes, bool swap, std::uint64_t count) {
+std::vector<double> converted(std::string_view bytes, bool swap, std::uint64_t count,
+                              const Progress& progress) {
   std::vector<double> values(count);
   for (std::uint64_t i = 0; i < count; ++i) {
+    if (i % kPause == 0) progress.throw_if_cancelled();
     std::array<char, sizeof(T)> one;
     std::memcpy(one.data(), bytes.data() + i * sizeof(T), sizeof(T));
     if (swap) std::reverse(one.begin(), one.end());
@@ -43,15 +46,15 @@ std::pair<double, double> range_of(NumberType type) {
 
 /// A word as a number of the type; false if it is none.
 bool parse_number(std::string_view word, NumberType type, double& value) {
-  const char* begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
+  const char* begin = word.data();
   const char* end = word.data() + word.size();
   std::from_chars_result result{};
   if (type == NumberType::float32) {
     float single = 0;
-    result = std::from_chars(begin, end, single);
+    result = read_number(begin, end, single);
     value = single;
   } else {
-    result = std::from_chars(begin, end, value);
+    result = read_number(begin, end, value);
   }
   if (result.ec != std::errc() || result.ptr != end) return false;
   if (is_float(type)) return true;
@@ -106,29 +109,29 @@ std::vector<double> text_numbers(std::string_view text, NumberType type, std::ui
 }
 
 std::vector<double> binary_numbers(std::string_view bytes, NumberType type, std::endian order,
-                                   std::uint64_t count) {
+                                   std::uint64_t count, const Progress& progress) {
   const bool swap = order != std::endian::native;
   switch (type) {
     case NumberType::int8:
-      return converted<std::int8_t>(bytes, swap, count);
+      return converted<std::int8_t>(bytes, swap, count, progress);
     case NumberType::uint8:
-      return converted<std::uint8_t>(bytes, swap, count);
+      return converted<std::uint8_t>(bytes, swap, count, progress);
     case NumberType::int16:
-      return converted<std::int16_t>(bytes, swap, count);
+      return converted<std::int16_t>(bytes, swap, count, progress);
     case NumberType::uint16:
-      return converted<std::uint16_t>(bytes, swap, count);
+      return converted<std::uint16_t>(bytes, swap, count, progress);
     case NumberType::int32:
-      return converted<std::int32_t>(bytes, swap, count);
+      return converted<std::int32_t>(bytes, swap, count, progress);
     case NumberType::uint32:
-      return converted<std::uint32_t>(bytes, swap, count);
+      return converted<std::uint32_t>(bytes, swap, count, progress);
     case NumberType::int64:
-      return converted<std::int64_t>(bytes, swap, count);
+      return converted<std::int64_t>(bytes, swap, count, progress);
     case NumberType::uint64:
-      return converted<std::uint64_t>(bytes, swap, count);
+      return converted<std::uint64_t>(bytes, swap, count, progress);
     case NumberType::float32:
-      return converted<float>(bytes, swap, count);
+      return converted<float>(bytes, swap, count, progress);
     default:
-      return converted<double>(bytes, swap, count);
+      return converted<double>(bytes, swap, count, progress);
   }
 }
 

@@ -24,7 +24,7 @@ std::vector<double> text_numbers(std::string_view text, NumberType type, std::ui
 
 /// `count` numbers of as many bytes as they take.
 std::vector<double> binary_numbers(std::string_view bytes, NumberType type, std::endian order,
-                                   std::uint64_t count);
+                                   std::uint64_t count, const Progress& progress);
 
 /// The `size` bytes that are compressed in `bytes` (zlib's format or gzip's). Memory grows with what comes
 /// out, and no further than `size`. Throws BadInput, which begins with `what`, if they are damaged, or more

@@ -194,7 +194,7 @@ void check_soup(const PolygonSoup& soup) {
 
 WeldedSoup welded(PolygonSoup soup, const std::optional<Length>& length, const Progress& progress) {
   if (length) {
-    progress.update("joining vertices", 0);
+    progress.update("finding coincident vertices", 0);
     const double within = length_on(*length, soup);
     if (!std::isfinite(within))
       throw BadInput(

@@ -40,6 +40,9 @@ struct CellKeys {
 /// Numbers for cells in the order in which they first appear.
 class CellIndex {
  public:
+  CellIndex() = default;
+  CellIndex(const CellIndex&) = delete;  // the keys refer to cells_
+  CellIndex& operator=(const CellIndex&) = delete;
   /// kNone if the cell was not added.
   Index find(const Cell& cell) const { return index_.find(cell); }
   Index add(const Cell& cell) {
@@ -56,9 +59,9 @@ class CellIndex {
   HashIndex<Index, CellKeys> index_{CellKeys{cells_}};
 };
 
-void tell_joining(const Progress& progress, std::size_t v, std::size_t count) {
+void tell_search(const Progress& progress, std::size_t v, std::size_t count) {
   if ((v & 0xFFFF) == 0xFFFF)
-    progress.update("joining vertices", static_cast<double>(v) / static_cast<double>(count));
+    progress.update("finding coincident vertices", static_cast<double>(v) / static_cast<double>(count));
 }
 
 std::vector<Index> join_equal(std::span<const Point> positions, const Progress& progress) {
@@ -66,7 +69,7 @@ std::vector<Index> join_equal(std::span<const Point> positions, const Progress& 
   std::vector<Index> first_in;  // per cell: the first vertex there
   CellIndex cells;
   for (Index v = 0; v < joined.size(); ++v) {
-    tell_joining(progress, v, joined.size());
+    tell_search(progress, v, joined.size());
     joined[v] = v;
     const Point& p = positions[v];
     if (!p.allFinite()) continue;
@@ -100,18 +103,18 @@ class Representatives {
       low[axis] = cell_of(p[axis] - reach_);
       high[axis] = cell_of(p[axis] + reach_);
     }
-    Index nearest = kNone;
+    Index smallest = kNone;
     for (double x = low[0];; x = following(x, high[0])) {
       for (double y = low[1];; y = following(y, high[1])) {
         for (double z = low[2];; z = following(z, high[2])) {
-          nearest = std::min(nearest, find({x, y, z}, p));
+          smallest = std::min(smallest, find({x, y, z}, p));
           if (z == high[2]) break;
         }
         if (y == high[1]) break;
       }
       if (x == high[0]) break;
     }
-    if (nearest != kNone) return nearest;
+    if (smallest != kNone) return smallest;
     const Index cell = cells_.add({cell_of(p.x()), cell_of(p.y()), cell_of(p.z())});
     if (cell == last_in_.size()) last_in_.push_back(kNone);
     vertices_.emplace_back(v, last_in_[cell]);
@@ -202,7 +205,7 @@ std::vector<Index> coincident_vertices(std::span<const Point> positions, double 
   Representatives representatives(positions, length, extent);
   std::vector<Index> joined(positions.size());
   for (Index v = 0; v < joined.size(); ++v) {
-    tell_joining(progress, v, joined.size());
+    tell_search(progress, v, joined.size());
     joined[v] = positions[v].allFinite() ? representatives.join(v) : v;
   }
   return joined;
@@ -239,6 +242,8 @@ double length_on(const Length& length, const PolygonSoup& soup) {
     case LengthUnit::root_area: {
       double sum = 0;
       for (std::size_t p = 0; p < soup.polygon_count(); ++p) {
+        // Corners are checked only where the mesh is built.
+        if (!std::ranges::all_of(soup.polygon(p), [&](Index v) { return position(v) != nullptr; })) continue;
         const double area = soup.area(p);
         if (std::isfinite(area)) sum += area;
       }
@@ -304,7 +309,7 @@ WeldedSoup weld(PolygonSoup soup, double length, const Progress& progress) {
   return result;
 }
 
-Index count_unwelded(const TriangleMesh& mesh, const VertexNumbering& numbering) {
+Index count_unwelded(const TriangleMesh& mesh, const VertexNumbering& numbering, const Progress& progress) {
   if (mesh.is_closed()) return 0;
   std::vector<Index> vertices;
   for (Index k = 0; k < mesh.boundary_loop_count(); ++k)
@@ -313,7 +318,7 @@ Index count_unwelded(const TriangleMesh& mesh, const VertexNumbering& numbering)
   std::vector<Point> positions;
   positions.reserve(vertices.size());
   for (const Index v : vertices) positions.push_back(mesh.position(v));
-  const std::vector<Index> joined = coincident_vertices(positions);
+  const std::vector<Index> joined = coincident_vertices(positions, 0, progress);
   const auto group_of = [&](Index v) {
     return joined[static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
                                            vertices.begin())];
@@ -348,8 +353,9 @@ Index count_unwelded(const TriangleMesh& mesh, const VertexNumbering& numbering)
   return count;
 }
 
-std::string unwelded_warning(const TriangleMesh& mesh, const VertexNumbering& numbering) {
-  const Index count = count_unwelded(mesh, numbering);
+std::string unwelded_warning(const TriangleMesh& mesh, const VertexNumbering& numbering,
+                             const Progress& progress) {
+  const Index count = count_unwelded(mesh, numbering, progress);
   if (count == 0) return {};
   return grouped(count) + " of " + grouped(mesh.vertex_count()) +
          (count == 1 ? " vertices coincides" : " vertices coincide") +

@@ -24,7 +24,7 @@ std::vector<Index> coincident_vertices(std::span<const Point> positions, double 
 
 /// The length in the unit of the soup, as Length::on() has it of a mesh: vertices with a non-finite
 /// coordinate do not count, edges are the sides of all polygons, and areas those of polygons by their vector
-/// area. O(n).
+/// area. Corners that name no such vertex are left out, with their edges and polygons. O(n).
 double length_on(const Length& length, const PolygonSoup& soup);
 
 /// What weld() makes of a soup.
@@ -46,10 +46,12 @@ WeldedSoup weld(PolygonSoup soup, double length, const Progress& progress = {});
 /// The number of vertices that would be joined with others by welding at boundary edges: those at the ends of
 /// boundary edges that lie on other boundary edges. Copies of the same input vertex, as repair makes them
 /// where it splits one, do not count. O(n log n) for n boundary edges, O(1) on a closed mesh.
-Index count_unwelded(const TriangleMesh& mesh, const VertexNumbering& numbering = {});
+Index count_unwelded(const TriangleMesh& mesh, const VertexNumbering& numbering = {},
+                     const Progress& progress = {});
 
 /// The sentence about them: "798 of 960 vertices coincide with others …"; empty if there are none.
-std::string unwelded_warning(const TriangleMesh& mesh, const VertexNumbering& numbering = {});
+std::string unwelded_warning(const TriangleMesh& mesh, const VertexNumbering& numbering = {},
+                             const Progress& progress = {});
 
 /// How values of joined vertices differ.
 struct JoinedDifference {

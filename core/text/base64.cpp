@@ -26,15 +26,16 @@ constexpr std::array<std::int8_t, 256> digit_table() {
 
 }  // namespace
 
-std::optional<std::string> decode_base64(std::string_view text) {
+std::optional<std::string> decode_base64(std::string_view text, const Progress& progress) {
   constexpr std::array<std::int8_t, 256> kTable = digit_table();
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3 + 2);
   std::uint32_t group = 0;
   std::size_t digits = 0;
   bool padded = false;
-  for (const char c : text) {
-    const std::int8_t digit = kTable[static_cast<unsigned char>(c)];
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if ((i & 0xFFFF) == 0) progress.throw_if_cancelled();
+    const std::int8_t digit = kTable[static_cast<unsigned char>(text[i])];
     if (digit == kBlankDigit) continue;
     if (digit == kPadding) {
       padded = true;

@@ -17,6 +17,33 @@ std::string written(double value, std::chars_format format, int precision) {
 
 }  // namespace
 
+bool is_tiny(std::string_view digits) {
+  long exponent = 0;
+  const std::size_t e = digits.find_first_of("eE");
+  if (e != std::string_view::npos) {
+    std::string_view power = digits.substr(e + 1);
+    const bool negative = power.starts_with('-');
+    if (negative || power.starts_with('+')) power.remove_prefix(1);
+    const auto result = std::from_chars(power.data(), power.data() + power.size(), exponent);
+    if (result.ec == std::errc::result_out_of_range) return negative;
+    if (negative) exponent = -exponent;
+  }
+  // The decimal place of the first digit that is not zero, next to the point.
+  long place = 0;
+  bool past_point = false;
+  bool significant = false;
+  for (const char c : digits.substr(0, e)) {
+    if (c == '.') {
+      past_point = true;
+    } else if (c >= '0' && c <= '9') {
+      significant = significant || c != '0';
+      if (past_point && !significant) --place;
+      if (!past_point && significant) ++place;
+    }
+  }
+  return exponent + place < 0;
+}
+
 std::string to_digits(double value, int digits) { return written(value, std::chars_format::general, digits); }
 
 std::string to_decimals(double value, int decimals) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace morsel::core {
 
@@ -30,6 +31,24 @@ class NumberText {
 
 /// The same as a string.
 inline std::string shortest(double value) { return std::string(NumberText(value).view()); }
+
+/// Whether the number that `digits` stands for is too small for its type: zero or subnormal. std::from_chars
+/// calls both ends of the range an error.
+bool is_tiny(std::string_view digits);
+
+/// Reads a floating-point number at the start of a text, independent of locales: as std::from_chars, but with
+/// a + before it, too, and what is too small for the type is 0 with its sign.
+template <class Float>
+std::from_chars_result read_number(const char* begin, const char* end, Float& value) {
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  std::from_chars_result result = std::from_chars(begin, end, value);
+  if (result.ec == std::errc::result_out_of_range &&
+      is_tiny({begin, static_cast<std::size_t>(result.ptr - begin)})) {
+    value = *begin == '-' ? -Float{0} : Float{0};
+    result.ec = {};
+  }
+  return result;
+}
 
 /// As many significant digits as a person wants to read.
 inline constexpr int kReadableDigits = 6;

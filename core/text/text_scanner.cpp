@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/numbers.h"
 
 namespace morsel::core {
 namespace {
@@ -14,33 +15,6 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 }  // namespace
-
-bool is_tiny(std::string_view digits) {
-  long exponent = 0;
-  const std::size_t e = digits.find_first_of("eE");
-  if (e != std::string_view::npos) {
-    std::string_view power = digits.substr(e + 1);
-    const bool negative = power.starts_with('-');
-    if (negative || power.starts_with('+')) power.remove_prefix(1);
-    const auto result = std::from_chars(power.data(), power.data() + power.size(), exponent);
-    if (result.ec == std::errc::result_out_of_range) return negative;
-    if (negative) exponent = -exponent;
-  }
-  // The decimal place of the first digit that is not zero, next to the point.
-  long place = 0;
-  bool past_point = false;
-  bool significant = false;
-  for (const char c : digits.substr(0, e)) {
-    if (c == '.') {
-      past_point = true;
-    } else if (c >= '0' && c <= '9') {
-      significant = significant || c != '0';
-      if (past_point && !significant) --place;
-      if (!past_point && significant) ++place;
-    }
-  }
-  return exponent + place < 0;
-}
 
 void fail_reading(const std::string& file, const std::string& what) {
   throw BadInput("cannot read \"" + file + "\": " + what);
@@ -140,17 +114,12 @@ std::string_view TextScanner::word_on_any_line() {
 template <class Float>
 double TextScanner::parse(std::string_view what) {
   if (at_line_end()) fail("the line ends where " + std::string(what) + " should be");
-  const char* start = cursor_;
-  if (*start == '+' && start + 1 < line_end_ && start[1] != '-') ++start;
   Float value = 0;
-  const auto [stop, error] = std::from_chars(start, line_end_, value);
+  const auto [stop, error] = read_number(cursor_, line_end_, value);
   if (error == std::errc::invalid_argument || !ends_word(stop))
     fail("expected " + std::string(what) + ", found " + shown(peek_word()));
-  if (error == std::errc::result_out_of_range) {
-    if (!is_tiny({start, static_cast<std::size_t>(stop - start)}))
-      fail(std::string(what) + " is too large a number: " + shown(peek_word()));
-    value = *start == '-' ? -Float{0} : Float{0};
-  }
+  if (error == std::errc::result_out_of_range)
+    fail(std::string(what) + " is too large a number: " + shown(peek_word()));
   cursor_ = stop;
   advance();
   return value;

@@ -16,10 +16,6 @@ namespace morsel::core {
 /// A piece of a file as an error message may show it: quoted, short, printable.
 std::string shown(std::string_view word);
 
-/// Whether the number that `digits` stands for is too small for its type: zero or subnormal. std::from_chars
-/// calls both ends of the range an error.
-bool is_tiny(std::string_view digits);
-
 /// Iterates over the lines that have a word, and over the words of the current line. Lines end with \n, \r\n,
 /// or (in a file without any \n) \r. Independent of locales. Errors name the file and the line. Reports
 /// progress and checks for cancellation every 65,536 lines and words.

@@ -36,8 +36,8 @@ namespace {
 using core::Index;
 using core::TriangleMesh;
 
-MeshHandle handle_of(core::BuiltMesh built, const core::BuildOptions& build) {
-  if (std::string text = core::unwelded_warning(built.mesh, built.numbering); !text.empty())
+MeshHandle handle_of(core::BuiltMesh built, const core::BuildOptions& build, const core::Progress& progress) {
+  if (std::string text = core::unwelded_warning(built.mesh, built.numbering, progress); !text.empty())
     built.warnings.push_back(std::move(text));
   return std::make_shared<MeshData>(
       MeshData{{std::move(built.mesh),
@@ -56,7 +56,7 @@ MeshHandle from_triangles(const py::array& positions, const py::array& faces, co
     const std::size_t count = points.size();
     progress.update("building the mesh", 0);
     MeshHandle mesh =
-        handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, {});
+        handle_of({TriangleMesh(std::move(points), std::move(triangles)), {count, {}, {}}, {}}, {}, progress);
     progress.update("building the mesh", 1);
     return mesh;
   });
@@ -70,7 +70,7 @@ MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool 
   const core::BuildOptions build = build_options(repair, weld);
   core::PolygonSoup soup = soup_from(positions, faces);
   return compute(report, [&](const core::Progress& progress) {
-    return handle_of(core::build_mesh(std::move(soup), build, progress), build);
+    return handle_of(core::build_mesh(std::move(soup), build, progress), build, progress);
   });
 }
 
@@ -87,7 +87,7 @@ MeshHandle from_polygons(const py::array& positions, const py::array& corners, c
                     std::ranges::is_sorted(places);
   if (!fits) throw py::value_error("the offsets of the faces must ascend from 0 to the number of corners");
   return compute(report, [&](const core::Progress& progress) {
-    return handle_of(core::build_mesh(std::move(soup), build, progress), build);
+    return handle_of(core::build_mesh(std::move(soup), build, progress), build, progress);
   });
 }
 

@@ -2,10 +2,17 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <map>
+#include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_kind.h"
@@ -132,7 +139,131 @@ TEST_CASE("a compressed mesh is the mesh, by its name or by its content") {
   };
   CHECK_THROWS_WITH(as_obj("a.obj.gz"), Contains("it is an OFF file, though read as .obj") &&
                                             Contains(": name it .off or use --format off"));
-  CHECK_THROWS_WITH(as_obj("a.txt"), Contains("files, not .txt; it is gzip data"));
+  CHECK_THROWS_WITH(as_obj("a.txt"),
+                    Contains("files, not .txt; it is an OFF file: name it .off or use --format off"));
+}
+
+TEST_CASE("a compressed surface of FreeSurfer is known by its content") {
+  const Scratch scratch;
+  for (const CorpusFile& file : mesh_corpus()) {
+    if (file.name != "freesurfer_by_content.bin") continue;
+    const auto path = scratch.file("fsb.bin.gz", gzipped(file.bytes));
+    CHECK(core::recognised_format(path) == core::MeshFormat::freesurfer);
+    CHECK(core::read_polygon_soup(path).soup.corners == core::read_polygon_soup(file.path).soup.corners);
+  }
+  CHECK(core::recognised_format(scratch.file("text.gz", gzipped("text"))) == std::nullopt);
+}
+
+namespace {
+
+std::string in_base64(const std::string& bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (const int shift : {18, 12, 6, 0}) text += kDigits[group >> shift & 63];
+  }
+  if (bytes.size() % 3 > 0)
+    std::fill(text.end() - (3 - static_cast<std::ptrdiff_t>(bytes.size() % 3)), text.end(), '=');
+  return text;
+}
+
+/// The header and the start of compressed data of VTK: `blocks` blocks of `size` bytes, the data cut off.
+std::string vtk_block(std::uint32_t blocks, std::uint32_t size) {
+  std::string bytes(12 + 4 * std::size_t{blocks}, '\0');
+  const std::array<std::uint32_t, 3> head = {blocks, size, 0};
+  std::memcpy(bytes.data(), head.data(), sizeof head);
+  return in_base64(bytes);
+}
+
+std::string vtp_refusal(const std::string& points, const std::string& array, const std::string& more = "") {
+  const std::string file =
+      "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\" header_type=\"UInt32\" "
+      "compressor=\"vtkZLibDataCompressor\"><PolyData><Piece NumberOfPoints=\"" +
+      points + "\"><PointData>" + array + "</PointData><Points>" + more +
+      "</Points></Piece></PolyData></VTKFile>";
+  try {
+    core::parse_polygon_soup(file, core::MeshFormat::vtp, "bomb.vtp");
+  } catch (const core::BadInput& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+}  // namespace
+
+TEST_CASE("a VTP file whose arrays expand to more than is announced, or than is allowed, is refused") {
+  const std::string points =
+      "<DataArray type=\"UInt8\" NumberOfComponents=\"3\">0 0 0 1 0 0 0 1 0</DataArray>";
+  const auto array = [](std::uint32_t blocks, std::uint32_t size) {
+    return "<DataArray type=\"UInt8\" Name=\"a\" format=\"binary\">" + vtk_block(blocks, size) +
+           "</DataArray>";
+  };
+  CHECK(vtp_refusal("3", array(1, 400'000'000), points) ==
+        "cannot read \"bomb.vtp\": the array \"a\" of its points is said to have 400000000 bytes, but 3 "
+        "numbers "
+        "of 1 are announced");
+  // 16 million points are 48 million numbers, of one byte in the file and eight in memory.
+  CHECK_THAT(
+      vtp_refusal("16000000", "",
+                  "<DataArray type=\"UInt8\" format=\"binary\">" + vtk_block(1, 48'000'000) + "</DataArray>"),
+      Contains("expand to more than 256 MiB") && Contains("at the array of points") &&
+          Contains("which is refused"));
+  CHECK_THAT(vtp_refusal("3", "",
+                         "<DataArray type=\"UInt8\" format=\"binary\">" + vtk_block(200, 0xFFFF'FFFF) +
+                             "</DataArray>"),
+             Contains("is said to have 858993459000 bytes, but 9 numbers"));
+}
+
+TEST_CASE("what a file's compressed parts become in memory is counted together") {
+  core::DecompressionBudget budget(1000, {.least = 4096, .ratio = 2});
+  budget.take(256, 8, "a", "the first");
+  budget.take(2048, 1, "a", "the second");
+  CHECK_THROWS_WITH(
+      budget.take(1, 1, "a", "the third"),
+      "cannot read \"a\": its data expand to more than 0 MiB, over 4 times its size, at the third, "
+      "which is refused: write it without compression if that is meant");
+  CHECK_THROWS_AS(budget.take(std::uint64_t{1} << 62, 8, "a", "an overflow"), core::BadInput);
+}
+
+TEST_CASE("a GIFTI file whose arrays expand to more than is allowed is refused") {
+  const auto array = [](const std::string& intent, std::size_t rows, const std::string& data) {
+    return "<DataArray Intent=\"NIFTI_INTENT_" + intent +
+           "\" DataType=\"NIFTI_TYPE_UINT8\" Dimensionality=\"2\" "
+           "Dim0=\"" +
+           std::to_string(rows) +
+           "\" Dim1=\"3\" Encoding=\"GZipBase64Binary\" "
+           "Endian=\"LittleEndian\"><Data>" +
+           data + "</Data></DataArray>";
+  };
+  const auto refusal = [&](std::size_t rows, const std::string& data) -> std::string {
+    try {
+      core::parse_polygon_soup(
+          "<GIFTI>" + array("POINTSET", rows, data) + array("TRIANGLE", 1, data) + "</GIFTI>",
+          core::MeshFormat::gifti, "bomb.gii");
+    } catch (const core::BadInput& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  CHECK_THAT(refusal(12'000'000, in_base64(gzipped("short"))),
+             Contains("expand to more than 256 MiB") && Contains("at data array 1 (NIFTI_INTENT_POINTSET)"));
+  CHECK_THAT(refusal(1, in_base64(gzipped(std::string(5'000'000, '\0')))),
+             Contains("it has more than the 3 bytes that its sizes need"));
+}
+
+TEST_CASE("a number too small for its type is 0 in GIFTI as in other files") {
+  const core::LoadedSoup loaded = core::parse_polygon_soup(
+      "<GIFTI><DataArray Intent=\"NIFTI_INTENT_POINTSET\" DataType=\"NIFTI_TYPE_FLOAT32\" "
+      "Dimensionality=\"2\" "
+      "Dim0=\"3\" Dim1=\"3\" Encoding=\"ASCII\"><Data>1e-60 -1e-60 0 1 0 0 0 +1 0</Data></DataArray>"
+      "<DataArray Intent=\"NIFTI_INTENT_TRIANGLE\" DataType=\"NIFTI_TYPE_INT32\" Dimensionality=\"2\" "
+      "Dim0=\"1\" Dim1=\"3\" Encoding=\"ASCII\"><Data>0 1 2</Data></DataArray></GIFTI>",
+      core::MeshFormat::gifti, "tiny.gii");
+  CHECK(loaded.soup.positions[0] == core::Point(0, 0, 0));
+  CHECK(std::signbit(loaded.soup.positions[0].y()));
 }
 
 TEST_CASE("UTF-16 text is converted") {

@@ -5,6 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
@@ -291,4 +292,44 @@ TEST_CASE("values of no data that were written with fewer digits") {
       "ncols 3 nrows 2 xllcorner 0 yllcorner 0 cellsize 1 NODATA_value "
       "-3.4028234663852886e+38\n1 2 -3.40282e+38 4 5 6");
   CHECK(loaded.soup.positions.size() == 5);
+}
+
+TEST_CASE("a GeoTIFF of more cells than its size allows is refused") {
+  // One strip of `rows` rows, compressed by deflate, of which there are no bytes to speak of.
+  const auto refusal_of = [](std::uint32_t columns, std::uint32_t rows) -> std::string {
+    std::string bytes("II*\0\x10\0\0\0", 8);
+    bytes += std::string("\x78\x9C\x03\0\0\0\0\x01", 8);
+    const std::array<std::array<std::uint32_t, 2>, 9> entries = {{{256, columns},
+                                                                  {257, rows},
+                                                                  {258, 8},
+                                                                  {259, 8},
+                                                                  {262, 1},
+                                                                  {273, 8},
+                                                                  {277, 1},
+                                                                  {278, rows},
+                                                                  {279, 8}}};
+    const auto append = [&](std::uint32_t value, int size) {
+      for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 255);
+    };
+    append(entries.size(), 2);
+    for (const auto& [tag, value] : entries) {
+      append(tag, 2);
+      append(4, 2);
+      append(1, 4);
+      append(value, 4);
+    }
+    append(0, 4);
+    try {
+      core::read_geotiff(bytes, "bomb.tif", {});
+    } catch (const core::BadInput& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  try {
+    CHECK_THAT(refusal_of(8'000, 5'000),
+               Catch::Contains("expand to more than 256 MiB") && Catch::Contains("at 40000000 cells"));
+    CHECK_THAT(refusal_of(100, 50), Catch::Contains("its rows 1 to 50 cannot be read"));
+  } catch (const core::InvalidArgument&) {  // a library without GeoTIFF
+  }
 }

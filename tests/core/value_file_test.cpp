@@ -112,6 +112,33 @@ TEST_CASE("a column of a CSV file goes by name or number") {
   CHECK(values_in("2,a\n5,6\n7,8\n", "t.csv", "2") == Values{5, 7});
 }
 
+TEST_CASE("numbers in quotes are names where the values have none") {
+  const std::string quoted = "\"1\",\"2\"\n10,20\n30,40\n";
+  CHECK(values_in(quoted, "t.csv", "1") == Values{10, 30});
+  CHECK(values_in(quoted, "t.csv", "2") == Values{20, 40});
+  CHECK(values_in("\"2020\",\"2021\"\n1,2\n3,4\n", "t.csv", "2021") == Values{2, 4});
+  CHECK(values_in("\"2020\",\"2021\"\n1,2\n3,4\n", "t.csv", "1") == Values{1, 3});
+  CHECK(values_in("\"7\"\n1\n2\n", "t.csv") == Values{1, 2});
+  // Where all cells have quotes they say nothing.
+  CHECK(values_in("\"1\",\"2\"\n\"3\",\"4\"\n", "t.csv", "2") == Values{2, 4});
+  CHECK(values_in("\"1\"\n", "t.csv") == Values{1});
+}
+
+TEST_CASE("names that are numbers are chosen where they are no numbers of columns") {
+  CHECK(values_in("2020,2021\n1,2\n3,4\n", "t.csv", "2021") == Values{2, 4});
+  CHECK(values_in("2020 2021\n1 2\n3 4\n", "t.txt", "2020") == Values{1, 3});
+  CHECK(values_in("2020,2021\n1,2\n3,4\n", "t.csv", "2") == Values{2021, 2, 4});
+  CHECK_THAT(refusal("2020,2021\n1,2\n", "t.csv", "2022"), Catch::Contains("no column \"2022\""));
+}
+
+TEST_CASE("values too small for double precision are 0") {
+  const Values values = values_in("1e-400\n-1e-400\n+2\n", "t.txt");
+  CHECK(values == Values{0, 0, 2});
+  CHECK(std::signbit(values[1]));
+  CHECK(values_in("a,b\n1e-400,2\n", "t.csv", "a") == Values{0});
+  CHECK_THAT(refusal("1e400\n", "t.txt"), Catch::Contains("beyond the range of double precision"));
+}
+
 TEST_CASE("CSV files that are damaged or leave a choice are refused") {
   CHECK_THAT(refusal("x,y\n1,2\n", "t.csv"),
              Catch::Contains("the columns \"x\", \"y\"") && Catch::Contains("column=NAME"));

@@ -1,5 +1,6 @@
 // VTK's formats: every encoding of a file gives the same mesh and arrays, to the last bit.
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -44,9 +45,10 @@ LoadedSoup parsed_vtk(const std::string& rest) {
 
 TEST_CASE("every encoding of VTK's files gives the same tetrahedron") {
   for (const char* name :
-       {"ascii.vtk", "binary.vtk", "ascii_5_1.vtk", "binary_5_1.vtk", "ascii.vtp", "inline.vtp",
-        "inline_big_64.vtp", "inline_zlib.vtp", "appended_base64.vtp", "appended_raw.vtp",
-        "appended_raw_zlib_big.vtp", "lines_and_vertices.vtk", "lines_and_vertices.vtp"}) {
+       {"ascii.vtk", "byte_order_mark.vtk", "old_mac_line_ends.vtk", "binary_old_mac_line_ends.vtk",
+        "binary.vtk", "ascii_5_1.vtk", "binary_5_1.vtk", "ascii.vtp", "inline.vtp", "inline_big_64.vtp",
+        "inline_zlib.vtp", "appended_base64.vtp", "appended_raw.vtp", "appended_raw_zlib_big.vtp",
+        "lines_and_vertices.vtk", "lines_and_vertices.vtp"}) {
     INFO(name);
     const LoadedSoup loaded = read_corpus(name);
     CHECK(loaded.soup.positions == std::vector<core::Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
@@ -129,6 +131,10 @@ TEST_CASE("damaged legacy files are refused with the line") {
   CHECK_THAT(refused("POINTS 3 double\n0 0 x"), Catch::Contains("line 5: the file is too short"));
   CHECK_THAT(refused("POINTS 1 double\n0 0 x\n"),
              Catch::Contains("line 6: expected a coordinate, found \"x\""));
+  std::string old_mac = kHead + t + "POINT_DATA 3\nSCALARS a int\nLOOKUP_TABLE default\n1 x 3\n";
+  std::ranges::replace(old_mac, '\n', '\r');
+  CHECK_THROWS_WITH(core::parse_polygon_soup(old_mac, core::MeshFormat::vtk, "test.vtk"),
+                    Catch::Contains("line 14: expected") && Catch::Contains("found \"x\""));
   CHECK_THAT(refused(t + t), Catch::Contains("line 11: \"POINTS\" comes twice"));
   CHECK_THAT(refused(t + "POINT_DATA 3\n"), Catch::Contains("ends before the arrays"));
   CHECK_THAT(refused(t + "POINT_DATA 3\nSCALARS a real\n1 2 3\n"), Catch::Contains("\"real\" are not known"));

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "morsel/core/error.h"
@@ -165,6 +167,39 @@ TEST_CASE("lengths on polygons are those on the mesh") {
   for (const Length& length : {Length::absolute(0.5), Length::epsilons(2), Length::edges(2),
                                Length::percent(3), Length::root_areas(0.5)})
     CHECK(core::length_on(length, polygons) == Approx(length.on(soup.mesh())).epsilon(1e-12));
+}
+
+TEST_CASE("lengths on polygons leave out corners that are no vertices") {
+  const std::vector<Point> positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+  const PolygonSoup good = polygons_of(positions, {{0, 2, 1}});
+  PolygonSoup damaged = good;
+  damaged.add_polygon(std::vector<Index>{1, 2, 400'000'000});
+  damaged.add_polygon(std::vector<Index>{kNone, kNone, kNone});
+  damaged.add_polygon(std::vector<Index>{0, 3, 2, 1});
+  for (const Length& length :
+       {Length::absolute(0.5), Length::epsilons(2), Length::percent(3), Length::root_areas(0.5)}) {
+    CHECK(core::length_on(length, damaged) == core::length_on(length, good));
+    CHECK_THROWS_AS(core::build_mesh(damaged, {.weld = length}), core::BadInput);
+  }
+  // Of the sides of all polygons 3, 4, 5, 5, 5 and 3 have two vertices.
+  CHECK(core::length_on(Length::edges(1), damaged) == Approx(25.0 / 6));
+  CHECK_THROWS_AS(core::build_mesh(damaged, {.weld = Length::edges(1)}), core::BadInput);
+}
+
+TEST_CASE("the search for vertices that coincide can be cancelled") {
+  // Two vertices a triangle on the boundary, more than what is done between two checks.
+  std::vector<Point> positions;
+  std::vector<core::Triangle> triangles;
+  for (Index i = 0; i < 30'000; ++i) {
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    for (const Point& p : {Point(i, 0, 0), Point(i + 0.5, 0, 0), Point(i, 1, 0)}) positions.push_back(p);
+  }
+  const core::TriangleMesh mesh(std::move(positions), std::move(triangles));
+  std::stop_source stop;
+  const core::Progress progress({}, stop.get_token());
+  CHECK(core::unwelded_warning(mesh, {}, progress).empty());
+  stop.request_stop();
+  CHECK_THROWS_AS(core::unwelded_warning(mesh, {}, progress), core::Cancelled);
 }
 
 TEST_CASE("faces that collapse are removed and counted") {
