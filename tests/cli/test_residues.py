@@ -184,14 +184,14 @@ class Residues(ProgramTest):
         self.assertRegex(pml, r"(?m)^set_color segment_0_color, \[[01]\.\d+, [01]\.\d+, [01]\.\d+\]$")
         self.assertRegex(cxc, r"(?m)^name segment_0 /A:[123,]+$")
 
-    def monomers(self, count, size, chain="A", gap=0):
+    def monomers(self, count, size, chain="A", gap=0, space=6):
         """A row of monomers with the same names and numbers, two atoms a residue; its residues."""
         text, residues, serial = "", [], 1
         for monomer in range(count):
             for number in range(1, size + 1):
                 serials = [serial, serial + 1]
                 for k, name in enumerate(("C", "N")):
-                    x = 1.3 * (serial - 1 + k) + 6 * monomer
+                    x = 1.3 * (serial - 1 + k) + space * monomer
                     text += atom(serial + k, (x, 0, 0), name=name, residue="GLY", number=number, chain=chain,
                                  element=name)
                 residues.append((serials, chain.strip(), number))
@@ -224,7 +224,7 @@ class Residues(ProgramTest):
                                          "(chain A and resi 12+13) or (id 7-8)"})
 
     def test_runs_of_serials_do_not_go_over_atoms_that_were_not_taken(self):
-        self.monomers(2, 3, " ", gap=1)
+        self.monomers(2, 3, " ", gap=1, space=0)
         text = (self.folder / "row.pdb").read_text().splitlines(keepends=True)
         ligand = atom(7, (60, 0, 0), record="HETATM", residue="LIG", number=9, chain=" ")
         self.file("row.pdb", "".join(text[:6]) + ligand + "".join(text[6:]))
