@@ -155,13 +155,15 @@ TEST_CASE("of two arrays of one name the first is taken, with a warning, in both
   CHECK(values_named(legacy.properties, "a") == std::vector<double>{1, 2, 3});
   CHECK(values_named(legacy.properties, "b:1") == std::vector<double>{2, 4, 6});
   const std::string twice = "the array \"a\" of its points comes twice; the second one was left out";
-  CHECK(legacy.warnings == std::vector<std::string>{
-                               twice, "the array \"b:1\" of its points has the component \"b:1\", which another "
-                                      "array has, too; the second one was left out"});
+  CHECK(legacy.warnings ==
+        std::vector<std::string>{twice,
+                                 "the array \"b:1\" of its points has the component \"b:1\", which another "
+                                 "array has, too; the second one was left out"});
   const LoadedSoup xml = core::parse_polygon_soup(
       "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><PointData>"
       "<DataArray type=\"Int8\" Name=\"a\">1 2 3</DataArray><DataArray type=\"Int8\" Name=\"a\">4 5 6"
-      "</DataArray></PointData><Points><DataArray type=\"Int8\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray>"
+      "</DataArray></PointData><Points><DataArray type=\"Int8\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+      "0</DataArray>"
       "</Points><Polys><DataArray type=\"Int8\" Name=\"connectivity\">0 1 2</DataArray>"
       "<DataArray type=\"Int8\" Name=\"offsets\">3</DataArray></Polys></Piece></PolyData></VTKFile>",
       core::MeshFormat::vtp, "test.vtp");
