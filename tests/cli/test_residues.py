@@ -155,7 +155,7 @@ class Residues(ProgramTest):
                     *options)
         head, _, body = (self.folder / "s.ply").read_bytes().partition(b"end_header\n")
         self.assertIn(b"binary_little_endian", head)
-        sizes = {"double": 8, "float": 4, "int": 4, "uchar": 1}
+        sizes = {"double": 8, "float": 4, "int": 4, "uint": 4, "uchar": 1}
         counts, rows = {}, collections.defaultdict(list)
         for line in head.decode().splitlines():
             words = line.split()
@@ -254,7 +254,8 @@ class Residues(ProgramTest):
         except ImportError as error:
             self.skipTest(f"{error.name} is not installed")
         rows = rows_of(self.folder / "r.csv")
-        table = numpy.genfromtxt(self.folder / "r.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+        table = numpy.genfromtxt(self.folder / "r.csv", delimiter=",", names=True, dtype=None,
+                                 encoding="utf-8")
         self.assertEqual(table.dtype.names, tuple(lines[0].split(",")))
         self.assertEqual(table["area"].tolist(), [float(row["area"]) for row in rows])
         frame = pandas.read_csv(self.folder / "r.csv", comment="#")
