@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
-#include "morsel/core/io/file_bytes.h"
+#include "morsel/core/io/file_content.h"
 #include "morsel/core/io/residue_names.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/text_scanner.h"
@@ -109,10 +109,11 @@ std::string parent_of(const std::string& residue) {
 /// not.
 class RadiusTable {
  public:
-  explicit RadiusTable(const std::filesystem::path& path) {
+  RadiusTable(const std::filesystem::path& path, std::vector<std::string>& warnings) {
     const std::string file = path.string();
-    const FileBytes bytes(path, file);
-    TextScanner text(bytes.view(), file, {.comment = '#'}, {});
+    const TextContent content(path, file);
+    for (const std::string& warning : content.warnings()) warnings.push_back(shown(file) + ": " + warning);
+    TextScanner text(content.view(), file, {.comment = '#'}, {});
     while (text.next_line()) {
       std::vector<std::string_view> words;
       for (std::string_view word = text.word(); !word.empty(); word = text.word()) {
@@ -235,7 +236,7 @@ AtomRadii set_radii(std::span<AtomRecord> atoms, const std::string& radii, const
       if (const double radius = united_atom_radius(record.atom); radius > 0) record.atom.radius = radius;
     return AtomRadii::united_atom;
   }
-  const RadiusTable table(radii);
+  const RadiusTable table(radii, warnings);
   const Atom* first = nullptr;
   std::size_t missing = 0;
   for (AtomRecord& record : atoms) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <system_error>
+#include <unordered_set>
 #include <utility>
 
 #include "morsel/core/error.h"
@@ -345,6 +346,7 @@ std::vector<VertexProperty> SurfaceBuilder::properties(std::vector<Array> arrays
   constexpr std::size_t kMostComponents = 16;
   const std::size_t tuples = of_cells ? cell_count_ : point_count();
   std::vector<VertexProperty> result;
+  std::unordered_set<std::string> arrays_before, properties_before;
   for (Array& array : arrays) {
     progress_.throw_if_cancelled();
     const std::string name = array.name.empty() ? "unnamed" : array.name;
@@ -354,11 +356,20 @@ std::vector<VertexProperty> SurfaceBuilder::properties(std::vector<Array> arrays
            std::to_string(kMostComponents) + " are read)");
       continue;
     }
+    if (!arrays_before.insert(name).second) {
+      warn(what + " comes twice; the second one was left out");
+      continue;
+    }
     if (array.values.size() != tuples * array.components)
       fail_reading(file_, what + " has " + std::to_string(array.values.size()) + " numbers, not " +
                               std::to_string(tuples) + " times " + std::to_string(array.components));
     for (std::size_t k = 0; k < array.components; ++k) {
       VertexProperty property{array.components == 1 ? name : name + ":" + std::to_string(k), {}};
+      if (!properties_before.insert(property.name).second) {
+        warn(what + " has the component " + shown(property.name) +
+             ", which another array has, too; the second one was left out");
+        continue;
+      }
       if (of_cells) {
         property.values = by_polygon(array.values, array.components, k);
       } else if (array.components == 1) {

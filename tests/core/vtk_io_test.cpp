@@ -152,6 +152,31 @@ TEST_CASE("pieces of a VTP file are joined, and arrays that are not in all of th
         std::vector<std::string>{"the array \"b\" of its points is not in all pieces and was left out"});
 }
 
+TEST_CASE("of two arrays of one name the first is taken, with a warning, in both of VTK's formats") {
+  const LoadedSoup legacy =
+      parsed_vtk(std::string(kTriangle) +
+                 "POINT_DATA 3\nSCALARS a int\nLOOKUP_TABLE default\n1 2 3\n"
+                 "FIELD f 3\na 1 3 int\n4 5 6\nb 2 3 int\n1 2 3 4 5 6\nb:1 1 3 int\n7 8 9\n");
+  CHECK(names_of(legacy.properties) == std::vector<std::string>{"a", "b:0", "b:1"});
+  CHECK(values_named(legacy.properties, "a") == std::vector<double>{1, 2, 3});
+  CHECK(values_named(legacy.properties, "b:1") == std::vector<double>{2, 4, 6});
+  const std::string twice = "the array \"a\" of its points comes twice; the second one was left out";
+  CHECK(legacy.warnings ==
+        std::vector<std::string>{twice,
+                                 "the array \"b:1\" of its points has the component \"b:1\", which another "
+                                 "array has, too; the second one was left out"});
+  const LoadedSoup xml = core::parse_polygon_soup(
+      "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><PointData>"
+      "<DataArray type=\"Int8\" Name=\"a\">1 2 3</DataArray><DataArray type=\"Int8\" Name=\"a\">4 5 6"
+      "</DataArray></PointData><Points><DataArray type=\"Int8\" format=\"ascii\">0 0 0 1 0 0 0 1 "
+      "0</DataArray>"
+      "</Points><Polys><DataArray type=\"Int8\" Name=\"connectivity\">0 1 2</DataArray>"
+      "<DataArray type=\"Int8\" Name=\"offsets\">3</DataArray></Polys></Piece></PolyData></VTKFile>",
+      core::MeshFormat::vtp, "test.vtp");
+  CHECK(values_named(xml.properties, "a") == std::vector<double>{1, 2, 3});
+  CHECK(xml.warnings == std::vector<std::string>{twice});
+}
+
 TEST_CASE("very many arrays, pieces, attributes and levels of a VTK file take time in proportion") {
   constexpr std::size_t kMany = 100'000;
   const std::string start = "<VTKFile type=\"PolyData\"><PolyData>";

@@ -44,7 +44,8 @@ class ResiduesSink : public HierarchySink {
   ResiduesSink(ResiduesRun& residues, SegmentKind cells) : residues_(residues), cells_(cells) {}
   void begin(const HierarchyBasis& basis) override { residues_.read(basis.made.field().mesh()); }
   void level(const Level& level) override {
-    residues_.add_level(level.field->mesh(), level.cells(cells_).triangle);
+    const mscomplex::SegmentLabels& labels = level.cells(cells_);
+    residues_.add_level(level.field->mesh(), labels.vertex, labels.triangle);
   }
 
  private:

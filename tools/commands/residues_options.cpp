@@ -5,6 +5,7 @@
 
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/specification.h"
+#include "morsel/tools/color/regions.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/report/outcome_sections.h"
 
@@ -52,8 +53,9 @@ void ResiduesRun::read(const core::TriangleMesh& mesh) {
                          " and belong to none");
 }
 
-void ResiduesRun::add_level(const core::TriangleMesh& mesh, std::span<const core::Index> labels) {
-  levels_.push_back({atoms_of_segments(mesh, labels, nearest_)});
+void ResiduesRun::add_level(const core::TriangleMesh& mesh, std::span<const core::Index> vertex,
+                            std::span<const core::Index> triangle) {
+  levels_.push_back({atoms_of_segments(mesh, triangle, nearest_), color_labels(mesh, vertex, triangle)});
 }
 
 Json ResiduesRun::request() const {

@@ -39,8 +39,10 @@ class ResiduesRun {
 
   /// Reads the molecule, tells what was odd in it, and finds the atoms nearest to the mesh's vertices.
   void read(const core::TriangleMesh& mesh);
-  /// Adds a level: a label for each triangle of the mesh.
-  void add_level(const core::TriangleMesh& mesh, std::span<const core::Index> labels);
+  /// Adds a level: a label for each vertex and each triangle of the mesh. Those of triangles count; colours
+  /// are those that files of both have.
+  void add_level(const core::TriangleMesh& mesh, std::span<const core::Index> vertex,
+                 std::span<const core::Index> triangle);
   /// Writes them and tells so; `provenance` is completed. Nothing if no residues are wanted.
   void write(Provenance provenance, bool with_levels) const;
 

@@ -67,7 +67,7 @@ int segment(const Options& options, const Run& run) {
   const Timings timings = base.timings({{"segments", watch.seconds()}});
   if (residues.are_wanted()) {
     residues.read(base.field().mesh());
-    residues.add_level(base.field().mesh(), made.segments.triangle);
+    residues.add_level(base.field().mesh(), made.segments.vertex, made.segments.triangle);
   }
 
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};

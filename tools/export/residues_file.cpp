@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <map>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/printable.h"
+#include "morsel/tools/color/surface_colors.h"
 #include "morsel/tools/formats/csv.h"
 
 namespace morsel::tools {
@@ -28,25 +28,28 @@ bool is_plain_word(std::string_view text) {
   });
 }
 
-/// Atoms of one residue, in the order of the file.
+/// Atoms of one residue, which follow each other in the file.
 struct Residue {
-  std::vector<Index> atoms;
-  /// Whether chain and number are such that a script may hold them.
-  bool is_plain = false;
+  Index first = 0, end = 0;
+  /// Whether chain and number are such that a script may hold them, and no other residue has both.
+  bool is_named = false;
 };
 
 class Residues {
  public:
   explicit Residues(std::span<const Atom> atoms) : of_atom_(atoms.size()) {
-    std::map<std::tuple<std::string_view, std::string_view, std::string_view>, Index> number;
-    for (std::size_t i = 0; i < atoms.size(); ++i) {
-      const Atom& atom = atoms[i];
-      const auto [place, is_new] =
-          number.try_emplace({atom.chain, atom.sequence_id, atom.residue}, static_cast<Index>(all_.size()));
-      if (is_new) all_.push_back({{}, is_plain_word(atom.chain) && is_plain_word(atom.sequence_id)});
-      of_atom_[i] = place->second;
-      all_[place->second].atoms.push_back(static_cast<Index>(i));
+    using Key = std::pair<std::string_view, std::string_view>;
+    const auto key = [&](Index atom) { return Key{atoms[atom].chain, atoms[atom].sequence_id}; };
+    std::map<Key, Index> residues_of;
+    for (Index i = 0; i < atoms.size(); ++i) {
+      if (i == 0 || key(i) != key(i - 1) || atoms[i].residue != atoms[i - 1].residue) {
+        all_.push_back({i, i, is_plain_word(atoms[i].chain) && is_plain_word(atoms[i].sequence_id)});
+        ++residues_of[key(i)];
+      }
+      ++all_.back().end;
+      of_atom_[i] = static_cast<Index>(all_.size() - 1);
     }
+    for (Residue& residue : all_) residue.is_named &= residues_of[key(residue.first)] == 1;
   }
 
   const Residue& operator[](Index residue) const { return all_[residue]; }
@@ -56,6 +59,67 @@ class Residues {
  private:
   std::vector<Residue> all_;
   std::vector<Index> of_atom_;
+};
+
+/// The serial numbers of atoms, by which a script names what has no other name.
+class Serials {
+ public:
+  Serials(std::span<const Atom> atoms, const Residues& residues)
+      : atoms_(atoms), residues_(residues), by_serial_(atoms.size()), place_(atoms.size()) {
+    std::iota(by_serial_.begin(), by_serial_.end(), Index{0});
+    std::stable_sort(by_serial_.begin(), by_serial_.end(),
+                     [&](Index a, Index b) { return atoms[a].serial < atoms[b].serial; });
+    for (Index k = 0; k < by_serial_.size(); ++k) place_[by_serial_[k]] = k;
+  }
+
+  using Run = std::pair<std::int64_t, std::int64_t>;
+  /// The numbers of the atoms of these residues as runs, ascending, without those of all other atoms. A run
+  /// goes over gaps within a residue, as of hydrogens that were not taken, but not over others, as of a
+  /// ligand. Throws BadInput if an atom has a negative number, or that of an atom of another residue.
+  std::vector<Run> runs(const std::vector<Index>& residues) const {
+    std::vector<Index> places;
+    for (const Index r : residues)
+      for (Index i = residues_[r].first; i < residues_[r].end; ++i) places.push_back(place_[i]);
+    std::sort(places.begin(), places.end());
+    std::vector<Run> result;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Index place = places[i];
+      check(place, i > 0 && places[i - 1] + 1 == place, i + 1 < places.size() && places[i + 1] == place + 1);
+      if (i > 0 && goes_on(places[i - 1], place))
+        result.back().second = serial(place);
+      else
+        result.emplace_back(serial(place), serial(place));
+    }
+    return result;
+  }
+
+ private:
+  std::int64_t serial(Index place) const { return atoms_[by_serial_[place]].serial; }
+  Index residue(Index place) const { return residues_.of_atom(by_serial_[place]); }
+
+  bool goes_on(Index last, Index place) const {
+    if (place != last + 1) return false;
+    return serial(place) - serial(last) <= 1 || residue(place) == residue(last);
+  }
+  void check(Index place, bool has_last, bool has_next) const {
+    if (serial(place) < 0)
+      throw core::BadInput(core::printable(atoms_[by_serial_[place]].described()) +
+                           " has a negative serial number, which no script can hold: write the residues as "
+                           ".pdb or .csv");
+    if (place > 0 && !has_last && serial(place - 1) == serial(place)) fail_shared(place, place - 1);
+    if (place + 1 < place_.size() && !has_next && serial(place + 1) == serial(place))
+      fail_shared(place, place + 1);
+  }
+  [[noreturn]] void fail_shared(Index here, Index other) const {
+    throw core::BadInput("no script can tell " + core::printable(atoms_[by_serial_[here]].described()) +
+                         " from " + core::printable(atoms_[by_serial_[other]].described()) +
+                         ", which has the same serial number: write the residues as .pdb or .csv");
+  }
+
+  std::span<const Atom> atoms_;
+  const Residues& residues_;
+  std::vector<Index> by_serial_;
+  std::vector<Index> place_;  // of each atom in by_serial_
 };
 
 /// For each thing that has parts of its area in several segments, the segment of the largest; kNone without.
@@ -79,18 +143,6 @@ std::vector<Index> main_segments(std::span<const SegmentAtom> atoms, std::size_t
   return segment;
 }
 
-/// Colours that neighbours in number tell apart: hues by the golden ratio.
-std::array<double, 3> colour(std::size_t number) {
-  const double hue = 6 * std::fmod(static_cast<double>(number) * 0.6180339887498949, 1.0);
-  const double value = number % 2 == 0 ? 0.9 : 0.7;
-  std::array<double, 3> rgb{};
-  for (int i = 0; i < 3; ++i) {
-    const double k = std::fmod(static_cast<double>(5 - 2 * i) + hue, 6.0);
-    rgb[static_cast<std::size_t>(i)] = value * (1 - 0.65 * std::clamp(std::min(k, 4 - k), 0.0, 1.0));
-  }
-  return rgb;
-}
-
 std::string decimals(double value, const char* pattern) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), pattern, value);
@@ -100,7 +152,8 @@ std::string decimals(double value, const char* pattern) {
 /// What the two kinds of scripts have in common.
 class Script {
  public:
-  Script(std::span<const Atom> atoms, const Residues& residues) : atoms_(atoms), residues_(residues) {}
+  Script(std::span<const Atom> atoms, const Residues& residues, const Serials& serials)
+      : atoms_(atoms), residues_(residues), serials_(serials) {}
   virtual ~Script() = default;
 
   void write(core::FileWriter& file, const SegmentedAtoms& level, const std::string& prefix) const {
@@ -119,29 +172,31 @@ class Script {
       const std::string name = prefix + "segment_" + std::to_string(segment);
       file.write(select(name, found));
       if (const auto own = coloured.find(segment); own != coloured.end())
-        file.write(paint(name, own->second, colour(segment)));
+        file.write(paint(name, own->second, to_bytes(level.palette[segment])));
     }
   }
 
  protected:
   virtual std::string select(const std::string& name, const std::vector<Index>& residues) const = 0;
   virtual std::string paint(const std::string& name, const std::vector<Index>& residues,
-                            const std::array<double, 3>& rgb) const = 0;
+                            const ColorBytes& rgb) const = 0;
 
   /// The residues chain by chain, those that a script cannot name as numbers of their atoms.
   struct Named {
     std::map<std::string, std::vector<std::string>> of_chain;
-    std::vector<std::string> serials;
+    std::vector<Serials::Run> serials;
   };
   Named named(const std::vector<Index>& residues) const {
     Named result;
+    std::vector<Index> others;
     for (const Index r : residues) {
-      const Atom& atom = atoms_[residues_[r].atoms.front()];
-      if (residues_[r].is_plain)
+      const Atom& atom = atoms_[residues_[r].first];
+      if (residues_[r].is_named)
         result.of_chain[atom.chain].push_back(atom.sequence_id);
       else
-        for (const Index i : residues_[r].atoms) result.serials.push_back(std::to_string(atoms_[i].serial));
+        others.push_back(r);
     }
+    result.serials = serials_.runs(others);
     return result;
   }
   static std::string joined(const std::vector<std::string>& words, const char* separator) {
@@ -153,6 +208,7 @@ class Script {
  private:
   std::span<const Atom> atoms_;
   const Residues& residues_;
+  const Serials& serials_;
 };
 
 class PymolScript final : public Script {
@@ -164,9 +220,9 @@ class PymolScript final : public Script {
     return "select " + name + ", " + selection(residues) + "\n";
   }
   std::string paint(const std::string& name, const std::vector<Index>& residues,
-                    const std::array<double, 3>& rgb) const override {
+                    const ColorBytes& rgb) const override {
     std::string text = "set_color " + name + "_color, [";
-    for (std::size_t i = 0; i < 3; ++i) text += (i > 0 ? ", " : "") + decimals(rgb[i], "%.3f");
+    for (std::size_t i = 0; i < 3; ++i) text += (i > 0 ? ", " : "") + decimals(rgb[i] / 255.0, "%.3f");
     return text + "]\ncolor " + name + "_color, " + selection(residues) + "\n";
   }
 
@@ -176,7 +232,10 @@ class PymolScript final : public Script {
     std::vector<std::string> terms;
     for (const auto& [chain, numbers] : parts.of_chain)
       terms.push_back("(chain " + chain + " and resi " + joined(numbers, "+") + ")");
-    if (!parts.serials.empty()) terms.push_back("(id " + joined(parts.serials, "+") + ")");
+    std::vector<std::string> runs;
+    for (const auto& [first, last] : parts.serials)
+      runs.push_back(std::to_string(first) + (first < last ? "-" + std::to_string(last) : ""));
+    if (!runs.empty()) terms.push_back("(id " + joined(runs, "+") + ")");
     return joined(terms, " or ");
   }
 };
@@ -190,12 +249,10 @@ class ChimeraxScript final : public Script {
     return "name " + name + " " + specification(residues) + "\n";
   }
   std::string paint(const std::string&, const std::vector<Index>& residues,
-                    const std::array<double, 3>& rgb) const override {
+                    const ColorBytes& rgb) const override {
     std::array<char, 8> text{};
-    std::snprintf(text.data(), text.size(), "#%02x%02x%02x",
-                  static_cast<unsigned>(std::lround(255 * rgb[0])) & 255U,
-                  static_cast<unsigned>(std::lround(255 * rgb[1])) & 255U,
-                  static_cast<unsigned>(std::lround(255 * rgb[2])) & 255U);
+    std::snprintf(text.data(), text.size(), "#%02x%02x%02x", unsigned{rgb[0]}, unsigned{rgb[1]},
+                  unsigned{rgb[2]});
     return "color " + specification(residues) + " " + text.data() + "\n";
   }
 
@@ -205,7 +262,11 @@ class ChimeraxScript final : public Script {
     std::vector<std::string> terms;
     for (const auto& [chain, numbers] : parts.of_chain)
       terms.push_back("/" + chain + ":" + joined(numbers, ","));
-    for (const std::string& serial : parts.serials) terms.push_back("@@serial_number=" + serial);
+    // ChimeraX reads "a & b | c" as "a & (b | c)", and a value up to the next blank.
+    for (const auto& [first, last] : parts.serials)
+      terms.push_back(first == last ? "@@serial_number=" + std::to_string(first)
+                                    : "(@@serial_number>=" + std::to_string(first) +
+                                          " & @@serial_number<=" + std::to_string(last) + " )");
     return joined(terms, " | ");
   }
 };
@@ -220,6 +281,9 @@ std::string pdb_field(const Atom& atom, const std::string& text, std::size_t wid
   return text;
 }
 
+/// The last one that the column of temperature factors has room for.
+constexpr Index kLastSegment = 999999;
+
 std::string pdb_line(const Atom& atom, Index segment) {
   const std::string name = pdb_field(atom, atom.name, 4, "atom's name");
   const std::string residue = pdb_field(atom, atom.residue, 4, "residue's name");
@@ -233,6 +297,11 @@ std::string pdb_line(const Atom& atom, Index segment) {
       throw core::BadInput(core::printable(atom.described()) +
                            ": a coordinate does not fit into a PDB file (-999.999 to 9999.999): write the "
                            "residues as .csv");
+  if (segment != core::kNone && segment > kLastSegment)
+    throw core::BadInput(
+        "segment " + std::to_string(segment) +
+        " does not fit into a PDB file, whose temperature factors have six characters: write "
+        "the residues as .csv");
   const double label = segment == core::kNone ? -1 : static_cast<double>(segment);
   const std::string factor = decimals(label, label < 1000 ? "%6.2f" : label < 10000 ? "%6.1f" : "%6.0f");
   const bool is_short = name.size() < 4 && atom.element.size() == 1;
@@ -265,9 +334,11 @@ void write_pdb(core::FileWriter& file, std::span<const Atom> atoms, std::span<co
 }
 
 void write_csv(core::FileWriter& file, std::span<const Atom> atoms, std::span<const SegmentedAtoms> levels,
-               bool with_levels) {
-  file.write(std::string(with_levels ? "level," : "") +
-             "segment,chain,residue,sequence_id,atom,element,serial,area\n");
+               bool with_levels, const Provenance& provenance) {
+  std::vector<std::string> columns = {"segment", "chain",   "residue", "sequence_id",
+                                      "atom",    "element", "serial",  "area"};
+  if (with_levels) columns.insert(columns.begin(), "level");
+  CsvTable table(file.stream(), columns);
   for (std::size_t l = 0; l < levels.size(); ++l)
     for (const SegmentAtom& part : levels[l].atoms) {
       const Atom& atom = atoms[part.atom];
@@ -281,8 +352,9 @@ void write_csv(core::FileWriter& file, std::span<const Atom> atoms, std::span<co
       line.add(atom.element);
       line.add(std::to_string(atom.serial));
       line.add(part.area);
-      file.write(line.text() + "\n");
+      table.add(line);
     }
+  table.end(provenance.lines());
 }
 
 }  // namespace
@@ -299,16 +371,16 @@ void write_residues(const core::FileTarget& target, std::span<const Atom> atoms,
     file.write(provenance.pdb_remark());
     write_pdb(file, atoms, levels, with_levels);
   } else if (extension == ".csv") {
-    file.write(provenance.text_comment());
-    write_csv(file, atoms, levels, with_levels);
+    write_csv(file, atoms, levels, with_levels, provenance);
   } else {
     file.write(provenance.script_comment());
     const Residues residues(atoms);
     const auto prefix = [&](std::size_t l) {
       return with_levels ? "level_" + std::to_string(l) + "_" : std::string();
     };
-    const PymolScript pymol(atoms, residues);
-    const ChimeraxScript chimerax(atoms, residues);
+    const Serials serials(atoms, residues);
+    const PymolScript pymol(atoms, residues, serials);
+    const ChimeraxScript chimerax(atoms, residues, serials);
     const Script& script = extension == ".pml" ? static_cast<const Script&>(pymol) : chimerax;
     for (std::size_t l = 0; l < levels.size(); ++l) script.write(file, levels[l], prefix(l));
   }

@@ -8,6 +8,7 @@
 
 #include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/molecule.h"
+#include "morsel/tools/color/color.h"
 #include "morsel/tools/report/provenance.h"
 #include "morsel/tools/study/segment_atoms.h"
 
@@ -16,6 +17,7 @@ namespace morsel::tools {
 /// The atoms of the segments of one surface, or of a level of a hierarchy.
 struct SegmentedAtoms {
   std::vector<SegmentAtom> atoms;  ///< as atoms_of_segments() has them
+  std::vector<Color> palette;      ///< a colour for each segment, as color_labels() gives them
 };
 
 /// ".pml", ".cxc", ".pdb" or ".csv", of the file's name. Throws InvalidArgument on another one.
@@ -29,9 +31,11 @@ std::string residues_extension(const std::filesystem::path& path);
 ///   .pdb  the atoms, with the segment that most of an atom's surface lies in as temperature factor (columns
 ///         61 to 66), -1 for those that are not at the surface; levels are models 1, 2, …
 ///   .csv  a row for each atom of each segment, with its part of the segment's area
-/// Scripts refer to residues by chain and number where these are letters and digits, otherwise to atoms by
-/// their serial numbers: no name gets into a command. Throws InvalidArgument on another extension, BadInput
-/// if names or coordinates do not fit into a PDB file, WriteFailed.
+/// Atoms that follow each other with the same chain, number and name are a residue. Scripts refer to it by
+/// chain and number where these are letters and digits and no other residue has both, otherwise to its atoms
+/// by their serial numbers: no name gets into a command. Throws InvalidArgument on another extension,
+/// BadInput if names, coordinates or segments do not fit into a PDB file, or if a script would have to name
+/// atoms by serial numbers that are negative or those of others, too; WriteFailed.
 void write_residues(const core::FileTarget& target, std::span<const core::Atom> atoms,
                     std::span<const SegmentedAtoms> levels, bool with_levels, const Provenance& provenance);
 

@@ -201,8 +201,8 @@ void write_glb(const core::FileTarget& target, const std::vector<GlbPart>& parts
   constexpr std::size_t kFileHead = 12, kChunkHead = 8;
   const std::size_t size = kFileHead + kChunkHead + text.size() + kChunkHead + head.binary_size();
   if (size > std::numeric_limits<std::uint32_t>::max())
-    throw core::InvalidArgument("a GLB file holds less than 4 GiB, and this one would have " +
-                                std::to_string(size) + " bytes; .ply and .vtp files may be larger");
+    throw core::WriteFailed("a GLB file holds less than 4 GiB, and this one would have " +
+                            std::to_string(size) + " bytes; .ply and .vtp files may be larger");
 
   core::FileWriter file(target, sync);
   GlbBytes bytes(file);

@@ -24,7 +24,7 @@ struct GlbPart {
 /// Writes all parts that have triangles, at least one of which there must be, into one scene. Numbers are
 /// single precision; positions are relative to the middle of the first part, which a node holds in full.
 /// `provenance`, a JSON object, goes into asset.extras. The file is written whole or not at all. Throws
-/// WriteFailed; InvalidArgument if it would have 4 GiB or more, which the format cannot hold.
+/// WriteFailed, also if it would have 4 GiB or more, which the format cannot hold.
 void write_glb(const core::FileTarget& target, const std::vector<GlbPart>& parts,
                const std::string& provenance, core::Sync sync = core::Sync::when_replacing);
 
