@@ -881,7 +881,7 @@ std::vector<std::filesystem::path> gltf_companions(const std::filesystem::path& 
     }
   }
   std::ranges::sort(companions);
-  companions.erase(std::ranges::unique(companions).begin(), companions.end());
+  companions.erase(std::unique(companions.begin(), companions.end()), companions.end());
   return companions;
 }
 
