@@ -49,7 +49,7 @@ NOT_IN_STUDY = ("nlohmann/", "openssl/", "zlib.h", "png.h", "cairo", "ft2build",
                 "openvdb/", "CLI/")
 NAMES_OPTION = re.compile(r'(?<![\w-])--[a-z]')  # of the command line, in a text
 NOT_IN_LIBRARY = ("catch2/", "phat/", "CLI/", "nlohmann/", "openssl/", "vtk", "iostream")
-# Of these, what single sources may include all the same: of glTF, whose reader compiles tinygltf, which is made
+# Of these, what single sources may include all the same: the reader of glTF compiles tinygltf, which is made
 # of nlohmann/json.
 EXCEPTIONS = {"core/io/gltf_reader.cpp": ("nlohmann/json.hpp",)}
 NOT_IN_HEADERS = ("nanoflann", "CGAL/", "Spectra/", "gemmi/", "openvdb/", "embree3/", "cairo", "png.h",
