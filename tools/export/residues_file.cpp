@@ -47,7 +47,8 @@ class Residues {
       const bool is_new_name = names.emplace(atoms[i].name, atoms[i].alternate).second;
       // Readers put the atoms of equal numbers together, so that names tell where the next residue begins.
       if (i == 0 || !is_new_name || key(i) != key(i - 1) || atoms[i].residue != atoms[i - 1].residue) {
-        names = {{atoms[i].name, atoms[i].alternate}};
+        names.clear();
+        names.emplace(atoms[i].name, atoms[i].alternate);
         all_.push_back({i, i, is_plain_word(atoms[i].chain) && is_plain_word(atoms[i].sequence_id)});
         ++residues_of[key(i)];
       }
