@@ -27,6 +27,12 @@ core::Atom carbon(std::int64_t serial, const std::string& chain, const std::stri
   return atom;
 }
 
+core::Atom nitrogen(std::int64_t serial, const std::string& chain, const std::string& sequence_id) {
+  core::Atom atom = carbon(serial, chain, sequence_id);
+  atom.element = atom.name = "N";
+  return atom;
+}
+
 /// What is written of atoms that are in one segment each.
 std::string written(const std::string& name, const std::vector<core::Atom>& atoms,
                     const std::vector<core::Index>& segments) {
@@ -56,8 +62,8 @@ TEST_CASE("a segment that the column of temperature factors has no room for is r
 
 TEST_CASE("residues that have no name of their own are named by runs of serial numbers") {
   // Two residues 1 of chain A; one without a chain; residue 2, which is the only one.
-  const std::vector<core::Atom> atoms = {carbon(1, "A", "1"), carbon(3, "A", "1"), carbon(4, "A", "2"),
-                                         carbon(5, "", "9"),  carbon(6, "", "10"), carbon(8, "A", "1")};
+  const std::vector<core::Atom> atoms = {carbon(1, "A", "1"), nitrogen(3, "A", "1"), carbon(4, "A", "2"),
+                                         carbon(5, "", "9"),  carbon(6, "", "10"),   carbon(8, "A", "1")};
   CHECK_THAT(written("a.pml", atoms, {0, 0, 0, 0, 0, 0}),
              Catch::Contains("select segment_0, (chain A and resi 2) or (id 1-3+5-6+8)\n"));
   CHECK_THAT(written("a.cxc", atoms, {0, 0, 0, 0, 0, 0}),

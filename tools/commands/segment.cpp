@@ -68,6 +68,9 @@ int segment(const Options& options, const Run& run) {
   if (residues.are_wanted()) {
     residues.read(base.field().mesh());
     residues.add_level(base.field().mesh(), made.segments.vertex, made.segments.triangle);
+    Json asked = request_section(request);
+    asked["residues"] = residues.request();
+    residues.write(base.provenance(asked), false);  // first: names may not fit, and then nothing is told
   }
 
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
@@ -80,11 +83,6 @@ int segment(const Options& options, const Run& run) {
   if (!made.note.empty()) run.console.message(made.note);
   for (const std::filesystem::path& path : written) run.console.message("labels: " + path.string());
   document.tell("table", run.console);
-  if (residues.are_wanted()) {
-    Json asked = request_section(request);
-    asked["residues"] = residues.request();
-    residues.write(base.provenance(asked), false);
-  }
   return kDone;
 }
 

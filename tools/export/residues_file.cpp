@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "morsel/core/error.h"
@@ -41,8 +42,13 @@ class Residues {
     using Key = std::pair<std::string_view, std::string_view>;
     const auto key = [&](Index atom) { return Key{atoms[atom].chain, atoms[atom].sequence_id}; };
     std::map<Key, Index> residues_of;
+    std::set<std::pair<std::string_view, char>> names;  // of the residue's atoms
     for (Index i = 0; i < atoms.size(); ++i) {
-      if (i == 0 || key(i) != key(i - 1) || atoms[i].residue != atoms[i - 1].residue) {
+      const bool is_new_name = names.emplace(atoms[i].name, atoms[i].alternate).second;
+      // Readers put the atoms of equal numbers together, so that names tell where the next residue begins.
+      if (i == 0 || !is_new_name || key(i) != key(i - 1) || atoms[i].residue != atoms[i - 1].residue) {
+        names.clear();
+        names.emplace(atoms[i].name, atoms[i].alternate);
         all_.push_back({i, i, is_plain_word(atoms[i].chain) && is_plain_word(atoms[i].sequence_id)});
         ++residues_of[key(i)];
       }

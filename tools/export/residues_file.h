@@ -31,7 +31,8 @@ std::string residues_extension(const std::filesystem::path& path);
 ///   .pdb  the atoms, with the segment that most of an atom's surface lies in as temperature factor (columns
 ///         61 to 66), -1 for those that are not at the surface; levels are models 1, 2, …
 ///   .csv  a row for each atom of each segment, with its part of the segment's area
-/// Atoms that follow each other with the same chain, number and name are a residue. Scripts refer to it by
+/// Atoms that follow each other with the same chain, number and name are a residue, until the name of an atom
+/// comes again. Scripts refer to it by
 /// chain and number where these are letters and digits and no other residue has both, otherwise to its atoms
 /// by their serial numbers: no name gets into a command. Throws InvalidArgument on another extension,
 /// BadInput if names, coordinates or segments do not fit into a PDB file, or if a script would have to name
