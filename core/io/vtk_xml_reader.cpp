@@ -194,6 +194,10 @@ class XmlReader {
     if (cells.ends.size() != count)
       fail("a piece announces " + std::to_string(count) + " cells in " + what + ", but has offsets of " +
            std::to_string(cells.ends.size()));
+    // As many corners as the last cell ends at.
+    const std::int64_t corners = cells.ends.empty() ? 0 : std::max<std::int64_t>(cells.ends.back(), 0);
+    if (const pugi::xml_node array = named(node, "connectivity"))
+      cells.connectivity = whole(array, static_cast<std::uint64_t>(corners), "the connectivity of " + what);
     return cells;
   }
 

@@ -629,7 +629,7 @@ TEST_CASE("radii are read from a table") {
   for (const char c : std::string("C 1.9\rN 1.5\rO 1.4\rH 1\rCa 2\rSe 2\r")) utf16 += {c, '\0'};
   const Molecule converted = table(utf16);
   REQUIRE(converted.warnings.size() == 1);
-  CHECK_THAT(converted.warnings[0], Contains("radii.txt") && Contains("it is UTF-16 text"));
+  CHECK_THAT(converted.warnings[0], Contains("it is UTF-16 text"));
   CHECK(converted.atoms[0].radius == 1.5);
   CHECK_THROWS_WITH(table("\x1F\x8B no gzip"), Contains("gzip"));
 }

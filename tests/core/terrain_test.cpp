@@ -326,10 +326,14 @@ TEST_CASE("a GeoTIFF of more cells than its size allows is refused") {
     }
     return "not refused";
   };
+  std::string too_many, no_data;
   try {
-    CHECK_THAT(refusal_of(8'000, 5'000),
-               Catch::Contains("expand to more than 256 MiB") && Catch::Contains("at 40000000 cells"));
-    CHECK_THAT(refusal_of(100, 50), Catch::Contains("its rows 1 to 50 cannot be read"));
+    too_many = refusal_of(8'000, 5'000);
+    no_data = refusal_of(100, 50);
   } catch (const core::InvalidArgument&) {  // a library without GeoTIFF
+    return;
   }
+  CHECK_THAT(too_many,
+             Catch::Contains("expand to more than 256 MiB") && Catch::Contains("at 40000000 cells"));
+  CHECK_THAT(no_data, Catch::Contains("its rows 1 to 50 cannot be read"));
 }
