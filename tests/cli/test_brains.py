@@ -214,7 +214,8 @@ class Brains(ProgramTest):
     def test_outputs_have_names_of_their_kind(self):
         mesh = self.surface()
         for name in ("b.gii", "b.shape.gii", "b.curv"):
-            self.assertIn(".annot, .label.gii or .glb", self.morsel("segment", mesh, "-o", name, code=2).stderr)
+            said = self.morsel("segment", mesh, "-o", name, code=2).stderr
+            self.assertIn(".annot, .label.gii or .glb", said)
         for name in ("b.gii", "b.label.gii", "b.annot"):
             self.assertIn(".shape.gii or .func.gii", self.morsel("field", mesh, "-o", name, code=2).stderr)
 

@@ -48,9 +48,10 @@ class Inputs(ProgramTest):
         self.assertEqual([line for line in output.splitlines() if not line.startswith("#")],
                          ["1", "-1", "0", "0", "0", "0"])
         with open(self.folder / "o.txt", "w") as stream:
-            subprocess.run([PROGRAM, "field", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z", "-o",
-                            "-"], stdout=stream, check=True, timeout=60)
-        self.assertEqual((self.folder / "o.txt").read_text().splitlines()[-6:], ["1", "-1", "0", "0", "0", "0"])
+            subprocess.run([PROGRAM, "field", self.file("o.off", OCTAHEDRON), "--field", "height:axis=z",
+                            "-o", "-"], stdout=stream, check=True, timeout=60)
+        self.assertEqual((self.folder / "o.txt").read_text().splitlines()[-6:],
+                         ["1", "-1", "0", "0", "0", "0"])
 
     def test_info_describes_standard_input(self):
         self.file("o.off", OCTAHEDRON)

@@ -198,8 +198,8 @@ class Provenance(ProgramTest):
         self.assertEqual(of_vtp(files["surface.1.vtp"])["request"]["levels"], "0,2")
 
     def test_segment(self):
-        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("glb", {"s.glb"}), ("annot", {"s.annot"}),
-                            ("label.gii", {"s.label.gii"}),
+        for kind, names in (("ply", {"s.ply"}), ("vtp", {"s.vtp"}), ("glb", {"s.glb"}),
+                            ("annot", {"s.annot"}), ("label.gii", {"s.label.gii"}),
                             ("txt", {"s.vertices.txt", "s.faces.txt"})):
             files = self.written_twice("segment", self.mesh, "--persistence", "1%", "-o", f"{{out}}/s.{kind}",
                                        "--json",

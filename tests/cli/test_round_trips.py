@@ -14,8 +14,8 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 # Of genus 0 to 9, with up to 106 boundary loops, of up to 122 components.
 MESHES = ("ALSTOM_TEST4", "anchor", "blob-closed", "blobby_3cc", "boeing", "bones", "cactus", "couplingdown",
-          "double-torus-3-holes", "dragknob", "eight", "elephant-with-holes", "femur", "hand", "head", "helmet",
-          "knot", "pig", "three_peaks", "triceratops")
+          "double-torus-3-holes", "dragknob", "eight", "elephant-with-holes", "femur", "hand", "head",
+          "helmet", "knot", "pig", "three_peaks", "triceratops")
 COUNTS = ("vertices", "edges", "faces", "components", "boundary_loops", "euler_characteristic", "genus")
 
 
