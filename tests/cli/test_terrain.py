@@ -106,11 +106,14 @@ class Terrain(ProgramTest):
         self.assertGreaterEqual(points["minima"], 2)
 
     def test_gaps_are_warned_of(self):
-        self.file("gap.asc", asc([[1, 2, 3], [4, -9999, 6], [7, 8, 9]]))
+        grid = [[5 * i + j for j in range(5)] for i in range(5)]
+        grid[2][2] = -9999
+        self.file("gap.asc", asc(grid))
         info = json.loads(self.morsel("info", "--json", "gap.asc").stdout)
         self.assertTrue(info["valid"])
-        self.assertEqual(info["mesh"]["vertices"], 8)
+        self.assertEqual(info["mesh"]["vertices"], 24)
         self.assertEqual(info["mesh"]["boundary_loops"], 2)
+        self.assertEqual(info["mesh"]["warnings"], ["1 of 25 cells have no data and are left out"])
 
     def test_a_made_tiff_is_the_grid(self):
         if not self.with_geotiff():

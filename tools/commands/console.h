@@ -28,8 +28,8 @@ class Console {
   void message(std::string_view text);
   /// A line about what was guessed, left out or passed over.
   void warning(std::string_view text);
-  /// What may be the cause if the input is refused by a later step: set_action() adds it to the error. None if
-  /// empty.
+  /// What may be the cause if the input is refused by a later step: set_action() adds it to the error. None
+  /// if empty.
   void set_cause(std::string sentence) { cause_ = std::move(sentence); }
   const std::string& cause() const { return cause_; }
   /// Names what the steps are part of ("salient"), shown before the step.
