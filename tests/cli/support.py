@@ -125,9 +125,14 @@ def made_in(folder):
     return sorted(path for path in folder.iterdir() if path.name != ".morsel-results")
 
 
+def without_comments(text):
+    """The lines of a text without its comments."""
+    return [line for line in text.splitlines() if not line.startswith("#")]
+
+
 def data_lines(path):
-    """The lines of a text file without its comments."""
-    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    """The same of a file."""
+    return without_comments(path.read_text())
 
 
 def read_csv(path):

@@ -8,7 +8,7 @@ import unittest
 import meshio
 import nibabel
 import numpy
-from support import SAMPLES, ProgramTest, data_lines
+from support import SAMPLES, ProgramTest, data_lines, without_comments
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
@@ -25,7 +25,7 @@ class RoundTrips(ProgramTest):
         return [document["mesh"][name] for name in COUNTS]
 
     def values(self, mesh, field):
-        return data_lines_of(self.morsel("field", mesh, "--field", field, "-o", "-").stdout)
+        return without_comments(self.morsel("field", mesh, "--field", field, "-o", "-").stdout)
 
     def test_fields(self):
         for name in MESHES:
@@ -87,10 +87,6 @@ class RoundTrips(ProgramTest):
                 self.assertEqual(self.counts("c.off"), self.counts("c.ply"))
                 self.assertEqual(self.values("c.off", "height:direction=1/2/3"),
                                  self.values("c.ply", "height:direction=1/2/3"))
-
-
-def data_lines_of(text):
-    return [line for line in text.splitlines() if not line.startswith("#")]
 
 
 if __name__ == "__main__":
