@@ -18,7 +18,8 @@
 
 namespace morsel::core {
 
-struct MeshSource;  // mesh_io.h: the data in the mesh's file besides the mesh
+struct MeshSource;    // mesh_io.h: the data in the mesh's file besides the mesh
+struct VertexValues;  // vertex_values.h: a file of values, or a property of the mesh's file
 
 /// A field and every parameter as resolved on this mesh (such as a σ of 8ε in the mesh's unit).
 struct FunctionResult {
@@ -48,6 +49,9 @@ class MorseFunction {
   virtual ~MorseFunction() = default;
   virtual FunctionResult evaluate(const TriangleMesh& mesh, const FunctionContext& context) const = 0;
   virtual FunctionTraits traits() const { return {}; }
+  /// The values that it takes as they are; null if it computes its own. A mesh can be made without the
+  /// vertices where they are nan (BuildOptions::needed).
+  virtual const VertexValues* given_values() const { return nullptr; }
 };
 
 /// The critical points of one of the fields that an iterative method passes through (the field's `total` is

@@ -14,6 +14,7 @@
 #include "morsel/core/io/geotiff.h"
 #include "morsel/core/io/gltf.h"
 #include "morsel/core/io/mesh_formats.h"
+#include "morsel/core/io/vertex_mask.h"
 #include "morsel/core/mesh/welding.h"
 #include "morsel/core/text/listed.h"
 #include "morsel/core/text/numbers.h"
@@ -239,7 +240,8 @@ LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOption
   try {
     LoadedSoup faces;  // what face properties need of the file
     if (!file.face_properties.empty()) faces = {file.soup, file.properties, std::move(file.face_properties)};
-    BuiltMesh built = build_mesh(std::move(file.soup), options, progress);
+    VertexMask mask = read_vertex_mask(file, options, progress);
+    BuiltMesh built = build_mesh(std::move(file.soup), options, progress, mask.left_out);
     LoadedMesh loaded{std::move(built.mesh),
                       {std::move(built.numbering), std::move(file.properties), std::move(built.repairs),
                        std::move(file.warnings)}};
@@ -247,6 +249,7 @@ LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOption
     const auto warn = [&](std::string text) {
       if (!text.empty()) source.warnings.push_back(std::move(text));
     };
+    for (std::string& text : mask.warnings) warn(std::move(text));
     for (std::string& text : built.warnings) warn(std::move(text));
     warn(difference_warning(source));
     for (VertexProperty& made : face_values_at_vertices(faces, representatives(source.numbering)))

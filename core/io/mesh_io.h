@@ -99,7 +99,10 @@ WholeMesh read_whole_mesh(const std::filesystem::path& path, const BuildOptions&
 
 /// The second half of read_mesh(): build_mesh() of a file that was read; errors call it `name`. Properties of
 /// faces become properties of vertices: the mean over the faces at each, weighted by their areas, called as
-/// the property or, if the vertices have one of that name, "face:" and the name. Warns where joined vertices
+/// the property or, if the vertices have one of that name, "face:" and the name. Reads the values of
+/// BuildOptions::mask and BuildOptions::needed, and warns of how many vertices they leave out and why: values
+/// that are needed and cannot be had leave none out, and the field that needs them says why. Throws BadInput
+/// if the mask cannot be read or has not one value for each vertex. Warns where joined vertices
 /// (BuildOptions::weld) have different values, of which the first vertex's is taken, and where vertices
 /// coincide that are not joined.
 LoadedMesh make_mesh(LoadedSoup file, const std::string& name, const BuildOptions& options = {},

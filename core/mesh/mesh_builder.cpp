@@ -9,6 +9,7 @@
 
 #include "morsel/core/mesh/mesh_repair.h"
 #include "morsel/core/mesh/polygon_triangulation.h"
+#include "morsel/core/mesh/vertex_removal.h"
 #include "morsel/core/mesh/welding.h"
 #include "morsel/core/parallel/interruptible.h"
 #include "morsel/core/text/numbers.h"
@@ -212,8 +213,67 @@ VertexNumbering composed(VertexNumbering first, VertexNumbering second) {
   if (first.to_input.empty()) return second;
   if (second.to_input.empty()) return first;
   for (Index& v : second.to_input) v = first.input_vertex(v);
-  for (Index& v : first.from_input) v = second.from_input[v];
+  for (Index& v : first.from_input)
+    if (v != kNone) v = second.from_input[v];
   return {first.input_count, std::move(second.to_input), std::move(first.from_input)};
+}
+
+ReducedSoup unreduced(PolygonSoup soup) {
+  ReducedSoup whole;
+  whole.numbering.input_count = soup.positions.size();
+  whole.soup = std::move(soup);
+  return whole;
+}
+
+/// The rim by the vertices that are left by welding.
+std::vector<bool> rim_after(std::vector<bool> rim, const VertexNumbering& welded) {
+  if (rim.empty() || welded.to_input.empty()) return rim;
+  std::vector<bool> joined(welded.to_input.size(), false);
+  for (Index v = 0; v < rim.size(); ++v)
+    if (rim[v]) joined[welded.mesh_vertex(v)] = true;
+  return joined;
+}
+
+/// Numbers the faces of triangles as the input does, of which these `polygons` are left; empty if all are.
+void number_faces(TriangleSoup& soup, const std::vector<Index>& polygons) {
+  if (polygons.empty()) return;
+  if (soup.faces.empty())
+    soup.faces = polygons;
+  else
+    for (Index& face : soup.faces) face = polygons[face];
+}
+
+bool names_missing_vertices(const TriangleSoup& soup) {
+  return std::any_of(soup.triangles.begin(), soup.triangles.end(), [&](const Triangle& t) {
+    return *std::max_element(t.begin(), t.end()) >= soup.positions.size();
+  });
+}
+
+/// "3 faces", "1 face".
+std::string counted(std::size_t count, const std::string& thing, const std::string& things) {
+  return grouped(count) + " " + (count == 1 ? thing : things);
+}
+
+/// What became of the input without repair.
+std::vector<std::string> sentences(const RepairCounts& counts, const ReducedSoup& reduced) {
+  std::vector<std::string> list;
+  if (counts.left_out_vertices > 0)
+    list.push_back(
+        grouped(counts.left_out_vertices) + " of " +
+        counted(reduced.numbering.input_count, "vertex", "vertices") + " and " +
+        counted(counts.left_out_faces, "face", "faces") + " were left out" +
+        (reduced.stranded_count > 0
+             ? ", " + counted(reduced.stranded_count, "vertex", "vertices") + " because no face is left there"
+             : "") +
+        (counts.split_left_out_rims > 0
+             ? "; " + counted(counts.split_left_out_rims, "vertex was", "vertices were") +
+                   " split where faces that are left meet in a point alone"
+             : ""));
+  if (const std::size_t gone = counts.removed_collapsed_faces; gone > 0)
+    list.push_back(counted(gone, "face was removed, of which joined vertices leave",
+                           "faces were removed, of which joined vertices leave") +
+                   " fewer than three corners");
+  return list;
 }
 
 /// Defects in the input's numbers.
@@ -239,20 +299,26 @@ double PolygonSoup::area(std::size_t p) const {
   return sum.norm() / 2;
 }
 
-BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progress& progress) {
+BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progress& progress,
+                     const std::vector<bool>& left_out) {
   progress.update("building the mesh", 0);
   check_soup(input);
-  WeldedSoup joined = welded(std::move(input), options.weld, progress);
   RepairCounts counts;
+  ReducedSoup reduced =
+      left_out.empty() ? unreduced(std::move(input)) : leave_out(std::move(input), left_out);
+  counts.left_out_vertices = reduced.vertex_count;
+  counts.left_out_faces = reduced.polygon_count;
+  WeldedSoup joined = welded(std::move(reduced.soup), options.weld, progress);
   counts.welded_vertices = joined.joined;
   counts.removed_collapsed_faces = joined.collapsed_count;
+  const std::vector<bool> rim = rim_after(std::move(reduced.rim), joined.numbering);
   TriangleSoup soup =
       Triangulation(std::move(joined.soup), joined.collapsed, options.repair, progress).run(counts);
-  VertexNumbering numbering = std::move(joined.numbering);
+  number_faces(soup, reduced.polygons);
+  VertexNumbering numbering = composed(std::move(reduced.numbering), std::move(joined.numbering));
+  const bool is_damaged = (options.repair || !rim.empty()) && names_missing_vertices(soup);
+  if (!rim.empty() && !is_damaged) numbering = composed(std::move(numbering), split_rims(soup, rim, counts));
   if (options.repair) {
-    const bool is_damaged = std::any_of(soup.triangles.begin(), soup.triangles.end(), [&](const Triangle& t) {
-      return *std::max_element(t.begin(), t.end()) >= soup.positions.size();
-    });
     if (is_damaged)
       throw MeshError(numbered(find_defects(soup.positions, soup.triangles, soup.faces), numbering));
     progress.update("repairing the mesh", 0.2);
@@ -264,13 +330,7 @@ BuiltMesh build_mesh(PolygonSoup input, const BuildOptions& options, const Progr
     // If triangles are not the input's faces, they are needed again to describe an error.
     TriangleMesh mesh = is_renumbered ? TriangleMesh(soup.positions, soup.triangles)
                                       : TriangleMesh(std::move(soup.positions), std::move(soup.triangles));
-    BuiltMesh built{std::move(mesh), std::move(numbering), counts.listed()};
-    if (const std::size_t gone = counts.removed_collapsed_faces; gone > 0)
-      built.warnings.push_back(grouped(gone) +
-                               (gone == 1 ? " face was removed, of which joined vertices leave"
-                                          : " faces were removed, of which joined vertices leave") +
-                               " fewer than three corners");
-    return built;
+    return {std::move(mesh), std::move(numbering), counts.listed(), sentences(counts, reduced)};
   } catch (const MeshError& error) {
     std::vector<Defect> defects =
         is_renumbered ? find_defects(soup.positions, soup.triangles, soup.faces) : error.defects();

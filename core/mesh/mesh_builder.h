@@ -11,6 +11,7 @@
 #include "morsel/core/mesh/length.h"
 #include "morsel/core/mesh/mesh.h"
 #include "morsel/core/mesh/mesh_defects.h"
+#include "morsel/core/mesh/vertex_values.h"
 #include "morsel/core/parallel/progress.h"
 
 namespace morsel::core {
@@ -35,7 +36,7 @@ struct PolygonSoup {
 /// One kind of repair that was done, and on how many elements of the input: faces are its polygons, not the
 /// triangles that they are cut into.
 struct Repair {
-  std::string action;  ///< "welded_vertices", "removed_degenerate_faces", …, as the report lists it
+  std::string action;  ///< "left_out_vertices", "removed_degenerate_faces", …, as the report lists it
   std::size_t count = 0;
 };
 
@@ -64,6 +65,11 @@ struct BuildOptions {
   bool repair = false;  ///< repair what can be repaired instead of refusing it
   /// Join vertices first, within this length (welding.h); at the same position if it is 0.
   std::optional<Length> weld = {};
+  // Vertices that are left out (vertex_mask.h). make_mesh() reads these values; build_mesh() is told which
+  // vertices they are.
+  std::optional<VertexValues> mask = {};  ///< leave out vertices where these are 0 or nan
+  std::vector<VertexValues> needed =
+      {};  ///< leave out vertices where any of these, of fields to come, is nan
 
   friend bool operator==(const BuildOptions&, const BuildOptions&) = default;
 };
@@ -74,7 +80,14 @@ struct BuildOptions {
 /// fewer than three corners, or with two consecutive ones on the same vertex, is degenerate; polygons with
 /// the same sides are duplicates whichever way round they run.
 ///
-/// With `options.weld` vertices are joined first, as weld() does it: a joined vertex has the position of the
+/// `left_out` has an entry for each vertex, or none: those that are true are left out first, with all faces
+/// at them and vertices that no face is left at (`left_out_vertices`, `left_out_faces`). Where faces that are
+/// left meet in a vertex alone, because a face between them has gone, the vertex is split as repair splits
+/// one
+/// (`split_left_out_rims`). Throws InvalidArgument for another number of entries, BadInput if no face is
+/// left.
+///
+/// With `options.weld` vertices are joined next, as weld() does it: a joined vertex has the position of the
 /// one that it joins, and VertexNumbering::from_input of both is the same mesh vertex. That is listed as
 /// `welded_vertices`, and as `removed_collapsed_faces` the faces of which it left fewer than three different
 /// vertices. Throws InvalidArgument if the length is negative.
@@ -100,6 +113,7 @@ struct BuildOptions {
 /// its faces (of the first, in a tie); one that is consistent is left alone.
 ///
 /// O(n log n), deterministic.
-BuiltMesh build_mesh(PolygonSoup soup, const BuildOptions& options = {}, const Progress& progress = {});
+BuiltMesh build_mesh(PolygonSoup soup, const BuildOptions& options = {}, const Progress& progress = {},
+                     const std::vector<bool>& left_out = {});
 
 }  // namespace morsel::core

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,52 @@ namespace morsel::core {
 namespace {
 
 Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+
+/// Joins the corners of triangles to fans around their vertices, across edges of two faces only: each fan is
+/// a path or a cycle then. `origin(h)` is the vertex at corner h; `on_many(h)` is called for edges of more
+/// faces.
+template <class Origin, class OnMany>
+UnionFind joined_fans(Index corner_count, const std::vector<EdgeSide>& sides, const Origin& origin,
+                      const OnMany& on_many) {
+  UnionFind fans(corner_count);
+  for_each_edge(sides, [&](std::size_t first, std::size_t last) {
+    if (last - first > 2) on_many(sides[first].halfedge);
+    if (last - first != 2) return;
+    const Index a = sides[first].halfedge;
+    const Index b = sides[first + 1].halfedge;
+    const bool same_way = origin(a) == origin(b);
+    fans.unite(a, same_way ? b : next(b));
+    fans.unite(next(a), same_way ? next(b) : b);
+  });
+  return fans;
+}
+
+/// Gives each fan but the first of a vertex that `may_split` a new vertex, numbered from `vertex_count` on,
+/// and returns of each the vertex that it was split from. `corner(c)` refers to the vertex at corner c. Adds
+/// the vertices that were split to `count`.
+template <class Corner, class MaySplit>
+std::vector<Index> separate_fans(UnionFind& fans, Index corner_count, std::size_t vertex_count,
+                                 const Corner& corner, const MaySplit& may_split, std::size_t& count) {
+  std::vector<Index> split_from;
+  // Roots are the smallest corners of their fans, so they come before the others.
+  std::vector<Index> fans_of(vertex_count, 0);
+  std::vector<Index> vertex_of_fan(corner_count, kNone);
+  for (Index c = 0; c < corner_count; ++c) {
+    const Index root = fans.find(c);
+    Index& vertex = corner(c);
+    if (root == c) {
+      vertex_of_fan[c] = vertex;
+      const Index fan = may_split(vertex) ? fans_of[vertex]++ : 0;
+      if (fan == 1) ++count;
+      if (fan > 0) {
+        vertex_of_fan[c] = static_cast<Index>(vertex_count + split_from.size());
+        split_from.push_back(vertex);
+      }
+    }
+    vertex = vertex_of_fan[root];
+  }
+  return split_from;
+}
 
 /// Counts the faces that triangles belong to, which must come in ascending order.
 class FaceCounter {
@@ -105,38 +152,17 @@ class Repairer {
     std::sort(halfedges_.begin(), halfedges_.end(), interruptible());
   }
 
-  /// Gives each fan of faces around a vertex a vertex of its own, where fans are joined across edges of two
-  /// faces only. Each fan is a path or a cycle then, so that at most two faces remain at any edge and one fan
-  /// at any vertex. Returns whether anything was split.
+  /// Gives each fan of faces around a vertex a vertex of its own, so that at most two faces remain at any
+  /// edge and one fan at any vertex. Returns whether anything was split.
   bool split() {
-    UnionFind fans(static_cast<Index>(3 * soup_.triangles.size()));
-    for_each_edge(halfedges_, [&](std::size_t first, std::size_t last) {
-      if (last - first > 2) ++counts_.split_non_manifold_edges;
-      if (last - first != 2) return;
-      const Index a = halfedges_[first].halfedge;
-      const Index b = halfedges_[first + 1].halfedge;
-      const bool same_way = origin(a) == origin(b);
-      fans.unite(a, same_way ? b : next(b));
-      fans.unite(next(a), same_way ? next(b) : b);
-    });
-    // Roots are the smallest corners of their fans, so they come before the others.
-    std::vector<Index> fans_of(soup_.positions.size(), 0);
-    std::vector<Index> vertex_of_fan(3 * soup_.triangles.size(), kNone);
-    const auto input_count = static_cast<Index>(soup_.positions.size());
-    for (Index c = 0; c < vertex_of_fan.size(); ++c) {
-      const Index root = fans.find(c);
-      Index& corner = soup_.triangles[c / 3][c % 3];
-      if (root == c) {
-        vertex_of_fan[c] = corner;
-        const Index fan = fans_of[corner]++;
-        if (fan == 1) ++counts_.split_non_manifold_vertices;
-        if (fan > 0) {
-          vertex_of_fan[c] = input_count + static_cast<Index>(split_from_.size());
-          split_from_.push_back(corner);
-        }
-      }
-      corner = vertex_of_fan[root];
-    }
+    const auto corners = static_cast<Index>(3 * soup_.triangles.size());
+    UnionFind fans = joined_fans(
+        corners, halfedges_, [&](Index h) { return origin(h); },
+        [&](Index) { ++counts_.split_non_manifold_edges; });
+    split_from_ = separate_fans(
+        fans, corners, soup_.positions.size(),
+        [&](Index c) -> Index& { return soup_.triangles[c / 3][c % 3]; }, [](Index) { return true; },
+        counts_.split_non_manifold_vertices);
     for (const Index v : split_from_) soup_.positions.push_back(Point(soup_.positions[v]));
     return !split_from_.empty();
   }
@@ -252,6 +278,9 @@ std::vector<Repair> RepairCounts::listed() const {
   const auto add = [&](const char* action, std::size_t count) {
     if (count > 0) result.push_back({action, count});
   };
+  add("left_out_vertices", left_out_vertices);
+  add("left_out_faces", left_out_faces);
+  add("split_left_out_rims", split_left_out_rims);
   add("welded_vertices", welded_vertices);
   add("removed_collapsed_faces", removed_collapsed_faces);
   add("merged_repeated_corners", merged_repeated_corners);
@@ -266,6 +295,41 @@ std::vector<Repair> RepairCounts::listed() const {
 
 VertexNumbering repair_triangles(TriangleSoup& soup, RepairCounts& counts) {
   return Repairer(soup, counts).run();
+}
+
+VertexNumbering split_rims(TriangleSoup& soup, std::vector<bool> may_split, RepairCounts& counts) {
+  const std::size_t count = soup.positions.size();
+  VertexNumbering numbering;
+  numbering.input_count = count;
+  std::vector<Index>
+      triangles;  // at vertices that may be split: corner c of triangle i here is number 3i + c
+  for (Index t = 0; t < soup.triangles.size(); ++t) {
+    const Triangle& corners = soup.triangles[t];
+    if (std::ranges::none_of(corners, [&](Index v) { return may_split[v]; })) continue;
+    triangles.push_back(t);
+  }
+  const auto corner = [&](Index c) -> Index& { return soup.triangles[triangles[c / 3]][c % 3]; };
+  const auto corner_count = static_cast<Index>(3 * triangles.size());
+  std::vector<EdgeSide> sides;
+  for (Index h = 0; h < corner_count; ++h) {
+    const Index a = corner(h), b = corner(next(h));
+    if (a == b) may_split[a] = false;
+    if (may_split[a] || may_split[b]) sides.push_back(edge_side(a, b, h));
+  }
+  std::sort(sides.begin(), sides.end(), interruptible());
+  UnionFind fans = joined_fans(corner_count, sides, corner,
+                               [&](Index h) { may_split[corner(h)] = may_split[corner(next(h))] = false; });
+  const std::vector<Index> split_from = separate_fans(
+      fans, corner_count, count, corner, [&](Index v) { return may_split[v]; }, counts.split_left_out_rims);
+  if (split_from.empty()) return numbering;
+  numbering.to_input.resize(count);
+  std::iota(numbering.to_input.begin(), numbering.to_input.end(), Index{0});
+  numbering.from_input = numbering.to_input;
+  for (const Index v : split_from) {
+    soup.positions.push_back(Point(soup.positions[v]));
+    numbering.to_input.push_back(v);
+  }
+  return numbering;
 }
 
 }  // namespace morsel::core

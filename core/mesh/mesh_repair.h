@@ -22,6 +22,9 @@ struct TriangleSoup {
 
 /// Counts of repairs before and during repair_triangles().
 struct RepairCounts {
+  std::size_t left_out_vertices = 0;
+  std::size_t left_out_faces = 0;
+  std::size_t split_left_out_rims = 0;
   std::size_t welded_vertices = 0;
   std::size_t removed_collapsed_faces = 0;
   std::size_t merged_repeated_corners = 0;
@@ -39,5 +42,10 @@ struct RepairCounts {
 /// Repairs in place. All corners must name vertices that exist. What remains afterwards is at most: no
 /// triangle, non-finite positions, components that cannot be oriented. O(n log n).
 VertexNumbering repair_triangles(TriangleSoup& soup, RepairCounts& counts);
+
+/// Splits vertices whose faces form several fans, as repair_triangles() does it, but only where `may_split`
+/// is true, and none at a non-manifold edge or a degenerate face: these stay as they are. All corners must
+/// name vertices that exist. O(n + m log m) for m faces at the vertices that may be split.
+VertexNumbering split_rims(TriangleSoup& soup, std::vector<bool> may_split, RepairCounts& counts);
 
 }  // namespace morsel::core

@@ -47,7 +47,8 @@ core::ScalarField make_field(const core::TriangleMesh& mesh, const core::VertexN
     throw BadInput(origin + ", " + place(first) + ": vertex " + std::to_string(first) + " has the value " +
                    core::shortest(values[first]) +
                    (bad > 1 ? ", the first of " + std::to_string(bad) + " that are not finite"
-                            : ", which is not finite"));
+                            : ", which is not finite") +
+                   (std::isnan(values[first]) ? "; a mask (--mask) leaves vertices out" : ""));
   return {mesh, std::move(chosen)};
 }
 
@@ -79,6 +80,7 @@ class VertexScalar final : public core::MorseFunction {
     return {std::move(field), std::move(parameters), std::move(warnings)};
   }
   core::FunctionTraits traits() const override { return {.needs_input_vertices = true}; }
+  const core::VertexValues* given_values() const override { return &options_; }
 
  private:
   VertexScalarOptions options_;

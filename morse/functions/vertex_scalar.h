@@ -1,7 +1,6 @@
 #pragma once
 /// Values that come with the mesh: from a file of values, or from a property of the mesh's own file.
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,19 +8,11 @@
 #include "morsel/core/field/method.h"
 #include "morsel/core/field/scalar_field.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/mesh/vertex_values.h"
 
 namespace morsel::morse {
 
-/// Exactly one of the two.
-struct VertexScalarOptions {
-  /// A value for each vertex of the mesh's file, in its order: a text with a value a line (blank lines and
-  /// what follows a # do not count), CSV, NumPy's .npy, or another mesh file with values for its vertices.
-  std::filesystem::path file;
-  /// Name of a scalar that the mesh's file gives for its vertices (PLY, VTK).
-  std::string property;
-  /// Of the file's columns or arrays, the name or the number (from 1) of one; empty: it has only one.
-  std::string column = {};
-};
+using VertexScalarOptions = core::VertexValues;
 
 /// The field with the given values. They are numbered as the vertices of the mesh's *file*, so `source` maps
 /// them to mesh vertices (null: a mesh made in memory, with the numbers of its own vertices). Where several

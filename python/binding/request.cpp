@@ -1,12 +1,16 @@
 #include "morsel/python/binding/request.h"
 
+#include "morsel/core/io/vertex_mask.h"
+
 namespace morsel::python {
 
-core::BuildOptions build_options(bool repair, const std::optional<std::string>& weld) {
-  core::BuildOptions build{.repair = repair};
-  if (!weld) return build;
-  build.weld = core::parse_length(*weld, "weld");
-  if (build.weld->value < 0) throw core::InvalidArgument("weld must not be negative");
+core::BuildOptions build_options(const BuildTexts& texts) {
+  core::BuildOptions build{.repair = texts.repair};
+  if (texts.weld) {
+    build.weld = core::parse_length(*texts.weld, "weld");
+    if (build.weld->value < 0) throw core::InvalidArgument("weld must not be negative");
+  }
+  if (texts.mask) build.mask = core::parse_vertex_values(*texts.mask, "mask");
   return build;
 }
 

@@ -61,8 +61,14 @@ class RequestReader {
   py::dict given_;
 };
 
-/// `weld`: a length within which vertices are joined. Throws InvalidArgument if it is none, or negative.
-core::BuildOptions build_options(bool repair, const std::optional<std::string>& weld);
+/// How a mesh is made, as users give it.
+struct BuildTexts {
+  bool repair = false;
+  std::optional<std::string> weld = {};  ///< a length within which vertices are joined
+  std::optional<std::string> mask = {};  ///< as --mask takes it
+};
+/// Throws InvalidArgument if `weld` is no length, or negative, or `mask` is none.
+core::BuildOptions build_options(const BuildTexts& texts);
 
 /// count, kind, rank, spacing, fill, scale, percentiles.
 tools::PointsRequest points_request(const py::dict& given);

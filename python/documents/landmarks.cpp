@@ -97,11 +97,13 @@ void run(LandmarksData& data, tools::MarkedMeshes& meshes, const core::Progress&
 }
 
 LandmarksHandle landmarks_of_list(const std::string& list, bool repair,
-                                  const std::optional<std::string>& weld, const py::dict& given,
+                                  const std::optional<std::string>& weld,
+                                  const std::optional<std::string>& mask, const py::dict& given,
                                   const tools::Registry& registry, const py::object& report) {
   auto data = std::make_shared<LandmarksData>();
   data->plan = tools::prepare(request_of(given), registry);
-  const core::BuildOptions build = build_options(repair, weld);
+  const core::BuildOptions build =
+      tools::build_for(data->plan.functions, build_options({repair, weld, mask}));
   run_job(report, [&](const core::Progress& progress) {
     const tools::LandmarksRequest& request = data->plan.request;
     data->files = std::make_unique<tools::MarkedFiles>(list, request.first, build);

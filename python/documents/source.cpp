@@ -104,7 +104,10 @@ DocumentMesh document_mesh(const StudyInput& input, const DocumentPlace& place,
   }
   if (!mesh.path.empty() && !has_values) {
     check_unchanged(mesh);
-    return {mesh.loaded, {mesh.path, tools::sha256_of(tools::MeshOrigin{mesh.file})}, mesh.build, mesh.file};
+    return {mesh.loaded,
+            {mesh.path, tools::sha256_of(tools::MeshOrigin{mesh.file}, mesh.build)},
+            mesh.build,
+            mesh.file};
   }
   if (place.mesh_must_be_file)
     throw core::InvalidArgument(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -46,7 +47,16 @@ MeshHandle handle_of(core::BuiltMesh built, const core::BuildOptions& build, con
                build});
 }
 
-using Weld = std::optional<std::string>;
+using Text = std::optional<std::string>;
+
+/// Vertices that a mask leaves out: those where it is 0, False or nan; empty without a mask.
+std::vector<bool> left_out_by(const py::object& mask) {
+  std::vector<bool> left_out;
+  if (mask.is_none()) return left_out;
+  for (const double value : values_from(mask.cast<py::array>(), "the mask"))
+    left_out.push_back(value == 0 || std::isnan(value));
+  return left_out;
+}
 
 /// Triangles that are a mesh as they are: with less memory than polygons.
 MeshHandle from_triangles(const py::array& positions, const py::array& faces, const py::object& report) {
@@ -63,21 +73,23 @@ MeshHandle from_triangles(const py::array& positions, const py::array& faces, co
 }
 
 /// From arrays of vertices (n, 3) and faces (m, k).
-MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool repair, const Weld& weld,
-                       const py::object& report) {
+MeshHandle from_arrays(const py::array& positions, const py::array& faces, bool repair, const Text& weld,
+                       const py::object& mask, const py::object& report) {
   const bool are_triangles = faces.ndim() == 2 && faces.shape(1) == 3;
-  if (are_triangles && !repair && !weld) return from_triangles(positions, faces, report);
-  const core::BuildOptions build = build_options(repair, weld);
+  if (are_triangles && !repair && !weld && mask.is_none()) return from_triangles(positions, faces, report);
+  const core::BuildOptions build = build_options({repair, weld});
+  const std::vector<bool> left_out = left_out_by(mask);
   core::PolygonSoup soup = soup_from(positions, faces);
   return compute(report, [&](const core::Progress& progress) {
-    return handle_of(core::build_mesh(std::move(soup), build, progress), build, progress);
+    return handle_of(core::build_mesh(std::move(soup), build, progress, left_out), build, progress);
   });
 }
 
 /// From polygons of several sizes: face i has the corners from offsets[i] on.
 MeshHandle from_polygons(const py::array& positions, const py::array& corners, const py::array& offsets,
-                         bool repair, const Weld& weld, const py::object& report) {
-  const core::BuildOptions build = build_options(repair, weld);
+                         bool repair, const Text& weld, const py::object& mask, const py::object& report) {
+  const core::BuildOptions build = build_options({repair, weld});
+  const std::vector<bool> left_out = left_out_by(mask);
   core::PolygonSoup soup;
   soup.positions = points_from(positions, "the vertices");
   soup.corners = indices_from(corners, "the corners of the faces");
@@ -87,12 +99,13 @@ MeshHandle from_polygons(const py::array& positions, const py::array& corners, c
                     std::ranges::is_sorted(places);
   if (!fits) throw py::value_error("the offsets of the faces must ascend from 0 to the number of corners");
   return compute(report, [&](const core::Progress& progress) {
-    return handle_of(core::build_mesh(std::move(soup), build, progress), build, progress);
+    return handle_of(core::build_mesh(std::move(soup), build, progress, left_out), build, progress);
   });
 }
 
-MeshHandle read(const std::string& path, bool repair, const Weld& weld, const py::object& report) {
-  const core::BuildOptions build = build_options(repair, weld);
+MeshHandle read(const std::string& path, bool repair, const Text& weld, const Text& mask,
+                const py::object& report) {
+  const core::BuildOptions build = build_options({repair, weld, mask});
   return compute(report, [&](const core::Progress& progress) {
     std::error_code error;  // of which reading has more to tell
     const std::filesystem::file_time_type time = last_change(path, error);

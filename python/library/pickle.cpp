@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "morsel/core/io/vertex_mask.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/python/binding/arrays.h"
 #include "morsel/python/binding/data.h"
@@ -48,7 +49,8 @@ py::tuple mesh_state(const MeshHandle& mesh) {
       source.numbering.input_count, taken(std::vector<Index>(source.numbering.to_input)),
       taken(std::vector<Index>(source.numbering.from_input)), repairs, properties, py::bytes(mesh->file),
       mesh->build.weld ? py::object(text(core::to_string(*mesh->build.weld))) : py::none(),
-      texts(source.warnings));
+      texts(source.warnings),
+      mesh->build.mask ? py::object(text(core::to_string(*mesh->build.mask))) : py::none());
 }
 
 MeshHandle restored_mesh(const py::tuple& state) {
@@ -69,7 +71,8 @@ MeshHandle restored_mesh(const py::tuple& state) {
   const auto path = state[2].cast<std::string>();
   const auto file = state[10].cast<std::string>();
   const core::BuildOptions build =
-      build_options(state[3].cast<bool>(), state[11].cast<std::optional<std::string>>());
+      build_options({state[3].cast<bool>(), state[11].cast<std::optional<std::string>>(),
+                     state[13].cast<std::optional<std::string>>()});
   source.warnings = state[12].cast<std::vector<std::string>>();
   return compute(py::none(), [&](const core::Progress&) {
     core::TriangleMesh mesh(std::move(points), std::move(triangles));

@@ -13,7 +13,7 @@ from ._arguments import place, whole
 from ._chosen import choice
 from ._field import warn
 from ._made import Named, name_of, number_text
-from ._mesh import PathLike, Weld, as_mesh, path_bytes, weld_text
+from ._mesh import PathLike, Weld, as_mesh, mask_text, path_bytes, weld_text
 from ._progress import Progress, reporting
 from ._registry import registry
 from ._rows import Rows
@@ -113,7 +113,8 @@ def landmarks(marked: Marked, *, fields: Sequence[Named] | None = None,
               rank: str = "persistence", spacing: str | float = "5%", fill: Named | None = None,
               scale: str | float | None = None, radius: str | float = "5%",
               largest_radius: str | float = "12%", first: int = 0, repair: bool = False, weld: Weld = None,
-              resamples: int = 10000, seed: int = 1, progress: Progress = None) -> Landmarks:
+              mask: PathLike | None = None, resamples: int = 10000, seed: int = 1,
+              progress: Progress = None) -> Landmarks:
     """How well chosen critical points agree with points that people marked, as `morsel landmarks`.
 
     Parameters
@@ -128,9 +129,9 @@ def landmarks(marked: Marked, *, fields: Sequence[Named] | None = None,
         As of points(); nothing fills up by default.
     radius, largest_radius : str or float
         Of a hit, along the surface; and up to which errors are counted in the document.
-    first, repair, weld
-        Of a list: the number of a file's first vertex, 0 or 1; and whether meshes are repaired and their
-        vertices joined, as of read().
+    first, repair, weld, mask
+        Of a list: the number of a file's first vertex, 0 or 1; and whether meshes are repaired, their vertices
+        joined and vertices left out, as of read().
     resamples, seed : int
         Of the intervals; the seed is that of the random points, too.
 
@@ -155,8 +156,8 @@ def landmarks(marked: Marked, *, fields: Sequence[Named] | None = None,
         request["methods"] = [name_of(one) for one in methods]
     with reporting(progress) as report:
         if isinstance(marked, (str, os.PathLike)):
-            data = _documents.landmarks_of_list(path_bytes(marked), bool(repair), weld_text(weld), request,
-                                                registry(), report)
+            data = _documents.landmarks_of_list(path_bytes(marked), bool(repair), weld_text(weld),
+                                                mask_text(mask), request, registry(), report)
         else:
             pairs = [(as_mesh(mesh)._data, _interop.array(vertices, "the marked vertices"))
                      for mesh, vertices in marked]

@@ -35,6 +35,23 @@ def weld_text(weld: Weld) -> str | None:
     return weld if isinstance(weld, str) else repr(float(weld))
 
 
+def mask_text(mask: Any) -> str | None:
+    """The mask of a mesh that is read, as the library takes it."""
+    if mask is None:
+        return None
+    if isinstance(mask, (str, os.PathLike)):
+        return os.fspath(mask)
+    raise TypeError("the mask of a file is a path, \"file=PATH,column=NAME\" or \"property=NAME\", not "
+                    f"{type(mask).__name__}; for values, give Mesh() the arrays of the mesh")
+
+
+def _mask_array(mask: Any) -> NDArray[Any] | None:
+    if mask is None:
+        return None
+    values = _interop.array(mask, "the mask")
+    return values.astype(np.uint8) if values.dtype == np.bool_ else values
+
+
 def _warn(mesh: _library.Mesh, level: int) -> None:
     for text in mesh.warnings:
         _warnings.warn(text, MorselWarning, stacklevel=level + 1)
@@ -54,6 +71,9 @@ class Mesh(Immutable):
         Mend what breaks the rules instead of refusing it; `repairs` then tells what was done.
     weld : bool, str or float
         First join vertices at the same position (True) or within a length ("0.1eps", or a number).
+    mask : array_like (n,), or str
+        Leave out the vertices where it is False, 0 or nan, the faces at them, and vertices that no face is left
+        at; `input_vertices` has the numbers of the others. Of a path, a mask as read() takes it.
     progress : bool or callable
         True shows a bar; a function is called with the step's name and the fraction done.
 
@@ -62,19 +82,20 @@ class Mesh(Immutable):
 
     >>> mesh = ms.Mesh(V, F)
     >>> mesh = ms.Mesh(trimesh.load("scan.stl"), repair=True)
+    >>> mesh = ms.Mesh(V, F, mask=np.isfinite(thickness))
     """
 
     __slots__ = ("_data", "__weakref__")
     _data: _library.Mesh
 
     def __init__(self, vertices: Any, faces: Any = None, *, repair: bool = False, weld: Weld = None,
-                 progress: Progress = None) -> None:
+                 mask: Any = None, progress: Progress = None) -> None:
         if faces is None:
             if isinstance(vertices, Mesh):
                 self._data = vertices._data
                 return
             if isinstance(vertices, (str, os.PathLike)):
-                self._data = _read(vertices, repair, weld, progress, 2)._data
+                self._data = _read(vertices, repair, weld, mask, progress, 2)._data
                 return
             vertices, faces = _interop.arrays_of(vertices)
         positions = _interop.array(vertices, "the vertices")
@@ -82,10 +103,11 @@ class Mesh(Immutable):
         with reporting(progress) as report:
             if isinstance(corners, _interop.Polygons):
                 self._data = _library.mesh_from_polygons(positions, corners.corners, corners.offsets,
-                                                         bool(repair), weld_text(weld), report)
+                                                         bool(repair), weld_text(weld), _mask_array(mask),
+                                                         report)
             else:
                 self._data = _library.mesh_from_arrays(positions, corners, bool(repair), weld_text(weld),
-                                                       report)
+                                                       _mask_array(mask), report)
         _warn(self._data, 2)
 
     @classmethod
@@ -268,22 +290,25 @@ def _restored(state: tuple[Any, ...]) -> Mesh:
     return Mesh._of(_library.restored_mesh(state))
 
 
-def read(path: PathLike, *, repair: bool = False, weld: Weld = None, progress: Progress = None) -> Mesh:
+def read(path: PathLike, *, repair: bool = False, weld: Weld = None, mask: PathLike | None = None,
+         progress: Progress = None) -> Mesh:
     """Reads a mesh: .off, .obj, .ply, .stl, .vtk, .vtp, .vtu, .gii or a surface of FreeSurfer.
 
     Raises MeshError, with all defects, for a mesh that breaks a rule (repair=True mends what can be mended),
     InputError for a file that is missing, damaged or of another kind. With `weld`, vertices at the same
-    position (True) or within a length ("0.1eps", or a number) are joined first. Issues a MorselWarning for
-    each of `Mesh.warnings`.
+    position (True) or within a length ("0.1eps", or a number) are joined first. With `mask` (a file of values,
+    "file=PATH,column=NAME" or "property=NAME"), vertices where it is 0 or nan are left out. Issues a
+    MorselWarning for each of `Mesh.warnings`.
 
     >>> mesh = ms.read("scan.ply")
     """
-    return _read(path, repair, weld, progress, 2)
+    return _read(path, repair, weld, mask, progress, 2)
 
 
-def _read(path: PathLike, repair: bool, weld: Weld, progress: Progress, level: int) -> Mesh:
+def _read(path: PathLike, repair: bool, weld: Weld, mask: Any, progress: Progress, level: int) -> Mesh:
     with reporting(progress) as report:
-        mesh = Mesh._of(_library.read_mesh(path_bytes(path), bool(repair), weld_text(weld), report))
+        mesh = Mesh._of(_library.read_mesh(path_bytes(path), bool(repair), weld_text(weld), mask_text(mask),
+                                           report))
     _warn(mesh._data, level + 1)
     return mesh
 

@@ -57,6 +57,7 @@ Words words_that_give(const Option& row) {
       {"--kind", {"saddles"}},        {"--rank", {"salience"}},
       {"--spacing", {"3%"}},          {"--fill", {"height:axis=x"}},
       {"--salience-scale", {"5eps"}}, {"--weld", {"0.5eps"}},
+      {"--mask", {"property=inside"}},
   };
   const std::string name = name_of(row);
   if (row.is_flag()) return {name};
@@ -164,7 +165,7 @@ TEST_CASE("each option of render that shapes a picture is among the words of its
   camera.up = render::UpAxis::x;
   core::VertexNumbering shifted;
   shifted.to_input = {10, 11, 12, 13, 14, 15};
-  const Words words = with(words_of(field, {true, core::Length::absolute(0)}),
+  const Words words = with(words_of(field, {true, core::Length::absolute(0), core::VertexValues{"", "inside"}}),
                            render::words_of(picture, camera, "auto", shifted));
   // With a flag of the opposite meaning: whichever is not the default.
   const std::map<std::string, std::string> opposite = {

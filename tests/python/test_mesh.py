@@ -293,3 +293,35 @@ def test_bug_misaligned_positions_were_read_as_they_lie(octahedron):
     assert np.array_equal(mesh.vertices, v) and np.array_equal(mesh.faces, f)
     values = np.arange(6.0)
     assert np.array_equal(ms.field(mesh, misaligned(values)).values, values)
+
+
+def test_vertices_that_a_mask_leaves_out():
+    mask = np.ones(6, bool)
+    mask[0] = False
+    with pytest.warns(ms.MorselWarning, match="1 of 6 vertices and 4 faces were left out"):
+        mesh = ms.Mesh(V, F, mask=mask)
+    assert (mesh.vertex_count, mesh.face_count, mesh.boundary_loop_count) == (5, 4, 1)
+    assert mesh.input_vertices.tolist() == [1, 2, 3, 4, 5]
+    assert mesh.repairs == {"left_out_vertices": 1, "left_out_faces": 4}
+    for same in (mask.astype(float), [np.nan, 1, 1, 1, 1, 2], mask.tolist()):
+        with pytest.warns(ms.MorselWarning):
+            assert np.array_equal(ms.Mesh(V, F.tolist(), mask=same).faces, mesh.faces)
+    assert ms.Mesh(V, F, mask=np.ones(6)).warnings == []
+    with pytest.raises(ms.ArgumentError, match="each of 6 vertices, not for 5"):
+        ms.Mesh(V, F, mask=np.ones(5))
+    with pytest.raises(ms.InputError, match="no face is left"):
+        ms.Mesh(V, F, mask=np.zeros(6))
+
+
+def test_a_file_with_a_mask(tmp_path):
+    ms.Mesh(V, F).save(tmp_path / "m.off")
+    np.savetxt(tmp_path / "mask.txt", [0, 1, 1, 1, 1, 1])
+    with pytest.warns(ms.MorselWarning, match="mask.txt is 0 or nan at 1 of 6 vertices"):
+        mesh = ms.read(tmp_path / "m.off", mask=tmp_path / "mask.txt")
+    for one in (mesh, pickle.loads(pickle.dumps(mesh))):
+        report = tmp_path / "report.json"
+        ms.compare(ms.height(one), methods=["conventional"]).save(report)
+        assert json.loads(report.read_text())["request"]["mask"] == f"file={tmp_path / 'mask.txt'}"
+        assert ms.check(report) == []
+    with pytest.raises(TypeError, match="arrays of the mesh"):
+        ms.read(tmp_path / "m.off", mask=np.ones(6))

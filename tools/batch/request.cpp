@@ -63,6 +63,9 @@ Json common_key(const BatchRequest& request) {
   const ComparisonRequest& asked = request.comparison;
   const render::FigureText& figure = request.figure;
   const auto if_any = [](bool any, const std::string& text) { return any ? Json(text) : Json(); };
+  std::vector<HashedFile> files = input_files({asked.field});
+  if (request.build.mask && !request.build.mask->file.empty())
+    files.push_back({request.build.mask->file.string(), sha256_of_file(request.build.mask->file)});
   Json key = {{"tool", tool_section()},
               {"request",
                {{"field", asked.field},
@@ -79,8 +82,8 @@ Json common_key(const BatchRequest& request) {
                 {"up", if_any(has_pictures(request), to_string(figure.camera.up))},
                 {"size", if_any(request.figures, figure.size)},
                 {"inset", if_any(request.figures && !figure.camera.inset.empty(), figure.camera.inset)}}},
-              {"files", files_section(input_files({asked.field}))}};
-  add_welding(key["request"], request.build);
+              {"files", files_section(files)}};
+  add_build_options(key["request"], request.build);
   return Json::parse(json_text(key));  // as it is read back from a state
 }
 

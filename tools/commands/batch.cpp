@@ -125,7 +125,7 @@ int compare_all(Options& options, const Run& run) {
   const batch::OutFolder out(options.out);
   RunFiles files;
   files.reads_folder("COLLECTION", options.collection).reads_of_field(options.request.comparison.field);
-  files.fills("--out", options.out).check();
+  files.reads_mask(run.common.build).fills("--out", options.out).check();
   if (options.plan) {
     ResultFolder::check(options.out);
     print_plan(meshes, options, out, console);

@@ -71,7 +71,7 @@ void set_action(Program& program, Command& command, std::shared_ptr<Options> opt
   };
 }
 
-/// --threads, --repair, --weld and --quiet, after the command's own.
+/// --threads, --repair, --weld, --mask and --quiet, after the command's own.
 void add_common_options(Command& command, CommonOptions& common, bool with_mesh = true);
 
 /// --target K

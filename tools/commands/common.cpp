@@ -7,6 +7,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/io/vertex_mask.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/tools/commands/commands.h"
 #include "morsel/tools/study/presets.h"
@@ -34,6 +35,19 @@ void add_weld_option(Command& command, std::optional<core::Length>& weld) {
   command.add(std::move(row));
 }
 
+void add_mask_option(Command& command, std::optional<core::VertexValues>& mask) {
+  Option row{"--mask", "Leave out vertices where the values in this file are 0 or nan"};
+  row.value_name = "FILE";
+  row.details =
+      "Also file=FILE,column=NAME of a file with several columns, or property=NAME, a scalar of the mesh's "
+      "own "
+      "file; faces at these vertices go, and vertices that no face is left at";
+  row.take = [&mask](const Option& option, const std::vector<std::string>& words) {
+    mask = core::parse_vertex_values(words.back(), option.names);
+  };
+  command.add(std::move(row));
+}
+
 }  // namespace
 
 void add_common_options(Command& command, CommonOptions& common, bool with_mesh) {
@@ -50,6 +64,7 @@ void add_common_options(Command& command, CommonOptions& common, bool with_mesh)
             "That is: unreferenced vertices, degenerate and duplicate faces, non-manifold edges and "
             "vertices, orientation");
     add_weld_option(command, common.build.weld);
+    if (command.name != "reproduce") add_mask_option(command, common.build.mask);  // of several meshes
   }
   if (with_mesh && takes_mesh(command)) {
     command.text("--format", common.format, "Read the mesh as this, whatever its name; needed where it is -")
@@ -57,7 +72,8 @@ void add_common_options(Command& command, CommonOptions& common, bool with_mesh)
         .among(core::mesh_format_names())
         .in_detail("The mesh - is standard input; a compressed file is read as what it holds");
     if (command.name != "info")
-      for (const char* option : {"--repair", "--weld", "--format"}) command.option(option).told_by = "info";
+      for (const char* option : {"--repair", "--weld", "--mask", "--format"})
+        command.option(option).told_by = "info";
   }
   command.flag("--quiet", common.quiet, "No progress, no messages, no warnings").shapes_nothing();
 }

@@ -169,7 +169,8 @@ class Outputs {
   /// All files of the run; throws if two of them are the same.
   static RunFiles checked_files(const Options& options, const CommonOptions& common) {
     RunFiles files;
-    files.reads_mesh(options.mesh, common.format).reads_of_field(options.request.field);
+    files.reads_mesh(options.mesh, common.format).reads_mask(common.build);
+    files.reads_of_field(options.request.field);
     reads_of_points(files, options.request.points);
     files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
     if (!options.thumbnails.empty())
@@ -202,7 +203,8 @@ int compare(Options& options, const Run& run) {
   const ComparisonPlan comparison = prepare(options.request);
   options.figure.check();
   Outputs outputs(options, run);
-  const MeshInput input = read_input(options.mesh, run, !options.no_items);
+  const MeshInput input =
+      read_input(options.mesh, std::span(&comparison.function, 1), run, !options.no_items);
   Announcer announcer(run.console, comparison.chains.size());
   ComparisonTable table;
   outputs.run(comparison, input, {&announcer, &table}, run.console.progress());

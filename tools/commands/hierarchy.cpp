@@ -57,7 +57,8 @@ int make_hierarchy(const Options& options, const Run& run) {
   const HierarchyPlan prepared = prepare(options.request);
   const HierarchyRequest request = with_defaults(options.request);
   RunFiles files;
-  files.reads_mesh(options.mesh, run.common.format).reads_of_field(request.field.field);
+  files.reads_mesh(options.mesh, run.common.format).reads_mask(run.common.build);
+  files.reads_of_field(request.field.field);
   ResiduesRun residues(options.residues, run);
   residues.add_files(files);
   files.writes_document("-o", options.output).fills("--export", options.export_folder).check();
@@ -65,7 +66,8 @@ int make_hierarchy(const Options& options, const Run& run) {
   check_writable(options.residues.output);
   DocumentTarget document(options.output);
 
-  const MeshInput input = read_input(options.mesh, run, !options.no_items);
+  const MeshInput input =
+      read_input(options.mesh, std::span(&prepared.field.function, 1), run, !options.no_items);
   TargetTeller teller(run.console);
   HierarchyTable table(prepared);
   std::vector<HierarchySink*> sinks = {&teller, &table};

@@ -64,9 +64,10 @@ Findings inspect(const MeshOrigin& mesh, const core::BuildOptions& options, cons
   if (findings.defects.empty()) return findings;
   // What repair does is known when it is done.
   std::optional<core::LoadedMesh> repaired;
-  findings.lasting = options.repair
-                         ? findings.defects
-                         : try_to_make(findings.file, {true, options.weld}, path, progress, repaired);
+  core::BuildOptions with_repair = options;
+  with_repair.repair = true;
+  findings.lasting =
+      options.repair ? findings.defects : try_to_make(findings.file, with_repair, path, progress, repaired);
   // With faces that name missing vertices nothing was repaired.
   std::erase_if(findings.lasting,
                 [](const core::Defect& defect) { return !core::repair_of(defect.kind).empty(); });
@@ -83,12 +84,13 @@ Json properties_section(const Findings& findings) {
 
 Json head_section() { return {{"schema", "morsel.info/1"}, {"tool", tool_section()}}; }
 
-Json as_json(const std::string& path, const MeshOrigin& file, const Findings& findings) {
+Json as_json(const std::string& path, const MeshOrigin& file, const core::BuildOptions& options,
+             const Findings& findings) {
   Json document = head_section();
   document["valid"] = findings.loaded.has_value();
   if (findings.loaded) {
     const core::TriangleMesh& mesh = findings.loaded->mesh;
-    document["mesh"] = mesh_section(path, sha256_of(file), *findings.loaded);
+    document["mesh"] = mesh_section(path, sha256_of(file, options), *findings.loaded);
     document["mesh"]["bbox_min"] = {mesh.bounding_box().min.x(), mesh.bounding_box().min.y(),
                                     mesh.bounding_box().min.z()};
     document["mesh"]["bbox_max"] = {mesh.bounding_box().max.x(), mesh.bounding_box().max.y(),
@@ -101,7 +103,7 @@ Json as_json(const std::string& path, const MeshOrigin& file, const Findings& fi
     document["components"] = std::move(components);
   } else {
     document["mesh"] = {{"path", path},
-                        {"sha256", sha256_of(file)},
+                        {"sha256", sha256_of(file, options)},
                         {"vertices", findings.file.soup.positions.size()},
                         {"polygons", findings.file.soup.polygon_count()}};
     if (!findings.warnings().empty()) document["mesh"]["warnings"] = findings.warnings();
@@ -212,7 +214,7 @@ int inform(const Options& options, const Run& run) {
     throw core::BadInput("\"" + options.file + "\" is no mesh (" + core::mesh_extensions() +
                          ") and has no provenance" + remark_on_kind(options.file));
   if (options.json) {
-    Json document = findings ? as_json(options.file, file, *findings) : head_section();
+    Json document = findings ? as_json(options.file, file, run.common.build, *findings) : head_section();
     if (!provenance.is_null()) document["provenance"] = provenance;
     std::cout << json_text(document, 2) << '\n';
     return kDone;

@@ -49,6 +49,7 @@ RunFiles files_of(const Options& options, const MarkedFiles& files) {
         .reads("vertices of LIST,", files.marks_path_of(i));
   for (const std::string& field : options.request.fields) named.reads_of_field(field);
   reads_of_points(named, options.request.choice);
+  named.reads_mask(files.build());
   write_table(named, options.output).fills("--figures", options.figure_folder).check();
   return named;
 }
@@ -93,7 +94,7 @@ int measure_landmarks(const Options& given, const Run& run) {
   const LandmarksRequest& request = options.request;
   const LandmarksPlan plan = prepare(request);
   const Stopwatch watch;
-  MarkedFiles files(options.list, request.first, run.common.build);
+  MarkedFiles files(options.list, request.first, build_for(plan.functions, run.common.build));
   const RunFiles named = files_of(options, files);
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);
   TableTarget target(options.output);

@@ -42,14 +42,14 @@ int measure_stability(const Options& options, const Run& run) {
   const StabilityPlan prepared = prepare(options.request);
   const StabilityRequest request = with_defaults(options.request);
   RunFiles files;
-  files.reads_mesh(options.mesh, run.common.format);
+  files.reads_mesh(options.mesh, run.common.format).reads_mask(run.common.build);
   for (const std::string& field : request.fields) files.reads_of_field(field);
   if (!request.reference_field.empty()) files.reads_of_field(request.reference_field, "--reference-field");
   write_table(files, options.output).fills("--figures", options.figure_folder).check();
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, files, run);
   TableTarget target(options.output);
 
-  const MeshInput input = read_input(options.mesh, run);
+  const MeshInput input = read_input(options.mesh, prepared.functions, run);
   std::optional<TrialJournal> trials;
   if (Journal* journal = target.open_journal(trials_key(request, input.about)))
     trials.emplace(*journal, prepared.targets.size() * prepared.functions.size() * prepared.chains.size());

@@ -35,9 +35,11 @@ MeshOrigin mesh_file(const std::string& path, const Run& run) {
   return file;
 }
 
-MeshInput read_input(const std::string& path, const Run& run, bool items) {
+MeshInput read_input(const std::string& path, std::span<const NamedFunction> functions, const Run& run,
+                     bool items) {
   const Stopwatch watch;
-  HashedMesh mesh = read_hashed_mesh(mesh_file(path, run), run.common.build, run.console.progress());
+  HashedMesh mesh =
+      read_hashed_mesh(mesh_file(path, run), build_for(functions, run.common.build), run.console.progress());
   tell_warnings(mesh.loaded, run.console);
   return {std::move(mesh.loaded),
           {path, std::move(mesh.sha256), run.common.build, items, watch.seconds(), run.common.format}};
@@ -81,7 +83,7 @@ void tell_points(const MadePoints& made, const PointsRequest& request, Console& 
 
 FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const Run& run)
     : run_(run), plan_(prepare(request)), file_{mesh, {}} {
-  files_.reads_mesh(mesh, run.common.format).reads_of_field(request.field);
+  files_.reads_mesh(mesh, run.common.format).reads_mask(run.common.build).reads_of_field(request.field);
 }
 
 FieldRun& FieldRun::writes(const std::string& option, const std::filesystem::path& path,
@@ -114,7 +116,7 @@ void FieldRun::check_files() const {
 }
 
 void FieldRun::read() {
-  MeshInput input = read_input(file_.path, run_);
+  MeshInput input = read_input(file_.path, std::span(&plan_.function, 1), run_);
   file_ = input.file();
   load_seconds_ = input.about.load_seconds;
   mesh_.emplace(core::WholeMesh{std::move(input.loaded), {}});
@@ -122,8 +124,8 @@ void FieldRun::read() {
 
 void FieldRun::read_whole() {
   const Stopwatch watch;
-  HashedWholeMesh mesh =
-      read_hashed_whole_mesh(mesh_file(file_.path, run_), run_.common.build, run_.console.progress());
+  HashedWholeMesh mesh = read_hashed_whole_mesh(
+      mesh_file(file_.path, run_), build_for(plan_.function, run_.common.build), run_.console.progress());
   tell_warnings(mesh.input.loaded, run_.console);
   file_.sha256 = std::move(mesh.sha256);
   mesh_.emplace(std::move(mesh.input));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ struct MeshInput {
 /// MESH as the command line names it: a file, or - for standard input, of which all is read at its first use.
 /// Throws InvalidArgument where - has no --format, BadInput as standard_input().
 MeshOrigin mesh_file(const std::string& path, const Run& run);
-/// `items`: whether documents list what grows with the mesh.
-MeshInput read_input(const std::string& path, const Run& run, bool items = true);
+/// Made for `functions` (build_for()). `items`: whether documents list what grows with the mesh.
+MeshInput read_input(const std::string& path, std::span<const NamedFunction> functions, const Run& run,
+                     bool items = true);
 
 /// Warnings of reading a mesh, of a Morse function, and of methods.
 void tell_warnings(const core::LoadedMesh& loaded, Console& console);

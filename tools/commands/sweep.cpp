@@ -32,6 +32,13 @@ std::vector<std::string> fields_of(const SweepPlan& prepared) {
   return {fields.begin(), fields.end()};
 }
 
+std::vector<NamedFunction> functions_of(const SweepPlan& prepared) {
+  std::vector<NamedFunction> functions;
+  for (const std::string& field : fields_of(prepared))
+    functions.push_back(prepared.registry.make_function(field));
+  return functions;
+}
+
 std::vector<plot::NamedPlot> plots_of(const SweepReport& report) {
   std::vector<plot::NamedPlot> plots;
   for (std::size_t k = 0; k < report.plan.variations.size(); ++k)
@@ -44,13 +51,13 @@ int sweep(const Options& options, const Run& run) {
   if (!options.figure_folder.empty()) drawing::require_pictures("--figures");
   const SweepPlan prepared = prepare(options.request);
   RunFiles named;
-  named.reads_mesh(options.mesh, run.common.format);
+  named.reads_mesh(options.mesh, run.common.format).reads_mask(run.common.build);
   for (const std::string& field : fields_of(prepared)) named.reads_of_field(field);
   write_table(named, options.output).fills("--figures", options.figure_folder).check();
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);
   TableTarget target(options.output);
 
-  const MeshInput input = read_input(options.mesh, run);
+  const MeshInput input = read_input(options.mesh, functions_of(prepared), run);
   const std::vector<HashedFile> files = input_files(fields_of(prepared), prepared.registry);
   std::optional<RowJournal> done;
   if (Journal* journal = target.open_journal(rows_key(input.about, files)))

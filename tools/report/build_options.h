@@ -1,5 +1,6 @@
 #pragma once
-/// How a mesh was made of its file, in requests: "repair", and "weld" if vertices were joined.
+/// How a mesh was made of its file, in requests: "repair", "weld" if vertices were joined, and "mask" if a
+/// mask left vertices out.
 
 #include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/formats/json_stream.h"
@@ -7,10 +8,10 @@
 
 namespace morsel::tools {
 
-/// Adds "weld", a length such as "8eps", unless vertices were not to be joined.
-void add_welding(Json& request, const core::BuildOptions& build);
+/// Adds "weld", a length such as "8eps", and "mask", as --mask takes it, where they were given.
+void add_build_options(Json& request, const core::BuildOptions& build);
 
-/// Both, of a request that is read back.
+/// All three, of a request that is read back.
 core::BuildOptions read_build_options(const JsonView& request);
 
 }  // namespace morsel::tools

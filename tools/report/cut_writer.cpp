@@ -57,7 +57,7 @@ Json request_section(const CutRequest& request) {
                   {"method", request.field.method},
                   {"shorten", request.shorten},
                   {"repair", request.build.repair}};
-  add_welding(section, request.build);
+  add_build_options(section, request.build);
   if (request.field.target) section["target"] = *request.field.target;
   return section;
 }

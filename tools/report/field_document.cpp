@@ -8,7 +8,7 @@ namespace morsel::tools {
 
 Json request_section(const FieldRequest& request, const core::BuildOptions& build) {
   Json section = {{"field", request.field}, {"method", request.method}, {"repair", build.repair}};
-  add_welding(section, build);
+  add_build_options(section, build);
   if (request.target) section["target"] = *request.target;
   return section;
 }

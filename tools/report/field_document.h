@@ -19,7 +19,8 @@ struct FieldSource {
   const MadeField& made;
 };
 
-/// {"field", "method", "repair", "weld" and "target" (if there is one)}: in the syntax of the command line.
+/// {"field", "method", "repair", "weld", "mask" and "target" (if there is one)}: in the syntax of the command
+/// line.
 Json request_section(const FieldRequest& request, const core::BuildOptions& build);
 
 /// Begins a document: "schema", "tool", "request", "mesh", "field", "method". The caller adds its own members

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "morsel/core/error.h"
 #include "morsel/core/parallel/parallel.h"
@@ -15,7 +16,7 @@ namespace {
 
 /// Returns the result of `read`, and the hash.
 template <class Hashed, class Read>
-Hashed read_hashed(const MeshOrigin& file, const Read& read) {
+Hashed read_hashed(const MeshOrigin& file, const core::BuildOptions& options, const Read& read) {
   std::optional<std::invoke_result_t<Read>> loaded;
   std::string hash;
   std::exception_ptr hash_error;  // if a file cannot be read, the reader's error is more specific
@@ -25,7 +26,7 @@ Hashed read_hashed(const MeshOrigin& file, const Read& read) {
       return;
     }
     try {
-      hash = sha256_of(file);
+      hash = sha256_of(file, options);
     } catch (...) {
       hash_error = std::current_exception();
     }
@@ -45,19 +46,22 @@ core::LoadedSoup read_polygon_soup(const MeshOrigin& file, const core::Progress&
   return core::read_polygon_soup(file.path, progress);
 }
 
-std::string sha256_of(const MeshOrigin& file) {
-  if (file.bytes) return sha256_of(*file.bytes);
-  std::string hash = sha256_of_file(file.path), of_companions;
-  for (const std::filesystem::path& companion : core::companion_files(file.path, file.format)) {
+std::string sha256_of(const MeshOrigin& file, const core::BuildOptions& options) {
+  const std::string hash = file.bytes ? sha256_of(*file.bytes) : sha256_of_file(file.path);
+  std::vector<std::filesystem::path> others;
+  if (!file.bytes) others = core::companion_files(file.path, file.format);
+  if (options.mask && !options.mask->file.empty()) others.push_back(options.mask->file);
+  std::string of_others;
+  for (const std::filesystem::path& other : others) {
     std::error_code error;  // what the mesh does not need may be missing; for what it needs, reading it fails
-    if (std::filesystem::is_regular_file(companion, error)) of_companions += sha256_of_file(companion) + "\n";
+    if (std::filesystem::is_regular_file(other, error)) of_others += sha256_of_file(other) + "\n";
   }
-  return of_companions.empty() ? hash : sha256_of(hash + "\n" + of_companions);
+  return of_others.empty() ? hash : sha256_of(hash + "\n" + of_others);
 }
 
 HashedMesh read_hashed_mesh(const MeshOrigin& file, const core::BuildOptions& options,
                             const core::Progress& progress) {
-  return read_hashed<HashedMesh>(file, [&] {
+  return read_hashed<HashedMesh>(file, options, [&] {
     return core::make_mesh(read_polygon_soup(file, progress), file.path.string(), options, progress);
   });
 }
@@ -74,7 +78,7 @@ HashedWholeMesh read_hashed_whole_mesh(const std::filesystem::path& path, const 
 
 HashedWholeMesh read_hashed_whole_mesh(const MeshOrigin& file, const core::BuildOptions& options,
                                        const core::Progress& progress) {
-  return read_hashed<HashedWholeMesh>(file, [&] {
+  return read_hashed<HashedWholeMesh>(file, options, [&] {
     return core::make_whole_mesh(read_polygon_soup(file, progress), file.path.string(), options, progress);
   });
 }

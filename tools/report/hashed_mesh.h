@@ -20,8 +20,9 @@ struct MeshOrigin {
 /// core::read_polygon_soup() of it. Throws InvalidArgument for bytes without a format.
 core::LoadedSoup read_polygon_soup(const MeshOrigin& file, const core::Progress& progress = {});
 /// sha256_of_file() of it. Where core::companion_files() exist, the hash of a text: a line for the file and
-/// for each of these, in their order, with the hash of its bytes.
-std::string sha256_of(const MeshOrigin& file);
+/// for each of these, in their order, with the hash of its bytes; the last line is that of the file of
+/// `options.mask`, if there is one.
+std::string sha256_of(const MeshOrigin& file, const core::BuildOptions& options = {});
 
 struct HashedMesh {
   core::LoadedMesh loaded;

@@ -37,7 +37,7 @@ Json request_section(const HierarchyRequest& request, const ReportInput& input) 
                 {"method", request.field.method},
                 {"by", to_string(request.kind)},
                 {"repair", input.build.repair}};
-  add_welding(asked, input.build);
+  add_build_options(asked, input.build);
   if (!input.items) asked["items"] = false;
   if (!request.levels.empty()) asked["levels"] = request.levels;
   if (!request.counts.empty()) asked["counts"] = request.counts;

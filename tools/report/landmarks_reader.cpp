@@ -60,7 +60,7 @@ std::optional<LoadedLandmarks> read_landmarks(std::istream& in, const std::strin
 ReportDocument run_again(const LoadedLandmarks& report, const std::filesystem::path& list,
                          const Registry& registry, const core::Progress& progress) {
   const LandmarksPlan plan = prepare(report.request, registry);
-  MarkedFiles files(list, report.request.first, report.build);
+  MarkedFiles files(list, report.request.first, build_for(plan.functions, report.build));
   const std::vector<HashedFile> field_files = input_files(fields_of(report.request), registry);
   const std::vector<LandmarksOnMesh> meshes = run_landmarks(files, plan, progress);
   ReportCollector again;

@@ -90,7 +90,7 @@ Json request_section(const LandmarksRequest& request, const core::BuildOptions& 
   asked["resamples"] = request.resamples;
   asked["seed"] = request.seed;
   asked["repair"] = build.repair;
-  add_welding(asked, build);
+  add_build_options(asked, build);
   return asked;
 }
 

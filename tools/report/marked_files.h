@@ -40,7 +40,7 @@ class MarkedFiles : public MarkedMeshes {
   /// The mesh_section() of the same file from an earlier run.
   void set_mesh(std::size_t i, Json section);
   /// Of the mesh's file as it is now; and of the file of vertices when it was read.
-  std::string mesh_sha256(std::size_t i) const { return sha256_of(MeshOrigin{path_of(i)}); }
+  std::string mesh_sha256(std::size_t i) const { return sha256_of(MeshOrigin{path_of(i)}, build_); }
   const std::string& marks_sha256(std::size_t i) const { return files_[i].marks_sha256; }
   /// All of them, with the paths that section() has: the list, and each mesh with its vertices.
   std::vector<HashedFile> inputs() const;

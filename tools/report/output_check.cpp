@@ -24,6 +24,10 @@ RunFiles& RunFiles::reads_mesh(const std::filesystem::path& mesh, const std::str
   return mesh == "-" ? reads("MESH", "/dev/stdin") : reads_mesh_file("MESH", mesh, format);
 }
 
+RunFiles& RunFiles::reads_mask(const core::BuildOptions& build) {
+  return build.mask ? reads("--mask", build.mask->file) : *this;
+}
+
 RunFiles& RunFiles::reads_mesh_file(const std::string& option, const std::filesystem::path& file,
                                     const std::string& format) {
   std::optional<core::MeshFormat> given;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/results/file_place.h"
 #include "morsel/tools/study/registry.h"
 
@@ -18,6 +19,8 @@ class RunFiles {
   /// MESH of a command, of which - is standard input, in the format of that name; if empty, that of the
   /// file's name.
   RunFiles& reads_mesh(const std::filesystem::path& mesh, const std::string& format = {});
+  /// The file of --mask.
+  RunFiles& reads_mask(const core::BuildOptions& build);
   /// The file of a mesh, and those that it names (core::companion_files()).
   RunFiles& reads_mesh_file(const std::string& option, const std::filesystem::path& file,
                             const std::string& format = {});

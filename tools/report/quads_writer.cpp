@@ -32,7 +32,7 @@ Json request_section(const QuadsRequest& asked) {
                   {"repair", asked.build.repair},
                   {"resolution", asked.quads.resolution},
                   {"relaxation", asked.quads.relaxation}};
-  add_welding(section, asked.build);
+  add_build_options(section, asked.build);
   if (asked.field.target) section["target"] = *asked.field.target;
   if (!asked.quads.persistence.empty()) section["persistence"] = asked.quads.persistence;
   return section;

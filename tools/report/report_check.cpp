@@ -20,12 +20,13 @@ ReportDocument run_again(const LoadedReport& report, const std::filesystem::path
                          const Registry& registry, const core::Progress& progress) {
   MeshOrigin file{mesh_path};
   if (!report.format.empty()) file.format = core::mesh_format_named(report.format);
-  const HashedMesh input = read_hashed_mesh(file, report.build, progress);
+  const ComparisonPlan plan = prepare(report.request, registry);
+  const HashedMesh input = read_hashed_mesh(file, build_for(plan.function, report.build), progress);
   ReportCollector again;
   ReportWriter writer(again, input.loaded,
                       {report.mesh_path, input.sha256, report.build, report.items, 0, report.format},
                       report.request);
-  run_comparison(input.loaded, prepare(report.request, registry), {&writer}, progress);
+  run_comparison(input.loaded, plan, {&writer}, progress);
   writer.finish();
   return again.take();
 }

@@ -23,7 +23,7 @@ Json matching_section(const Matching& matching) {
 
 Json request_section(const ReportInput& input, const ComparisonRequest& request) {
   Json asked = {{"field", request.field}, {"methods", request.methods}, {"repair", input.build.repair}};
-  add_welding(asked, input.build);
+  add_build_options(asked, input.build);
   if (!input.format.empty()) asked["format"] = input.format;
   if (!input.items) asked["items"] = false;
   if (request.target) asked["target"] = *request.target;

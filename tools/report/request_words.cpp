@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "morsel/core/io/vertex_mask.h"
 #include "morsel/tools/formats/command_line.h"
 
 namespace morsel::tools {
@@ -17,6 +18,7 @@ std::vector<std::string> words_of(const core::BuildOptions& build) {
   std::vector<std::string> words;
   add_flag(words, "--repair", build.repair);
   if (build.weld) words.push_back("--weld=" + core::to_string(*build.weld));
+  if (build.mask) add_option(words, "--mask", core::to_string(*build.mask));
   return words;
 }
 

@@ -10,12 +10,12 @@
 
 namespace morsel::tools {
 
-/// --repair and --weld.
+/// --repair, --weld and --mask.
 std::vector<std::string> words_of(const core::BuildOptions& build);
-/// --field, --method, --target, --snap, --repair, --weld and the options of chosen points of the commands
-/// that run several methods.
+/// --field, --method, --target, --snap, --repair, --weld, --mask and the options of chosen points of the
+/// commands that run several methods.
 std::vector<std::string> words_of(const ComparisonRequest& request, const core::BuildOptions& build);
-/// --field, --method, --target, --repair and --weld of the commands on one field.
+/// --field, --method, --target, --repair, --weld and --mask of the commands on one field.
 std::vector<std::string> words_of(const FieldRequest& request, const core::BuildOptions& build);
 /// --points, --kind, --rank, --spacing, --fill, --salience-scale and --percentiles.
 std::vector<std::string> words_of(const PointsRequest& request);

@@ -99,7 +99,7 @@ Json request_section(const SegmentsRequest& request) {
                 {"method", request.field.method},
                 {"by", to_string(request.segments.kind)},
                 {"repair", request.build.repair}};
-  add_welding(asked, request.build);
+  add_build_options(asked, request.build);
   if (request.field.target) asked["target"] = *request.field.target;
   if (request.segments.segments) asked["segments"] = *request.segments.segments;
   if (request.segments.persistence)

@@ -115,7 +115,7 @@ Json request_section(const StabilityRequest& request, const core::BuildOptions& 
                 {"reference_field", request.reference_field},
                 {"reference", request.reference},
                 {"repair", build.repair}};
-  add_welding(asked, build);
+  add_build_options(asked, build);
   if (request.target) asked["target"] = *request.target;
   return asked;
 }

@@ -64,7 +64,7 @@ Json request_section(const SweepRequest& request, const SweepPlan& plan, const c
                 {"vary", request.vary},
                 {"variations", std::move(variations)},
                 {"repair", build.repair}};
-  add_welding(asked, build);
+  add_build_options(asked, build);
   return asked;
 }
 
@@ -74,7 +74,7 @@ Json rows_key(const ReportInput& input, const std::vector<HashedFile>& files) {
               {"mesh", input.mesh_sha256},
               {"repair", input.build.repair},
               {"files", files_section(files)}};
-  add_welding(key, input.build);
+  add_build_options(key, input.build);
   if (!input.format.empty()) key["format"] = input.format;
   return key;
 }

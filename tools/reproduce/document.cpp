@@ -17,7 +17,7 @@ Json request_section(const Request& request) {
                   {"views", request.views},
                   {"up", request.ups},
                   {"repair", request.build.repair}};
-  add_welding(section, request.build);
+  add_build_options(section, request.build);
   if (!request.data.empty()) section["data"] = request.data.string();
   return section;
 }

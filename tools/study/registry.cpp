@@ -137,6 +137,16 @@ std::string describe(const Entry& entry) {
 
 }  // namespace
 
+core::BuildOptions build_for(std::span<const NamedFunction> functions, core::BuildOptions build) {
+  for (const NamedFunction& function : functions)
+    if (const core::VertexValues* values = function.function->given_values()) build.needed.push_back(*values);
+  return build;
+}
+
+core::BuildOptions build_for(const NamedFunction& function, core::BuildOptions build) {
+  return build_for(std::span(&function, 1), std::move(build));
+}
+
 std::string MethodChain::quantity() const {
   return steps.empty() ? "" : steps.back().method->traits().quantity;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "morsel/core/field/method.h"
+#include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/core/text/parameters.h"
 
 namespace morsel::tools {
@@ -36,6 +37,11 @@ struct NamedFunction {
   std::vector<core::FileParameter> files = {};  ///< that it is going to read
   std::string unit = {};                        ///< its entry's
 };
+
+/// How a mesh is made on which the functions are evaluated: as `build` has it, and without the vertices where
+/// values that they are given (MorseFunction::given_values()) are nan.
+core::BuildOptions build_for(std::span<const NamedFunction> functions, core::BuildOptions build);
+core::BuildOptions build_for(const NamedFunction& function, core::BuildOptions build);
 
 /// One step of a chain of methods.
 struct MethodStep {
