@@ -11,6 +11,7 @@
 #include "morsel/core/io/elevation_grid.h"
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/parallel/parallel.h"
+#include "morsel/core/text/ascii_case.h"
 #include "morsel/core/text/text_chunks.h"
 #include "morsel/core/text/text_scanner.h"
 
@@ -19,13 +20,7 @@ namespace {
 
 constexpr TextScanner::Syntax kGridSyntax = {.comment = 0, .continuation = false, .terminator = 0};
 
-/// A word of the header in small letters.
-std::string lowered(std::string_view word) {
-  std::string key(word.substr(0, 32));
-  for (char& c : key)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return key;
-}
+constexpr std::size_t kLongestKey = 32;  // more than any has
 
 class GridReader {
  public:
@@ -63,7 +58,7 @@ class GridReader {
   void read_header() {
     for (;;) {
       if (!next_word()) scanner_.fail_at_end("within the header of an ESRI ASCII grid");
-      const std::string key = lowered(scanner_.peek_word());
+      const std::string key = lowered(std::string(scanner_.peek_word().substr(0, kLongestKey)));
       const char first = key.front();
       if ((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.' || key == "nan")
         break;

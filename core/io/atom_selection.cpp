@@ -9,6 +9,7 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/residue_names.h"
+#include "morsel/core/text/ascii_case.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -84,12 +85,7 @@ class AtomSelection::Parser {
     word_ = text_.substr(start_, next_ - start_);
   }
 
-  bool is(std::string_view keyword) const {
-    return !is_quoted_ && word_.size() == keyword.size() &&
-           std::equal(word_.begin(), word_.end(), keyword.begin(), [](char a, char b) {
-             return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
-           });
-  }
+  bool is(std::string_view keyword) const { return !is_quoted_ && is_keyword(word_, keyword); }
 
   void expression(int depth) {
     term(depth);

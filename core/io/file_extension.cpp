@@ -4,16 +4,12 @@
 #include <vector>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/ascii_case.h"
 #include "morsel/core/text/listed.h"
 
 namespace morsel::core {
 
-std::string file_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
+std::string file_extension(const std::filesystem::path& path) { return lowered(path.extension().string()); }
 
 std::string checked_extension(const std::filesystem::path& path, std::string_view what,
                               std::initializer_list<std::string_view> allowed) {

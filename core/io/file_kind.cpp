@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "morsel/core/text/ascii_case.h"
+
 namespace morsel::core {
 namespace {
 
@@ -54,13 +56,6 @@ constexpr auto kMarks = std::to_array<Mark>({{"\x1F\x8B"sv, "gzip data"},
                                              {"\xFF\xFE"sv, "UTF-16 text"},
                                              {"\xFE\xFF"sv, "UTF-16 text"}});
 
-char as_small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool begins_with(std::string_view text, std::string_view small) {
-  return text.size() >= small.size() && std::equal(small.begin(), small.end(), text.begin(),
-                                                   [](char a, char b) { return a == as_small(b); });
-}
-
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::ranges::find(words, word) != words.end();
 }
@@ -92,7 +87,7 @@ std::string_view markup_kind(std::string_view text) {
                                                {"<x3d", "an X3D file"}});
   for (std::size_t at = 0; at != std::string_view::npos; at = text.find('<', at + 1))
     for (const Root& root : kRoots)
-      if (begins_with(text.substr(at), root.name)) return root.kind;
+      if (begins_with_keyword(text.substr(at), root.name)) return root.kind;
   return "XML";
 }
 
@@ -118,10 +113,11 @@ std::string_view text_kind(std::string_view text) {
     return "an OFF file";
   if (is_one_of(first, {"v", "vt", "vn"}) && is_numeral(second)) return "an OBJ file";
   if (is_one_of(first, {"mtllib", "usemtl", "o", "g"}) && !second.empty()) return "an OBJ file";
-  if (begins_with(first, "solid") && first.size() == 5) {
+  if (begins_with_keyword(first, "solid") && first.size() == 5) {
     rest.remove_prefix(std::min(rest.find_first_of("\r\n"), rest.size()));
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
-    if (begins_with(rest, "facet") || begins_with(rest, "endsolid")) return "an ASCII STL file";
+    if (begins_with_keyword(rest, "facet") || begins_with_keyword(rest, "endsolid"))
+      return "an ASCII STL file";
   }
   if (first.starts_with("data_") && first.size() > 5) return "a CIF file";
   if (is_one_of(first, {"HEADER", "ATOM", "HETATM", "CRYST1", "REMARK", "MODEL"}) && !second.empty())

@@ -212,8 +212,8 @@ std::vector<double> GiftiFile::values(std::size_t i) {
       throw BadInput(what + "it has " + std::to_string(bytes->size()) + " bytes, but its sizes need " +
                      std::to_string(size));
     }
-    numbers = binary_numbers(*bytes, *type, order == "BigEndian" ? std::endian::big : std::endian::little,
-                             count, progress_);
+    const std::endian written = order == "BigEndian" ? std::endian::big : std::endian::little;
+    numbers = decoded(*bytes, *type, written != std::endian::native, progress_);
   } else {
     throw BadInput(what + "its encoding " + shown(encoding) +
                    " is none of ASCII, Base64Binary and GZipBase64Binary");

@@ -9,6 +9,7 @@
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/io/oddities.h"
 #include "morsel/core/parallel/hash_index.h"
+#include "morsel/core/text/ascii_case.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -88,12 +89,6 @@ LoadedSoup read_binary(std::string_view bytes, std::size_t count, const Progress
     add_triangle(result.soup, triangle);
   }
   return result;
-}
-
-/// Keywords are written in any case.
-bool is_keyword(std::string_view word, std::string_view keyword) {
-  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
 class TextReader {

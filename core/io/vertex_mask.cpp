@@ -4,12 +4,16 @@
 #include <cmath>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/value_file.h"
 #include "morsel/core/text/numbers.h"
 #include "morsel/core/text/specification.h"
+#include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "morsel/core/io/mesh_formats.h"
 #include "morsel/core/io/vtk_surface.h"
+#include "morsel/core/text/ascii_case.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -21,14 +22,6 @@ namespace vtk {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Whether a word of the file is a keyword, which may be written in any case; `keyword` is in small letters.
-bool is_word(std::string_view word, std::string_view keyword) {
-  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
-                    [](char a, char b) { return lower(a) == b; });
-}
 
 struct LegacyType {
   std::string_view name;
@@ -122,7 +115,7 @@ class LegacyCursor {
   NumberType type() {
     const std::string_view text = needed("a type of numbers");
     const auto* found = std::ranges::find_if(
-        kLegacyTypes, [&](const LegacyType& candidate) { return is_word(text, candidate.name); });
+        kLegacyTypes, [&](const LegacyType& candidate) { return is_keyword(text, candidate.name); });
     if (found == kLegacyTypes.end()) fail("numbers of the type " + shown(text) + " are not known");
     return found->type;
   }
@@ -291,18 +284,18 @@ class LegacyReader {
   void read_head() {
     const std::string_view first = cursor_.line();
     constexpr std::string_view kMagic = "# vtk datafile version ";
-    if (!is_word(first.substr(0, kMagic.size()), kMagic))
+    if (!is_keyword(first.substr(0, kMagic.size()), kMagic))
       fail_reading(file_, "it is no VTK file: its first line is not \"# vtk DataFile Version …\"");
     cursor_.line();  // a title
     const std::string_view encoding = cursor_.needed("ASCII or BINARY");
-    is_binary_ = is_word(encoding, "binary");
-    if (!is_binary_ && !is_word(encoding, "ascii"))
+    is_binary_ = is_keyword(encoding, "binary");
+    if (!is_binary_ && !is_keyword(encoding, "ascii"))
       cursor_.fail("expected ASCII or BINARY, found " + shown(encoding));
     const std::string_view keyword = cursor_.needed("DATASET");
-    if (!is_word(keyword, "dataset")) cursor_.fail("expected DATASET, found " + shown(keyword));
+    if (!is_keyword(keyword, "dataset")) cursor_.fail("expected DATASET, found " + shown(keyword));
     const std::string_view kind = cursor_.needed("the kind of the data set");
-    is_grid_ = is_word(kind, "unstructured_grid");
-    if (!is_grid_ && !is_word(kind, "polydata"))
+    is_grid_ = is_keyword(kind, "unstructured_grid");
+    if (!is_grid_ && !is_keyword(kind, "polydata"))
       cursor_.fail("the data set is " + shown(kind) +
                    ": surfaces are read from POLYDATA and UNSTRUCTURED_GRID");
     cursor_.set_binary(is_binary_);
@@ -310,22 +303,22 @@ class LegacyReader {
 
   /// The points and cells; false if the keyword is none of theirs.
   bool read_geometry(std::string_view keyword) {
-    if (is_word(keyword, "metadata")) {
+    if (is_keyword(keyword, "metadata")) {
       skip_metadata();
-    } else if (is_word(keyword, "points")) {
+    } else if (is_keyword(keyword, "points")) {
       once(points_.has_value(), keyword);
       const std::size_t count = cursor_.count("the number of points");
       const NumberType type = cursor_.type();
       points_ = cursor_.numbers(count, 3, type, "a coordinate");
-    } else if (is_grid_ && is_word(keyword, "cells")) {
+    } else if (is_grid_ && is_keyword(keyword, "cells")) {
       read_cells(0, keyword);
-    } else if (is_grid_ && is_word(keyword, "cell_types")) {
+    } else if (is_grid_ && is_keyword(keyword, "cell_types")) {
       once(types_.has_value(), keyword);
       types_ = cursor_.whole(cursor_.count("the number of cells"), NumberType::int32, "types of cells");
     } else if (!is_grid_) {
       constexpr std::array<std::string_view, 4> kKinds = {"vertices", "lines", "polygons", "triangle_strips"};
       const auto* found =
-          std::ranges::find_if(kKinds, [&](std::string_view kind) { return is_word(keyword, kind); });
+          std::ranges::find_if(kKinds, [&](std::string_view kind) { return is_keyword(keyword, kind); });
       if (found == kKinds.end()) return false;
       read_cells(static_cast<std::size_t>(found - kKinds.begin()), keyword);
     } else {
@@ -343,14 +336,14 @@ class LegacyReader {
     const std::size_t count = cursor_.count("the number of cells");
     const std::size_t size = cursor_.count("the number of corners");
     Cells cells;
-    if (is_word(cursor_.peek_word(), "offsets")) {
+    if (is_keyword(cursor_.peek_word(), "offsets")) {
       cursor_.word();
       const NumberType type = cursor_.type();
       cells.ends = cursor_.whole(count, type, "offsets");
       if (cells.ends.empty() ? size > 0 : cells.ends.front() != 0)
         cursor_.fail("the offsets of cells do not begin with 0");
       if (!cells.ends.empty()) cells.ends.erase(cells.ends.begin());
-      if (const std::string_view next = cursor_.needed("CONNECTIVITY"); !is_word(next, "connectivity"))
+      if (const std::string_view next = cursor_.needed("CONNECTIVITY"); !is_keyword(next, "connectivity"))
         cursor_.fail("expected CONNECTIVITY, found " + shown(next));
       const NumberType corner_type = cursor_.type();
       cells.connectivity = cursor_.whole(size, corner_type, "corners");
@@ -399,7 +392,7 @@ class LegacyReader {
 
   bool read_data(std::string_view keyword) {
     for (const bool of_points : {true, false}) {
-      if (!is_word(keyword, of_points ? "point_data" : "cell_data")) continue;
+      if (!is_keyword(keyword, of_points ? "point_data" : "cell_data")) continue;
       check_data_read();
       std::optional<std::size_t>& count = of_points ? point_data_ : cell_data_;
       once(count.has_value(), keyword);
@@ -409,7 +402,7 @@ class LegacyReader {
       has_array_ = false;
       return true;
     }
-    if (is_word(keyword, "field")) {
+    if (is_keyword(keyword, "field")) {
       read_field();
       has_array_ = true;
       return true;
@@ -432,7 +425,7 @@ class LegacyReader {
                                                            {"global_ids", 1},
                                                            {"pedigree_ids", 1},
                                                            {"edge_flags", 1}});
-    if (is_word(keyword, "scalars")) {
+    if (is_keyword(keyword, "scalars")) {
       const std::string name = array_name();
       const std::string_view type = cursor_.needed("a type of numbers");
       std::size_t components = 1;
@@ -441,25 +434,25 @@ class LegacyReader {
         if (error != std::errc() || stop != more.data() + more.size() || components == 0)
           cursor_.fail("expected the number of components, found " + shown(more));
       }
-      if (is_word(cursor_.peek_word(), "lookup_table")) {
+      if (is_keyword(cursor_.peek_word(), "lookup_table")) {
         cursor_.word();
         cursor_.needed("the name of a colour table");
       }
       add(name, components, tuples_, type);
-    } else if (is_word(keyword, "color_scalars")) {
+    } else if (is_keyword(keyword, "color_scalars")) {
       const std::string name = array_name();
       const std::size_t components = cursor_.count("the number of components");
       add(name, components, tuples_, is_binary_ ? "unsigned_char" : "float");
-    } else if (is_word(keyword, "texture_coordinates")) {
+    } else if (is_keyword(keyword, "texture_coordinates")) {
       const std::string name = array_name();
       const std::size_t components = cursor_.count("the number of components");
       add(name, components, tuples_, cursor_.needed("a type of numbers"));
-    } else if (is_word(keyword, "lookup_table")) {
+    } else if (is_keyword(keyword, "lookup_table")) {
       array_name();
       cursor_.skip_colors(cursor_.count("the number of colours"));
     } else {
       const auto* found = std::ranges::find_if(
-          kAttributes, [&](const Attribute& attribute) { return is_word(keyword, attribute.keyword); });
+          kAttributes, [&](const Attribute& attribute) { return is_keyword(keyword, attribute.keyword); });
       if (found == kAttributes.end()) return false;
       const std::string name = array_name();
       add(name, found->components, tuples_, cursor_.needed("a type of numbers"));
@@ -474,7 +467,7 @@ class LegacyReader {
     cursor_.needed("the name of a field");
     const std::size_t count = cursor_.count("the number of arrays");
     for (std::size_t i = 0; i < count; ++i) {
-      while (is_word(cursor_.peek_word(), "metadata")) {
+      while (is_keyword(cursor_.peek_word(), "metadata")) {
         cursor_.word();
         skip_metadata();
       }
@@ -489,16 +482,16 @@ class LegacyReader {
 
   void add(const std::string& name, std::size_t components, std::size_t tuples, std::string_view type) {
     Array array{name, components, {}};
-    if (is_word(type, "string") || is_word(type, "utf8_string")) {
+    if (is_keyword(type, "string") || is_keyword(type, "utf8_string")) {
       cursor_.skip_strings(tuples, components);
       if (arrays_ != nullptr) builder_.warn("the array " + shown(name) + " has texts and was left out");
       return;
     }
-    if (is_word(type, "bit")) {
+    if (is_keyword(type, "bit")) {
       array.values = cursor_.bits(tuples, components);
     } else {
       const auto* found = std::ranges::find_if(
-          kLegacyTypes, [&](const LegacyType& candidate) { return is_word(type, candidate.name); });
+          kLegacyTypes, [&](const LegacyType& candidate) { return is_keyword(type, candidate.name); });
       if (found == kLegacyTypes.end()) cursor_.fail("numbers of the type " + shown(type) + " are not known");
       array.values = cursor_.numbers(tuples, components, found->type, "a number of the array " + shown(name));
     }

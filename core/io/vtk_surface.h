@@ -1,6 +1,5 @@
 #pragma once
-/// What the readers of VTK's formats share: numbers in binary form, cells, arrays of points and cells.
-/// Internal.
+/// What the readers of VTK's formats share: types by name, cells, arrays of points and cells. Internal.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,28 +9,13 @@
 #include <vector>
 
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/io/number_type.h"
 #include "morsel/core/parallel/progress.h"
 
 namespace morsel::core::vtk {
 
-enum class NumberType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
-
-std::size_t size_of(NumberType type);
-inline bool is_whole(NumberType type) { return type != NumberType::float32 && type != NumberType::float64; }
 /// The type of VTK's XML files ("Int8", …, "Float64").
 std::optional<NumberType> number_type(std::string_view name);
-
-/// The numbers in `bytes`, of which there is a whole number of elements; `swap`: in the other byte order than
-/// this machine's.
-std::vector<double> decoded(std::string_view bytes, NumberType type, bool swap, const Progress& progress);
-/// The same for whole numbers, exactly; an unsigned one beyond 2^63 becomes −1.
-std::vector<std::int64_t> decoded_whole(std::string_view bytes, NumberType type, bool swap,
-                                        const Progress& progress);
-
-/// A number of a text with the precision of its type, so that text and binary forms give the same number;
-/// false if it is none, or is out of the type's range.
-bool parse_number(std::string_view word, NumberType type, double& value);
-bool parse_whole(std::string_view word, NumberType type, std::int64_t& value);
 
 /// Cells of a file: cell i has the points connectivity[ends[i − 1]] … connectivity[ends[i] − 1].
 struct Cells {

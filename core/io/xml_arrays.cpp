@@ -3,11 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <new>
 
 #include "morsel/core/error.h"
@@ -19,67 +14,7 @@ namespace {
 
 constexpr std::size_t kPause = 1 << 16;  // numbers between two looks at whether to stop
 
-template <class T>
-std::vector<double> converted(std::string_view bytes, bool swap, std::uint64_t count,
-                              const Progress& progress) {
-  std::vector<double> values(count);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    if (i % kPause == 0) progress.throw_if_cancelled();
-    std::array<char, sizeof(T)> one;
-    std::memcpy(one.data(), bytes.data() + i * sizeof(T), sizeof(T));
-    if (swap) std::reverse(one.begin(), one.end());
-    values[i] = static_cast<double>(std::bit_cast<T>(one));
-  }
-  return values;
-}
-
-bool is_float(NumberType type) { return type == NumberType::float32 || type == NumberType::float64; }
-
-/// The range of a type of whole numbers.
-std::pair<double, double> range_of(NumberType type) {
-  const auto bits = static_cast<int>(8 * size_of(type));
-  const bool is_signed = type == NumberType::int8 || type == NumberType::int16 || type == NumberType::int32 ||
-                         type == NumberType::int64;
-  return is_signed ? std::pair(-std::ldexp(1, bits - 1), std::ldexp(1, bits - 1) - 1)
-                   : std::pair(0.0, std::ldexp(1, bits) - 1);
-}
-
-/// A word as a number of the type; false if it is none.
-bool parse_number(std::string_view word, NumberType type, double& value) {
-  const char* begin = word.data();
-  const char* end = word.data() + word.size();
-  std::from_chars_result result{};
-  if (type == NumberType::float32) {
-    float single = 0;
-    result = read_number(begin, end, single);
-    value = single;
-  } else {
-    result = read_number(begin, end, value);
-  }
-  if (result.ec != std::errc() || result.ptr != end) return false;
-  if (is_float(type)) return true;
-  const auto [low, high] = range_of(type);
-  return value >= low && value <= high && value == std::trunc(value);
-}
-
 }  // namespace
-
-std::size_t size_of(NumberType type) {
-  switch (type) {
-    case NumberType::int8:
-    case NumberType::uint8:
-      return 1;
-    case NumberType::int16:
-    case NumberType::uint16:
-      return 2;
-    case NumberType::int32:
-    case NumberType::uint32:
-    case NumberType::float32:
-      return 4;
-    default:
-      return 8;
-  }
-}
 
 std::vector<double> text_numbers(std::string_view text, NumberType type, std::uint64_t count,
                                  const std::string& what, const Progress& progress) {
@@ -106,33 +41,6 @@ std::vector<double> text_numbers(std::string_view text, NumberType type, std::ui
     throw BadInput(what + "it has " + std::to_string(values.size()) + " of the " + std::to_string(count) +
                    " numbers announced");
   return values;
-}
-
-std::vector<double> binary_numbers(std::string_view bytes, NumberType type, std::endian order,
-                                   std::uint64_t count, const Progress& progress) {
-  const bool swap = order != std::endian::native;
-  switch (type) {
-    case NumberType::int8:
-      return converted<std::int8_t>(bytes, swap, count, progress);
-    case NumberType::uint8:
-      return converted<std::uint8_t>(bytes, swap, count, progress);
-    case NumberType::int16:
-      return converted<std::int16_t>(bytes, swap, count, progress);
-    case NumberType::uint16:
-      return converted<std::uint16_t>(bytes, swap, count, progress);
-    case NumberType::int32:
-      return converted<std::int32_t>(bytes, swap, count, progress);
-    case NumberType::uint32:
-      return converted<std::uint32_t>(bytes, swap, count, progress);
-    case NumberType::int64:
-      return converted<std::int64_t>(bytes, swap, count, progress);
-    case NumberType::uint64:
-      return converted<std::uint64_t>(bytes, swap, count, progress);
-    case NumberType::float32:
-      return converted<float>(bytes, swap, count, progress);
-    default:
-      return converted<double>(bytes, swap, count, progress);
-  }
 }
 
 std::string inflated(std::string_view bytes, std::uint64_t size, const std::string& what,

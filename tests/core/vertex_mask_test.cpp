@@ -26,8 +26,6 @@ using core::VertexValues;
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 PolygonSoup polygons_of(const Soup& soup) {
   PolygonSoup result;
   result.positions = soup.positions;

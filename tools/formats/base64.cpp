@@ -1,5 +1,7 @@
 #include "morsel/tools/formats/base64.h"
 
+#include "morsel/core/text/base64.h"
+
 namespace morsel::tools {
 namespace {
 
@@ -50,17 +52,7 @@ std::optional<std::string> decoded_base64(std::string_view text) {
   if (text.size() % 4 != 0 || text.size() - digits > 2 ||
       text.find_first_not_of('=', digits) != std::string_view::npos)
     return std::nullopt;
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t group = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    group = group << 6 | static_cast<std::uint32_t>(i < digits ? kDigits.find(text[i]) : 0);
-    if (i % 4 < 3) continue;
-    for (const int shift : {16, 8, 0}) bytes += static_cast<char>(group >> shift & 0xff);
-    group = 0;
-  }
-  bytes.resize(bytes.size() - (text.size() - digits));
-  return bytes;
+  return core::decode_base64(text);
 }
 
 }  // namespace morsel::tools

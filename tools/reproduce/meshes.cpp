@@ -6,18 +6,13 @@
 
 #include "morsel/core/error.h"
 #include "morsel/core/io/mesh_io.h"
+#include "morsel/core/text/ascii_case.h"
 #include "morsel/core/text/listed.h"
 
 namespace morsel::tools::reproduce {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 std::vector<std::string_view> words_of(const ModelRecipe& model) {
   std::vector<std::string_view> words = {model.name};
@@ -40,7 +35,7 @@ std::vector<fs::path> meshes_in(const fs::path& folder) {
 std::optional<fs::path> find_model(const ModelRecipe& model, const std::vector<fs::path>& meshes) {
   std::vector<fs::path> exact, similar;
   for (const fs::path& mesh : meshes) {
-    const std::string stem = lower(mesh.stem().string());
+    const std::string stem = core::lowered(mesh.stem().string());
     if (stem == model.name) exact.push_back(mesh);
     const auto has = [&](std::string_view word) { return stem.find(word) != std::string::npos; };
     if (std::ranges::any_of(words_of(model), has)) similar.push_back(mesh);
