@@ -200,7 +200,7 @@ Option& Command::output(std::string names, std::string& target, OutputFormats fo
   return row;
 }
 
-void Command::add_formats(const std::string& name, const OutputFormats& formats) {
+void Command::add_formats(const std::string& output_name, const OutputFormats& formats) {
   if (std::ranges::none_of(options_, [](const Option& row) { return row.is_called(kFormatOption); })) {
     Option row{kFormatOption, "Format of the output that is - (standard output)", "FORMAT"};
     row.take = [](const Option&, const std::vector<std::string>&) {
@@ -209,7 +209,8 @@ void Command::add_formats(const std::string& name, const OutputFormats& formats)
   }
   Option& row = option(kFormatOption);
   row.choices.insert(row.choices.end(), formats.names.begin(), formats.names.end());
-  row.details += (row.details.empty() ? "Of " : "; of ") + name + ": " + core::listed(formats.names, " or ");
+  row.details +=
+      (row.details.empty() ? "Of " : "; of ") + output_name + ": " + core::listed(formats.names, " or ");
   if (!formats.standard.empty()) row.details += " (" + formats.standard + " if it is not given)";
 }
 

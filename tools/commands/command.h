@@ -150,7 +150,7 @@ class Command {
 
  private:
   Option& add_path(std::string names, std::string help, std::function<void(const std::string&)> take);
-  void add_formats(const std::string& name, const OutputFormats& formats);
+  void add_formats(const std::string& output_name, const OutputFormats& formats);
 
   std::deque<Option> options_;  // whose rows stay where they are
   std::string group_;
