@@ -119,7 +119,7 @@ int run(std::vector<std::string> words, std::stop_token stop) {
 
   words.erase(words.begin());
   program.common.command = shaping_command(command, words);
-  parse(command, std::move(words));
+  program.common.standard_output = parse(command, words);
   const core::StopScope scope(stop);
   Console console(program.common.quiet, std::move(stop));
   limit_threads(program.common.threads, console);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <new>
+#include <utility>
 
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/text/text_scanner.h"
@@ -115,7 +116,16 @@ std::string utf8_of_utf16(std::string_view bytes, const std::string& name) {
 }
 
 TextContent::TextContent(const std::filesystem::path& path, const std::string& name, const Progress& progress)
-    : bytes_(path, name), decoded_(bytes_.view(), name, progress), text_(decoded_.view()) {
+    : bytes_(std::in_place, path, name), decoded_(bytes_->view(), name, progress), text_(decoded_.view()) {
+  convert(name);
+}
+
+TextContent::TextContent(std::string_view bytes, const std::string& name, const Progress& progress)
+    : decoded_(bytes, name, progress), text_(decoded_.view()) {
+  convert(name);
+}
+
+void TextContent::convert(const std::string& name) {
   if (is_utf16(text_)) {
     converted_ = utf8_of_utf16(text_, name);
     text_ = converted_;

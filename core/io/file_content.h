@@ -44,12 +44,16 @@ class TextContent {
   /// Throws BadInput, naming the file as `name`, if it is missing, unreadable or not a regular file, and as
   /// DecodedBytes and utf8_of_utf16().
   TextContent(const std::filesystem::path& path, const std::string& name, const Progress& progress = {});
+  /// The same of a file's bytes, which must outlive it.
+  TextContent(std::string_view bytes, const std::string& name, const Progress& progress = {});
   std::string_view view() const { return text_; }
   /// What was converted, a sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  FileBytes bytes_;
+  void convert(const std::string& name);
+
+  std::optional<FileBytes> bytes_;  // none if they are another's
   DecodedBytes decoded_;
   std::string converted_;
   std::string_view text_;

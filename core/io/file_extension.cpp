@@ -11,8 +11,9 @@ namespace morsel::core {
 
 std::string file_extension(const std::filesystem::path& path) { return lowered(path.extension().string()); }
 
-std::string checked_extension(const std::filesystem::path& path, std::string_view what,
+std::string checked_extension(const FileTarget& target, std::string_view what,
                               std::initializer_list<std::string_view> allowed) {
+  const std::filesystem::path path = target.path.string() + target.format;
   std::string extension = file_extension(path);
   const std::string longer = file_extension(path.stem()) + extension;
   if (std::ranges::find(allowed, longer) != allowed.end()) return longer;

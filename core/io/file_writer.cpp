@@ -1,6 +1,7 @@
 #include "morsel/core/io/file_writer.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -27,15 +28,25 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw WriteFailed("cannot write " + path.string() + ": " + reason);
-}
-
-[[noreturn]] void fail(const fs::path& path, int error) {
-  fail(path, std::generic_category().message(error));
+/// Another number for an open file that can be written to, else -1 and errno.
+int duplicate(int descriptor) {
+  const int flags = ::fcntl(descriptor, F_GETFL);
+  if (flags < 0) return -1;
+  if ((flags & O_PATH) != 0 || (flags & O_ACCMODE) == O_RDONLY) {
+    errno = EBADF;
+    return -1;
+  }
+  return ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
 }
 
 }  // namespace
+
+FileTarget FileTarget::open_file(int descriptor, std::string called, std::string format) {
+  FileTarget target(std::move(called));
+  target.descriptor = descriptor;
+  target.format = std::move(format);
+  return target;
+}
 
 struct FileWriter::Output {
   Output(const FileTarget& file_target, Sync sync);
@@ -63,7 +74,12 @@ struct FileWriter::Output {
   void write_out(const char* data, std::size_t size);
   void commit();
   int publish();
+  void open(const FileTarget& file_target, Sync sync);
   void open_temporary(const fs::path& target);
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw WriteFailed("cannot write " + shown + ": " + reason);
+  }
+  [[noreturn]] void fail(int error) const { fail(std::generic_category().message(error)); }
   int file() const { return device >= 0 ? device : temporary.descriptor(); }
 
   struct StreamBuffer : std::streambuf {
@@ -81,7 +97,7 @@ struct FileWriter::Output {
     Output& output;
   };
 
-  fs::path shown;  // as the caller named it
+  std::string shown;  // as the caller named it
   std::function<void(int)> before_appearing;
   TemporaryFile temporary;
   int device = -1;   // written to instead, if there is one
@@ -95,25 +111,36 @@ struct FileWriter::Output {
 };
 
 FileWriter::Output::Output(const FileTarget& file_target, Sync sync)
-    : shown(file_target.path), before_appearing(file_target.before_appearing), buffer(kBufferSize) {
-  const fs::path& target = shown;
-  if (!target.has_filename()) fail(shown, "that is not the name of a file");
-  struct stat status {};
-  const bool exists = ::stat(target.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) fail(shown, EISDIR);
-  if ((exists && !S_ISREG(status.st_mode)) || is_descriptor_path(target)) {
-    device = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (device < 0) fail(shown, errno);
-  } else {
-    // Renaming would replace a file that its owner has protected.
-    if (exists && ::access(target.c_str(), W_OK) != 0) fail(shown, errno);
-    open_temporary(followed(target));
-    if (exists) static_cast<void>(::fchmod(temporary.descriptor(), status.st_mode & 07777));
-    synced = exists && sync == Sync::when_replacing;
-  }
+    : shown((file_target.is_open_file() ? "to " : "") + file_target.path.string()),
+      before_appearing(file_target.before_appearing),
+      buffer(kBufferSize) {
+  open(file_target, sync);
   stream.imbue(std::locale::classic());
   stream.precision(17);
   stream.exceptions(std::ios::badbit | std::ios::failbit);
+}
+
+void FileWriter::Output::open(const FileTarget& file_target, Sync sync) {
+  const fs::path& target = file_target.path;
+  if (file_target.is_open_file()) {
+    device = duplicate(file_target.descriptor);
+    if (device < 0) fail(errno);
+    return;
+  }
+  if (!target.has_filename()) fail("that is not the name of a file");
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
+  if ((exists && !S_ISREG(status.st_mode)) || is_descriptor_path(target)) {
+    device = ::open(target.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (device < 0) fail(errno);
+    return;
+  }
+  // Renaming would replace a file that its owner has protected.
+  if (exists && ::access(target.c_str(), W_OK) != 0) fail(errno);
+  open_temporary(followed(target));
+  if (exists) static_cast<void>(::fchmod(temporary.descriptor(), status.st_mode & 07777));
+  synced = exists && sync == Sync::when_replacing;
 }
 
 void FileWriter::Output::open_temporary(const fs::path& target) {
@@ -126,7 +153,7 @@ void FileWriter::Output::open_temporary(const fs::path& target) {
   }
   if (error != 0) {
     made.remove();
-    fail(shown, error);
+    fail(error);
   }
 }
 
@@ -135,7 +162,12 @@ void FileWriter::Output::write_out(const char* data, std::size_t size) {
     const ssize_t written = ::write(file(), data, size);
     if (written < 0) {
       if (errno == EINTR) continue;
-      fail(shown, errno);
+      if (errno == EAGAIN && device >= 0) {  // another process has made the pipe non-blocking
+        pollfd wait{device, POLLOUT, 0};
+        static_cast<void>(::poll(&wait, 1, -1));
+        continue;
+      }
+      fail(errno);
     }
     data += written;
     size -= static_cast<std::size_t>(written);
@@ -158,7 +190,7 @@ void FileWriter::Output::commit() {
     error = publish();
   else if (::close(std::exchange(device, -1)) != 0 && errno != EINTR)
     error = errno;
-  if (error != 0) fail(shown, error);
+  if (error != 0) fail(error);
   made.keep();
 }
 

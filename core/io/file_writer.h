@@ -20,14 +20,21 @@ enum class Sync {
   never            ///< for large files that are easily made again
 };
 
-/// Where a file is to be written: made from a path.
+/// Where a file is to be written: made from a path, or an open file.
 struct FileTarget {
   FileTarget(std::filesystem::path target, std::function<void(int)> before = {})
       : path(std::move(target)), before_appearing(std::move(before)) {}
   FileTarget(const std::string& target) : path(target) {}
   FileTarget(const char* target) : path(target) {}
+  /// An open file, such as standard output, which is written directly, as a device is, and stays open.
+  /// `called`: its name in errors; `format`: the extension that says what is written (".ply").
+  static FileTarget open_file(int descriptor, std::string called, std::string format);
 
-  std::filesystem::path path;
+  bool is_open_file() const { return descriptor >= 0; }
+
+  std::filesystem::path path;  ///< of an open file what it is called
+  int descriptor = -1;         ///< of an open file
+  std::string format;          ///< likewise; that of a path is its extension
   /// Is called with the descriptor of the complete file before it appears; if it throws, the file does not
   /// appear. Not called for a device or pipe.
   std::function<void(int)> before_appearing;
@@ -37,7 +44,7 @@ struct FileTarget {
 /// Without commit() (an error, a Cancelled, the end of the process) the target stays as it was.
 /// Folders that the target is in are made; without commit() they are removed again if nothing is in them.
 /// A target that exists keeps its permissions, and a symbolic link to it stays a link. A device or pipe
-/// (/dev/stdout) cannot be replaced: it is written directly.
+/// (/dev/stdout) cannot be replaced: it is written directly, and so is an open file.
 ///
 /// All functions throw WriteFailed with the path and the system's reason. Buffered; not thread-safe.
 class FileWriter {

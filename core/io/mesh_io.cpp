@@ -73,11 +73,12 @@ bool has_extension_of_values(const std::filesystem::path& path) {
          std::ranges::find(kValues, file_extension(name.stem())) != kValues.end();
 }
 
-/// ": name it .obj or use --format obj" of a kind that is read; "" of others.
-std::string remedy_for(std::string_view kind) {
+/// ": name it .obj or use --format obj" of a kind that is read, ": use --format obj" where the format was
+/// given and the name does not count; "" of others.
+std::string remedy_for(std::string_view kind, bool is_given = false) {
   const auto* format = std::ranges::find(kFormats, kind, &Format::kind);
   if (format == kFormats.end()) return "";
-  return ": name it " + std::string(format->extension) + " or use --format " +
+  return ": " + (is_given ? "" : "name it " + std::string(format->extension) + " or ") + "use --format " +
          std::string(format_name(*format));
 }
 
@@ -89,8 +90,12 @@ std::string remedy_for(std::string_view kind) {
   const bool is_freesurfer = format.format == MeshFormat::freesurfer && kind.starts_with("a FreeSurfer");
   const bool is_gltf = format.format == MeshFormat::gltf && kind == "JSON";
   if (kind.empty() || kind == format.kind || is_freesurfer || is_gltf) throw error;
-  const std::string remedy = remedy_for(kind);
-  std::string what = "it is " + std::string(kind) + ", though read as " + std::string(format.extension);
+  const Format* named = find_format(name);
+  const bool is_given = named == nullptr || named->format != format.format;
+  const std::string remedy = remedy_for(kind, is_given);
+  std::string what = "it is " + std::string(kind) + ", though " +
+                     (is_given ? "the format that was given is " + std::string(format_name(format))
+                               : "read as " + std::string(format.extension));
   if (!remedy.empty()) {  // which a reader may know better
     const std::string head = "cannot read \"" + name + "\": ";
     const std::string text = error.what();

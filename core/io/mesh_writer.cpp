@@ -104,19 +104,19 @@ void write_off(const FileTarget& target, const TriangleMesh& mesh, Comments comm
   writer.commit();
 }
 
-void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh,
-               std::span<const VertexProperty> properties, Comments comments, const Progress& progress) {
+void write_ply(const FileTarget& target, const TriangleMesh& mesh, std::span<const VertexProperty> properties,
+               Comments comments, const Progress& progress) {
   std::vector<PropertyView> views;
   for (const VertexProperty& property : properties) views.emplace_back(property.name, property.values);
-  write_ply(path, mesh.positions(), mesh.triangles(), views, {}, comments, progress);
+  write_ply(target, mesh.positions(), mesh.triangles(), views, {}, comments, progress);
 }
 
-void write_ply(const std::filesystem::path& path, std::span<const Point> positions,
+void write_ply(const FileTarget& target, std::span<const Point> positions,
                std::span<const Triangle> triangles, std::span<const PropertyView> vertex_properties,
                std::span<const PropertyView> face_properties, Comments comments, const Progress& progress) {
   check_properties(vertex_properties, positions.size(), {"x", "y", "z"});
   check_properties(face_properties, triangles.size(), {"vertex_indices", "vertex_index"});
-  FileWriter writer(path);
+  FileWriter writer(target);
   writer.write("ply\nformat binary_little_endian 1.0\n");
   write_comments(writer, "comment ", comments);
   writer.write("element vertex ");
@@ -151,9 +151,9 @@ void write_ply(const std::filesystem::path& path, std::span<const Point> positio
   writer.commit();
 }
 
-void write_obj(const std::filesystem::path& path, std::span<const Point> positions,
+void write_obj(const FileTarget& target, std::span<const Point> positions,
                std::span<const std::array<Index, 4>> quads, Comments comments, const Progress& progress) {
-  FileWriter writer(path);
+  FileWriter writer(target);
   write_comments(writer, "# ", comments);
   const double all = static_cast<double>(positions.size() + quads.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <utility>
@@ -45,20 +44,20 @@ struct PropertyView {
 /// by vertex of the mesh; NaN is allowed). The file is written whole or not at all (file_writer.h). Throws
 /// WriteFailed; InvalidArgument if a property has not one value per vertex or a name that PLY cannot hold
 /// (empty, with blanks or control characters, x, y, z, or one used before).
-void write_ply(const std::filesystem::path& path, const TriangleMesh& mesh,
+void write_ply(const FileTarget& target, const TriangleMesh& mesh,
                std::span<const VertexProperty> properties = {}, Comments comments = {},
                const Progress& progress = {});
 
 /// The same for vertices and triangles that are no TriangleMesh, such as an input's with unused vertices, and
 /// with properties of faces too (whose names may not be vertex_indices nor vertex_index).
-void write_ply(const std::filesystem::path& path, std::span<const Point> positions,
+void write_ply(const FileTarget& target, std::span<const Point> positions,
                std::span<const Triangle> triangles, std::span<const PropertyView> vertex_properties = {},
                std::span<const PropertyView> face_properties = {}, Comments comments = {},
                const Progress& progress = {});
 
 /// Quads as Wavefront OBJ, text with as many digits as reading back the same doubles takes. The file is
 /// written whole or not at all (file_writer.h). Throws WriteFailed.
-void write_obj(const std::filesystem::path& path, std::span<const Point> positions,
+void write_obj(const FileTarget& target, std::span<const Point> positions,
                std::span<const std::array<Index, 4>> quads, Comments comments = {},
                const Progress& progress = {});
 

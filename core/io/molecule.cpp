@@ -13,6 +13,7 @@
 #include "morsel/core/io/atom_selection.h"
 #include "morsel/core/io/file_content.h"
 #include "morsel/core/io/file_kind.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/text_scanner.h"
 
 namespace morsel::core {
@@ -23,32 +24,74 @@ constexpr std::array<const char*, 3> kHeteroNames = {"none", "residues", "all"};
 /// Radii that are no path.
 constexpr std::array<const char*, 3> kRadii = {"auto", "all-atom", "united-atom"};
 
-AtomRecords read_records(const std::filesystem::path& path, std::int64_t model, const Progress& progress) {
-  const std::string name = path.string();
-  const TextContent content(path, name, progress);
+struct NamedFormat {
+  std::string_view extension;
+  MoleculeFormat format;
+};
+constexpr auto kMoleculeFormats = std::to_array<NamedFormat>({{".pdb", MoleculeFormat::pdb},
+                                                              {".ent", MoleculeFormat::pdb},
+                                                              {".cif", MoleculeFormat::mmcif},
+                                                              {".mmcif", MoleculeFormat::mmcif},
+                                                              {".pqr", MoleculeFormat::pqr}});
+
+std::string_view format_name_of(MoleculeFormat format) {
+  switch (format) {
+    case MoleculeFormat::pdb:
+      return "pdb";
+    case MoleculeFormat::mmcif:
+      return "mmcif";
+    case MoleculeFormat::pqr:
+      break;
+  }
+  return "pqr";
+}
+
+std::optional<MoleculeFormat> format_of_name(const std::filesystem::path& path) {
   const std::string extension = content_extension(path);
-  const auto read = [&]() -> AtomRecords {
-    if (extension == ".pdb" || extension == ".ent") return read_pdb(content.view(), name, progress, model);
-    if (extension == ".cif" || extension == ".mmcif")
-      return read_mmcif(content.view(), name, progress, model);
-    if (extension == ".pqr") return read_pqr(content.view(), name, progress);
-    fail_reading(name, "molecules are read from .pdb, .ent, .cif, .mmcif and .pqr files, not " +
-                           (extension.empty() ? "from one without an extension" : "from " + extension));
+  const auto* found = std::ranges::find(kMoleculeFormats, extension, &NamedFormat::extension);
+  if (found == kMoleculeFormats.end()) return {};
+  return found->format;
+}
+
+AtomRecords read_records(std::string_view content, MoleculeFormat format, const std::string& name,
+                         std::int64_t model, const Progress& progress) {
+  const auto read = [&] {
+    switch (format) {
+      case MoleculeFormat::pdb:
+        return read_pdb(content, name, progress, model);
+      case MoleculeFormat::mmcif:
+        return read_mmcif(content, name, progress, model);
+      case MoleculeFormat::pqr:
+        break;
+    }
+    return read_pqr(content, name, progress);
   };
-  const std::string_view kind = file_kind(content.view());
+  const std::string_view kind = file_kind(content);
   // PQR files begin as PDB files do.
-  const std::string_view own = extension == ".cif" || extension == ".mmcif" ? "a CIF file" : "a PDB file";
+  const std::string_view own = format == MoleculeFormat::mmcif ? "a CIF file" : "a PDB file";
   const bool other = !kind.empty() && kind != own;
-  const std::string read_as = ", though read as " + extension;
+  const std::string what = "it is " + std::string(kind) + ", though " +
+                           (format_of_name(name) == format
+                                ? "read as " + content_extension(name)
+                                : "the format that was given is " + std::string(format_name_of(format)));
   AtomRecords all;
   try {
     all = read();
   } catch (const BadInput& error) {
-    if (other) throw BadInput(std::string(error.what()) + " (it is " + std::string(kind) + read_as + ")");
+    if (other) throw BadInput(std::string(error.what()) + " (" + what + ")");
     throw;
   }
-  if (other && all.records.empty()) fail_reading(name, "it is " + std::string(kind) + read_as);
+  if (other && all.records.empty()) fail_reading(name, what);
   return all;
+}
+
+Molecule molecule_of(const TextContent& content, MoleculeFormat format, const std::string& name,
+                     const MoleculeOptions& options, const Progress& progress) {
+  AtomRecords records = read_records(content.view(), format, name, options.model, progress);
+  records.warnings.insert(records.warnings.begin(), content.warnings().begin(), content.warnings().end());
+  Molecule molecule = choose_atoms(std::move(records), name, options);
+  progress.update("reading the atoms", 1);
+  return molecule;
 }
 
 /// Chains in the order of the file, each once.
@@ -178,14 +221,46 @@ std::string AtomsLeftOut::described() const {
   return text;
 }
 
+std::vector<std::string> molecule_format_names() {
+  std::vector<std::string> names;
+  for (const MoleculeFormat format : {MoleculeFormat::pdb, MoleculeFormat::mmcif, MoleculeFormat::pqr})
+    names.emplace_back(format_name_of(format));
+  return names;
+}
+
+MoleculeFormat molecule_format_named(std::string_view name) {
+  for (const MoleculeFormat format : {MoleculeFormat::pdb, MoleculeFormat::mmcif, MoleculeFormat::pqr})
+    if (format_name_of(format) == name) return format;
+  throw InvalidArgument("there is no format " + shown(name) + " of molecules, only " +
+                        listed(molecule_format_names(), " and "));
+}
+
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions& options,
                        const Progress& progress) {
   require_molecules("reading atoms");
   check_options(options);
-  AtomRecords records = read_records(path, options.model, progress);
-  Molecule molecule = choose_atoms(std::move(records), path.string(), options);
-  progress.update("reading the atoms", 1);
-  return molecule;
+  const std::string name = path.string();
+  const TextContent content(path, name, progress);  // a missing file is told as such, whatever its extension
+  if (const std::optional<MoleculeFormat> format = format_of_name(path))
+    return molecule_of(content, *format, name, options, progress);
+  const std::string extension = content_extension(path);
+  fail_reading(name, "molecules are read from .pdb, .ent, .cif, .mmcif and .pqr files, not " +
+                         (extension.empty() ? "from one without an extension" : "from " + extension));
+}
+
+Molecule read_molecule(const std::filesystem::path& path, MoleculeFormat format,
+                       const MoleculeOptions& options, const Progress& progress) {
+  require_molecules("reading atoms");
+  check_options(options);
+  const std::string name = path.string();
+  return molecule_of(TextContent(path, name, progress), format, name, options, progress);
+}
+
+Molecule parse_molecule(std::string_view bytes, MoleculeFormat format, const std::string& name,
+                        const MoleculeOptions& options, const Progress& progress) {
+  require_molecules("reading atoms");
+  check_options(options);
+  return molecule_of(TextContent(bytes, name, progress), format, name, options, progress);
 }
 
 Molecule choose_atoms(AtomRecords all, const std::string& file, const MoleculeOptions& options) {

@@ -39,6 +39,13 @@ struct Atom {
   std::string described() const;
 };
 
+/// What files of molecules are read.
+enum class MoleculeFormat { pdb, mmcif, pqr };
+/// "pdb", "mmcif" and "pqr", as `--format` takes them.
+std::vector<std::string> molecule_format_names();
+/// Throws InvalidArgument on another name.
+MoleculeFormat molecule_format_named(std::string_view name);
+
 /// Which atoms of HETATM records, ions and known ligands and lipids to take (waters are another option).
 enum class HeteroAtoms {
   none,
@@ -127,6 +134,14 @@ void require_molecules(std::string_view what);
 /// `alternate` is none of the above or `select` no expression, and as require_molecules() does.
 Molecule read_molecule(const std::filesystem::path& path, const MoleculeOptions& options = {},
                        const Progress& progress = {});
+
+/// The same in a format that is given, whatever the file's name.
+Molecule read_molecule(const std::filesystem::path& path, MoleculeFormat format,
+                       const MoleculeOptions& options = {}, const Progress& progress = {});
+
+/// The same of a file's bytes, which may be compressed; `name` is what errors call it.
+Molecule parse_molecule(std::string_view bytes, MoleculeFormat format, const std::string& name,
+                        const MoleculeOptions& options = {}, const Progress& progress = {});
 
 /// The options as keys: hetero=none|residues|all, waters=yes|no, hydrogens=yes|no, altloc=…, chains=A/B,
 /// model=1, select=…, radii=auto|all-atom|united-atom|FILE. Throws InvalidArgument also if select is given

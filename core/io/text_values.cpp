@@ -274,10 +274,24 @@ class ColumnReader {
   }
 
  private:
-  static std::optional<std::size_t> find(const std::vector<Cell>& cells, std::string_view name) {
-    const auto found = std::ranges::find_if(cells, [&](const Cell& cell) { return cell.is(name); });
-    if (found == cells.end()) return {};
-    return static_cast<std::size_t>(found - cells.begin());
+  /// The column of that name. Throws BadInput if there are several.
+  std::optional<std::size_t> find(const std::vector<Cell>& cells, std::string_view name) const {
+    std::optional<std::size_t> first;
+    std::vector<std::string> numbers;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!cells[i].is(name)) continue;
+      if (!first) first = i;
+      numbers.push_back(std::to_string(i + 1));
+    }
+    if (numbers.size() < 2) return first;
+    const std::string choice = ": choose one by its number, as in column=" + numbers[0];
+    constexpr std::size_t kListed = 20;
+    if (numbers.size() > kListed) {
+      numbers.resize(kListed);
+      numbers.emplace_back("more");
+    }
+    throw BadInput(request_.file + ": the columns " + listed(numbers, " and ") + " are called " +
+                   shown(name) + choice);
   }
 
   /// Whether the first record is one of names: a cell is no number, or has quotes and that below it has none.

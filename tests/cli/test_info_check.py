@@ -37,6 +37,50 @@ class Info(ProgramTest):
                       self.morsel("info", self.file("notes.txt", "1\n").name, code=3).stderr)
 
 
+    def test_a_document_says_what_it_is_and_where_it_comes_from(self):
+        """`info` once said that JSON documents of the program have no provenance."""
+        mesh = self.file("o.off", OCTAHEDRON).name
+        values = self.file("v.txt", "1\n2\n3\n4\n5\n6\n").name
+        field = ("--field", f"vertex-scalar:file={values}")
+        for command, schema, words in (
+                ("compare", "comparison", ("-o",)), ("points", "points", ("--fill", "none", "-o")),
+                ("hierarchy", "hierarchy", ("--levels", "0", "-o")),
+                ("segment", "segments", ("-o", "s.ply", "--json")), ("cut", "cut", ("-o", "c.off", "--json")),
+                ("sweep", "sweep", ("--vary", "iterations=1,2", "-o")),
+                ("stability", "stability", ("--noise", "0.1", "--trials", "1", "-o"))):
+            with self.subTest(command):
+                name = f"{command}.json"
+                self.morsel(command, mesh, *field, *words, name)
+                shown = self.morsel("info", name).stdout
+                self.assertRegex(shown, rf"\n  document +.*\(morsel {command}[,)].*, morsel\.{schema}/1\n")
+                for line in (r"made by +morsel \d", r"request +\{.*vertex-scalar:file=v\.txt",
+                             r"input +o\.off, sha256 "):
+                    self.assertRegex(shown, r"\n  " + line)
+                document = json.loads((self.folder / name).read_text())
+                origin = json.loads(self.morsel("info", name, "--json").stdout)["provenance"]
+                self.assertEqual(origin["request"], document["request"])
+                self.assertEqual(origin["tool"], document["tool"])
+                inputs = {file["path"]: file["sha256"] for file in origin["inputs"]}
+                self.assertEqual(inputs[mesh], document["mesh"]["sha256"])
+                self.assertEqual(list(inputs)[0], mesh)
+        self.assertIn("v.txt, sha256", self.morsel("info", "compare.json").stdout)
+        self.file("marks", "0\n1\n")
+        self.file("list", "o.off marks\n")
+        self.morsel("landmarks", "list", "--method", "conventional", "--field", "height", "-o", "l.json")
+        shown = self.morsel("info", "l.json").stdout
+        for path in ("list", "o.off", "marks"):
+            self.assertRegex(shown, rf"input +{path}, sha256 [0-9a-f]{{64}}\n")
+
+    def test_documents_of_others_and_damaged_ones(self):
+        for text, sentence in (('{"a": 1}', "has no provenance; it is JSON"),
+                               ('{"schema": "morsel.points/1", "tool": 3}', "tool"),
+                               ('{"schema": "morsel.points/1", "tool": ', "is not JSON"),
+                               ("[1]", "has no provenance")):
+            said = self.morsel("info", self.file("d.json", text).name, code=3).stderr
+            self.assertIn(sentence, said)
+            self.assertEqual(said.count("d.json"), 1, said)
+
+
 class Check(ProgramTest):
     def edited(self, edit):
         report = json.loads((self.folder / "report.json").read_text())

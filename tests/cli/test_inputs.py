@@ -140,6 +140,19 @@ class Inputs(ProgramTest):
         self.assertIn("it is an OFF file, though read as .obj",
                       self.morsel("compare", "o.obj", *HEIGHT, code=3).stderr)
         self.morsel("info", "o.obj", "--format", "off")
+        self.file("cube.dat", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        said = self.morsel("info", "cube.dat", "--format", "off", code=3).stderr
+        self.assertIn("it is an OBJ file, though the format that was given is off (line 1: ", said)
+        self.assertTrue(said.endswith("): use --format obj\n"), said)
+
+    def test_of_columns_of_one_name_none_is_taken(self):
+        self.file("o.off", OCTAHEDRON)
+        self.file("v.csv", "a,a\n" + "1,2\n" * 6)
+        said = self.morsel("field", "o.off", "--field", "vertex-scalar:file=v.csv,column=a", "-o", "x.txt",
+                           code=3).stderr
+        self.assertIn('the columns 1 and 2 are called "a": choose one by its number, as in column=1', said)
+        self.assertEqual(said.count("v.csv"), 1, said)
+        self.morsel("field", "o.off", "--field", "vertex-scalar:file=v.csv,column=2", "-o", "x.txt")
 
 
 if __name__ == "__main__":

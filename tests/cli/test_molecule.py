@@ -1,11 +1,14 @@
 """morsel molecule: surfaces of molecules of a few atoms, and atomic-density on them."""
 
+import gzip
+import hashlib
 import json
 import math
 import re
+import subprocess
 import unittest
 
-from support import OCTAHEDRON, ProgramTest, data_lines
+from support import OCTAHEDRON, PROGRAM, ProgramTest, data_lines, without_comments
 
 
 def atom(serial, position, *, name="C", residue="GLY", chain="A", number=1, element="C", record="ATOM",
@@ -56,6 +59,25 @@ class Molecule(ProgramTest):
     def components(self, name="surface.off"):
         words = self.info(name)
         return int(words[words.index("components") + 1])
+
+    def test_standard_input_and_output(self):
+        self.file("a.pdb", atom(1, (0, 0, 0)))
+        self.morsel("molecule", "a.pdb", "-o", "a.off")
+        for data in (atom(1, (0, 0, 0)).encode(), gzip.compress(atom(1, (0, 0, 0)).encode())):
+            result = subprocess.run([PROGRAM, "molecule", "-", "--format", "pdb", "-o", "-", "--as", "off"],
+                                    cwd=self.folder, input=data, capture_output=True, timeout=60, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(without_comments(result.stdout.decode()), data_lines(self.folder / "a.off"))
+            self.assertIn(hashlib.sha256(data).hexdigest(), result.stdout.decode().replace("\n# ", ""))
+            self.assertIn("atoms: 1 of 1", result.stderr.decode())
+        self.assertIn("the format must be given: --format pdb, mmcif or pqr",
+                      self.morsel("molecule", "-", "-o", "x.off", code=2, input="").stderr)
+        self.assertIn("standard input has no atoms",
+                      self.morsel("molecule", "-", "--format", "pdb", "-o", "x.off", code=3, input="").stderr)
+        self.assertIn("the format must be given: --as off or ply",
+                      self.morsel("molecule", "a.pdb", "-o", "-", code=2).stderr)
+        self.file("a.dat", CIF)
+        self.morsel("molecule", "a.dat", "--format", "mmcif", "-o", "b.off")
 
     def test_an_atom_is_a_sphere(self):
         file = self.file("one.pdb", atom(1, (1, 2, 3)))

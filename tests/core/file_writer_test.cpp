@@ -1,5 +1,6 @@
 #include "morsel/core/io/file_writer.h"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -144,6 +145,24 @@ TEST_CASE("a device is written directly and its errors are seen") {
   CHECK_THROWS_WITH(core::write_file("/dev/full", "anything"),
                     Catch::Contains("/dev/full") && Catch::Contains("No space left on device"));
   CHECK(fs::is_character_file("/dev/null"));
+}
+
+TEST_CASE("an open file is written directly, stays open, and its errors name it") {
+  const Scratch scratch;
+  const std::string path = (scratch / "open").string();
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  REQUIRE(file >= 0);
+  const core::FileTarget target = core::FileTarget::open_file(file, "standard output", ".txt");
+  core::write_file(target, "one ");
+  core::write_file(target, "two");
+  CHECK(contents(path) == "one two");
+  ::close(file);
+  CHECK_THROWS_WITH(core::write_file(target, "three"),
+                    "cannot write to standard output: Bad file descriptor");
+  const int reading = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  CHECK_THROWS_WITH(FileWriter(core::FileTarget::open_file(reading, "it", "")),
+                    "cannot write to it: Bad file descriptor");
+  ::close(reading);
 }
 
 TEST_CASE("bug: files in /dev/shm were taken for devices and could not be made") {

@@ -345,5 +345,8 @@ TEST_CASE("the extension of an output is one of those that are allowed, in small
   CHECK_THROWS_WITH(core::checked_extension("b.pln", "a field is written", {".txt", ".ply", ".vtp"}),
                     "a field is written to .txt, .ply or .vtp, not to \"b.pln\"");
   CHECK_THROWS_AS(core::checked_extension("ply", "a mesh is written", {".ply"}), core::InvalidArgument);
+  const core::FileTarget open = core::FileTarget::open_file(1, "standard output", ".label.gii");
+  CHECK(core::checked_extension(open, "labels are written", {".ply", ".label.gii"}) == ".label.gii");
+  CHECK_THROWS_AS(core::checked_extension(open, "labels are written", {".ply"}), core::InvalidArgument);
   CHECK_THROWS_AS(core::checked_extension("", "a mesh is written", {".ply"}), core::InvalidArgument);
 }

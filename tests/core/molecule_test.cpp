@@ -185,6 +185,21 @@ TEST_CASE("damaged files are refused with the place") {
   CHECK_THROWS_AS(core::read_molecule("/"), core::BadInput);
 }
 
+TEST_CASE("a molecule is read in a format that is given, from a file of any name or from bytes") {
+  const std::string pqr = "ATOM      1  N   GLY A   1      1.000   2.000   3.000  -0.4157 1.8240\nEND\n";
+  const Scratch folder;
+  const std::filesystem::path file = folder.file("molecule.dat", pqr);
+  CHECK(core::read_molecule(file, core::MoleculeFormat::pqr).atoms.at(0).radius == 1.824);
+  const Molecule parsed = core::parse_molecule(pqr, core::MoleculeFormat::pqr, "standard input");
+  CHECK(parsed.atoms.at(0).radius == 1.824);
+  CHECK_THROWS_WITH(
+      core::parse_molecule("OFF\n0 0 0\n", core::MoleculeFormat::pdb, "standard input"),
+      Contains("\"standard input\": it is an OFF file, though the format that was given is pdb"));
+  for (const std::string& name : core::molecule_format_names())
+    CHECK_NOTHROW(core::molecule_format_named(name));
+  CHECK_THROWS_WITH(core::molecule_format_named("cif"), Contains("only pdb, mmcif and pqr"));
+}
+
 TEST_CASE("a file cut or spoiled anywhere is read or refused") {
   const std::string pqr = "ATOM      1  N   GLY A   1      1.000   2.000   3.000  -0.4157 1.8240\nEND\n";
   for (const std::string& whole :

@@ -191,10 +191,11 @@ TEST_CASE("a backslash may follow a word of an OBJ file without a blank") {
 }
 
 TEST_CASE("a file of another kind is named for what it is") {
-  CHECK_THROWS_WITH(
-      parsed("v 0 0 0\n", MeshFormat::off),
-      "cannot read \"test\": it is an OBJ file, though read as .off (line 1: an OFF file begins "
-      "with OFF (or COFF, NOFF, STOFF, …), not with \"v\"): name it .obj or use --format obj");
-  CHECK_THROWS_WITH(parsed("<html>", MeshFormat::obj), Contains("it is an HTML page, though read as .obj"));
+  CHECK_THROWS_WITH(parsed("v 0 0 0\n", MeshFormat::off),
+                    "cannot read \"test\": it is an OBJ file, though the format that was given is off (line "
+                    "1: an OFF file begins "
+                    "with OFF (or COFF, NOFF, STOFF, …), not with \"v\"): use --format obj");
+  CHECK_THROWS_WITH(parsed("<html>", MeshFormat::obj),
+                    Contains("it is an HTML page, though the format that was given is obj"));
   CHECK_THROWS_WITH(parsed("OFF\n1 0 0\nx\n", MeshFormat::off), !Contains("though"));
 }

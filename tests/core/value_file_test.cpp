@@ -124,6 +124,14 @@ TEST_CASE("numbers in quotes are names where the values have none") {
   CHECK(values_in("\"1\"\n", "t.csv") == Values{1});
 }
 
+TEST_CASE("bug: of columns of the same name the first was taken") {
+  CHECK(refusal("a,x,b,x\n1,2,3,4\n", "t.csv", "x") ==
+        "t.csv: the columns 2 and 4 are called \"x\": choose one by its number, as in column=2");
+  CHECK(values_in("a,x,b,x\n1,2,3,4\n", "t.csv", "4") == Values{4});
+  CHECK(values_in("a,x,b,x\n1,2,3,4\n", "t.csv", "b") == Values{3});
+  CHECK_THAT(refusal("# x x x\n1 2 3\n", "t.txt", "x"), Catch::Contains("the columns 1, 2 and 3 are called"));
+}
+
 TEST_CASE("names that are numbers are chosen where they are no numbers of columns") {
   CHECK(values_in("2020,2021\n1,2\n3,4\n", "t.csv", "2021") == Values{2, 4});
   CHECK(values_in("2020 2021\n1 2\n3 4\n", "t.txt", "2020") == Values{1, 3});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/parameters.h"
 #include "morsel/tools/formats/command_line.h"
 
@@ -190,6 +191,27 @@ Option& Command::paths(std::string names, std::vector<std::string>& target, std:
                          [&target](const std::string& word) { target.push_back(word); });
   row.is_repeated = true;
   return row;
+}
+
+Option& Command::output(std::string names, std::string& target, OutputFormats formats, std::string help) {
+  Option& row = path(std::move(names), target, std::move(help)).shapes_nothing();
+  row.output = std::move(formats);
+  if (row.output->names.size() > 1) add_formats(row.all_names().front(), *row.output);
+  return row;
+}
+
+void Command::add_formats(const std::string& output_name, const OutputFormats& formats) {
+  if (std::ranges::none_of(options_, [](const Option& row) { return row.is_called(kFormatOption); })) {
+    Option row{kFormatOption, "Format of the output that is - (standard output)", "FORMAT"};
+    row.take = [](const Option&, const std::vector<std::string>&) {
+    };  // the parser's, as it depends on others
+    add(std::move(row)).shapes_nothing();
+  }
+  Option& row = option(kFormatOption);
+  row.choices.insert(row.choices.end(), formats.names.begin(), formats.names.end());
+  row.details +=
+      (row.details.empty() ? "Of " : "; of ") + output_name + ": " + core::listed(formats.names, " or ");
+  if (!formats.standard.empty()) row.details += " (" + formats.standard + " if it is not given)";
 }
 
 Option& Command::numbers(std::string names, std::vector<double>& target, std::string help) {

@@ -22,6 +22,18 @@ namespace morsel::tools {
 /// What a value is, for completions.
 enum class ValueKind : std::uint8_t { text, path, function, method };
 
+/// What stands for standard output in a file's place.
+inline constexpr std::string_view kStandardOutput = "-";
+/// The option that names its format.
+inline constexpr const char* kFormatOption = "--as";
+
+/// The formats of an output, without dots, that standard output can get: the only one, the one that --as
+/// names or, if that is not given, `standard`; if this is empty, too, --as is needed.
+struct OutputFormats {
+  std::vector<std::string> names;
+  std::string standard = names.size() == 1 ? names[0] : "";
+};
+
 /// A row of the table. The functions that return the row itself refine it.
 struct Option {
   std::string names;              ///< "MESH" of an argument, "-o,--output" of an option
@@ -44,7 +56,8 @@ struct Option {
   bool is_required = false;
   bool is_repeated = false;  ///< may be given several times
   ValueKind kind = ValueKind::text;
-  bool shapes_result = true;  ///< otherwise the contents of files are the same with any value
+  std::optional<OutputFormats> output = {};  ///< the value is a file to write
+  bool shapes_result = true;                 ///< otherwise the contents of files are the same with any value
   /// Takes the words that were given for it; for a flag "yes" or "no". Throws InvalidArgument.
   std::function<void(const Option& option, const std::vector<std::string>& words)> take = {};
 
@@ -108,6 +121,8 @@ class Command {
   Option& path(std::string names, std::string& target, std::string help);
   Option& path(std::string names, std::filesystem::path& target, std::string help);
   Option& paths(std::string names, std::vector<std::string>& target, std::string help);
+  /// A file to write, or - for standard output; adds --as where there is a choice of formats.
+  Option& output(std::string names, std::string& target, OutputFormats formats, std::string help);
   /// Numbers separated by commas; may be given several times.
   Option& numbers(std::string names, std::vector<double>& target, std::string help);
 
@@ -135,6 +150,7 @@ class Command {
 
  private:
   Option& add_path(std::string names, std::string help, std::function<void(const std::string&)> take);
+  void add_formats(const std::string& output_name, const OutputFormats& formats);
 
   std::deque<Option> options_;  // whose rows stay where they are
   std::string group_;

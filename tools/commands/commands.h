@@ -35,8 +35,9 @@ struct CommonOptions {
   int threads = 0;                ///< 0: as many as the machine has
   core::BuildOptions build = {};  ///< of the commands that read a mesh
   bool quiet = false;
-  std::string format;   ///< that MESH is read as; empty: its extension's
-  std::string command;  ///< the command line as a Provenance has it
+  std::string format;           ///< that MESH is read as; empty: its extension's
+  std::string standard_output;  ///< the format, without dot, of the output that is -; empty: none is
+  std::string command;          ///< the command line as a Provenance has it
 };
 
 /// The program: its commands, and the options that all of them take.
@@ -89,8 +90,8 @@ void add_preset_option(Command& command, std::function<void(const std::string& n
 void add_comparison_options(Command& command, ComparisonRequest& request);
 /// --size and the camera options of a comparison's pictures, for a command that has --figures.
 void add_figure_options(Command& command, render::FigureText& figure);
-/// An output, which must be given: -o, --output
-Option& add_output_option(Command& command, std::string& output, std::string help);
+/// An output, which must be given: -o, --output; and --as where there is a choice of formats
+Option& add_output_option(Command& command, std::string& output, OutputFormats formats, std::string help);
 /// A document that may be wanted besides: --json
 Option& add_json_option(Command& command, std::string& json, std::string help);
 

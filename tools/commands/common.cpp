@@ -149,12 +149,12 @@ void add_figure_options(Command& command, render::FigureText& figure) {
   command.option("--inset").needs("--figures");
 }
 
-Option& add_output_option(Command& command, std::string& output, std::string help) {
-  return command.path("-o,--output", output, std::move(help)).value("OUT").required().shapes_nothing();
+Option& add_output_option(Command& command, std::string& output, OutputFormats formats, std::string help) {
+  return command.output("-o,--output", output, std::move(formats), std::move(help)).value("OUT").required();
 }
 
 Option& add_json_option(Command& command, std::string& json, std::string help) {
-  return command.path("--json", json, std::move(help) + "; - is standard output").shapes_nothing();
+  return command.output("--json", json, {{"json"}}, std::move(help) + "; - is standard output");
 }
 
 std::string mesh_help() { return "Triangle mesh: .off, .obj, .ply, … (all: morsel info --help); or -"; }

@@ -119,24 +119,26 @@ class Outputs {
   /// Unwritable targets are refused here, before the work.
   Outputs(const Options& options, const Run& run)
       : options_(options),
-        common_(run.common),
+        run_(run),
         figure_size_(render::parse_size(options.figure.size)),
-        folders_(options, checked_files(options, run.common), run.console.stop_token()),
-        report_target_(options.report) {
-    if (!options.page.empty()) page_file_.emplace(options.page);
+        report_path_(output_target(options.report, run)),
+        page_path_(output_target(options.page, run)),
+        folders_(options, checked_files(), run.console.stop_token()),
+        report_target_(report_path_) {
+    if (!options.page.empty()) page_file_.emplace(page_path_);
   }
 
   /// `sinks` receive the results, too. Refers to `input`.
   void run(const ComparisonPlan& comparison, const MeshInput& input, std::vector<ComparisonSink*> sinks,
            const core::Progress& progress) {
     const core::LoadedMesh& loaded = input.loaded;
-    const Provenance provenance(common_.command, request_section(input.about, options_.request),
+    const Provenance provenance(run_.common.command, request_section(input.about, options_.request),
                                 {input.file()});
     if (report_target_.is_wanted())
       files_.add(report_.emplace(report_target_.json(), loaded, input.about, options_.request));
     if (page_file_)
       files_.add(page_.emplace(*page_file_, loaded, input.about, options_.request,
-                               page_command(options_, common_), provenance));
+                               page_command(options_, run_.common), provenance));
     if (!options_.export_folder.empty())
       files_.add(exports_.emplace(folders_.at(options_.export_folder), loaded, provenance, options_.glb));
     if (!options_.figure_folder.empty())
@@ -157,33 +159,35 @@ class Outputs {
     if (page_file_) page_file_->commit();
   }
 
-  void tell(const std::string& table, Console& console) const {
-    report_target_.show(table);
-    report_target_.tell("report", console);
-    if (page_file_) console.message("page: " + options_.page);
-    if (exports_) console.message("files for other programs: " + options_.export_folder);
-    if (figures_) console.message("pictures and plots: " + options_.figure_folder);
+  void tell(const std::string& table) const {
+    show(table, run_);
+    report_target_.tell("report", run_);
+    if (page_file_) tell_written("page", page_path_, run_);
+    if (exports_) run_.console.message("files for other programs: " + options_.export_folder);
+    if (figures_) run_.console.message("pictures and plots: " + options_.figure_folder);
   }
 
  private:
   /// All files of the run; throws if two of them are the same.
-  static RunFiles checked_files(const Options& options, const CommonOptions& common) {
+  RunFiles checked_files() const {
     RunFiles files;
-    files.reads_mesh(options.mesh, common.format).reads_mask(common.build);
-    files.reads_of_field(options.request.field);
-    reads_of_points(files, options.request.points);
-    files.writes_document("-o", options.report).writes_no_mesh("--html", options.page);
-    if (!options.thumbnails.empty())
+    files.reads_mesh(options_.mesh, run_.common.format).reads_mask(run_.common.build);
+    files.reads_of_field(options_.request.field);
+    reads_of_points(files, options_.request.points);
+    files.writes_document("-o", report_path_).writes_no_mesh("--html", page_path_);
+    if (!options_.thumbnails.empty())
       for (const char* which : {"first", "last"})
-        files.writes("--thumbnails", render::thumbnail_path(options.thumbnails, which));
-    files.fills("--figures", options.figure_folder).fills("--export", options.export_folder);
+        files.writes("--thumbnails", render::thumbnail_path(options_.thumbnails, which));
+    files.fills("--figures", options_.figure_folder).fills("--export", options_.export_folder);
     files.check();
     return files;
   }
 
   const Options& options_;
-  const CommonOptions& common_;
+  const Run& run_;
   render::Size figure_size_;
+  core::FileTarget report_path_;
+  core::FileTarget page_path_;
   Folders folders_;
   DocumentTarget report_target_;
   std::optional<core::FileWriter> page_file_;
@@ -208,15 +212,15 @@ int compare(Options& options, const Run& run) {
   Announcer announcer(run.console, comparison.chains.size());
   ComparisonTable table;
   outputs.run(comparison, input, {&announcer, &table}, run.console.progress());
-  outputs.tell(table.text(), run.console);
+  outputs.tell(table.text());
   return kDone;
 }
 
 void add_outputs(Command& command, Options& options) {
   command.begin_group("What is written");
-  command.path("-o,--output", options.report, "Write the JSON report here; - is standard output")
-      .value("REPORT.json")
-      .shapes_nothing();
+  command
+      .output("-o,--output", options.report, {{"json"}}, "Write the JSON report here; - is standard output")
+      .value("REPORT.json");
   command.flag("--no-items", options.no_items, "Leave what is listed point by point out of it; counts stay")
       .in_detail("That is: the critical points and the diagram's pairs");
   command
@@ -240,9 +244,8 @@ void add_outputs(Command& command, Options& options) {
       .value("PREFIX")
       .shapes_nothing()
       .in_detail("Of the first and of the last method");
-  command.path("--html", options.page, "Write a page here that shows all this in a browser")
+  command.output("--html", options.page, {{"html"}}, "Write a page here that shows all this in a browser")
       .value("REPORT.html")
-      .shapes_nothing()
       .in_detail("Models to turn, diagrams, curves, numbers; one file, for which no network is needed");
   command
       .path("--html-place", options.page_place,

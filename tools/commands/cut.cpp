@@ -50,11 +50,14 @@ std::string table(const CutOutcome& outcome) {
 
 int cut(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
-  base.writes("-o", options.output, check_cut_mesh_path)
-      .writes_document("--json", options.json)
-      .writes("--graph", options.graph, check_cut_graph_path)
+  const core::FileTarget output = output_target(options.output, run);
+  const core::FileTarget json = output_target(options.json, run);
+  const core::FileTarget graph = output_target(options.graph, run);
+  base.writes("-o", output, check_cut_mesh_path)
+      .writes_document("--json", json)
+      .writes("--graph", graph, check_cut_graph_path)
       .check_files();
-  DocumentTarget document(options.json);
+  DocumentTarget document(json);
 
   base.read();
   base.make();
@@ -64,8 +67,8 @@ int cut(const Options& options, const Run& run) {
   const Stopwatch write_watch;
   const CutRequest request{options.request, !options.no_shorten, run.common.build};
   const Provenance provenance = base.provenance(request_section(request));
-  write_cut_mesh(options.output, outcome.opened, base.loaded().source.numbering, provenance, progress);
-  if (!options.graph.empty()) write_cut_graph(options.graph, outcome.cut, base.loaded(), provenance);
+  write_cut_mesh(output, outcome.opened, base.loaded().source.numbering, provenance, progress);
+  if (!options.graph.empty()) write_cut_graph(graph, outcome.cut, base.loaded(), provenance);
   if (document.is_wanted())
     write_cut_document(document.json(), request, base.source(), outcome,
                        base.timings({{"complex", outcome.complex_seconds},
@@ -74,13 +77,13 @@ int cut(const Options& options, const Run& run) {
                                      {"open", outcome.open_seconds},
                                      {"write", write_watch.seconds()}}));
   document.commit();
-  document.show(table(outcome));
+  show(table(outcome), run);
   if (!options.no_shorten && !outcome.is_settled)
     run.console.message("shortening ended before no path could be made shorter, after " +
                         std::to_string(outcome.attempts) + " attempts");
-  run.console.message("cut mesh: " + options.output);
-  document.tell("report", run.console);
-  if (!options.graph.empty()) run.console.message("cut for ParaView: " + options.graph);
+  tell_written("cut mesh", output, run);
+  document.tell("report", run);
+  if (!options.graph.empty()) tell_written("cut for ParaView", graph, run);
   return kDone;
 }
 
@@ -91,15 +94,14 @@ void add_cut(Program& program) {
   Command& command = program.add(
       "cut", "Cut a surface of any genus open into one disc a component, along short paths of edges");
   add_field_options(command, options->mesh, options->request);
-  add_output_option(command, options->output, "The mesh cut open, .off or .ply")
+  add_output_option(command, options->output, {{"off", "ply"}}, "The mesh cut open, .off or .ply")
       .in_detail("Vertices keep their numbers, copies come after them");
   command.flag("--no-shorten", options->no_shorten,
                "Cut along the complex's arcs as they are, which are longer");
   add_json_option(command, options->json, "Write what was cut here")
       .in_detail("It lists, too, the vertex that each copy is of");
-  command.path("--graph", options->graph, "Write the cut as polylines here (.vtp, for ParaView)")
-      .value("FILE.vtp")
-      .shapes_nothing();
+  command.output("--graph", options->graph, {{"vtp"}}, "Write the cut as polylines here (.vtp, for ParaView)")
+      .value("FILE.vtp");
   add_common_options(command, program.common);
   command.examples = {
       {"cut torus.off -o disc.off", "a disc with the same triangles"},

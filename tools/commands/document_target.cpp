@@ -1,14 +1,12 @@
 #include "morsel/tools/commands/document_target.h"
 
-#include <iostream>
+#include <utility>
 
 namespace morsel::tools {
 
-DocumentTarget::DocumentTarget(const std::string& path) : path_(path) {
-  if (!path.empty() && !is_stdout()) file_.emplace(path);
+DocumentTarget::DocumentTarget(core::FileTarget target) : target_(std::move(target)) {
+  if (!target_.path.empty()) file_.emplace(target_);
 }
-
-std::ostream& DocumentTarget::stream() { return file_ ? file_->stream() : std::cout; }
 
 JsonStream& DocumentTarget::json() {
   if (!json_) json_.emplace(stream());
@@ -19,12 +17,8 @@ void DocumentTarget::commit() {
   if (file_) file_->commit();
 }
 
-void DocumentTarget::show(const std::string& text) const {
-  if (!is_stdout()) std::cout << text;
-}
-
-void DocumentTarget::tell(const std::string& what, Console& console) const {
-  if (is_file()) console.message(what + ": " + path_);
+void DocumentTarget::tell(const std::string& what, const Run& run) const {
+  if (is_wanted()) tell_written(what, target_, run);
 }
 
 }  // namespace morsel::tools

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "morsel/core/io/file_writer.h"
-#include "morsel/tools/commands/console.h"
+#include "morsel/tools/commands/output_target.h"
 #include "morsel/tools/formats/json_stream.h"
 
 namespace morsel::tools {
@@ -15,27 +15,24 @@ namespace morsel::tools {
 /// commit().
 class DocumentTarget {
  public:
-  /// `path`: a file, "-" for standard output, nothing if it is empty. Throws WriteFailed.
-  explicit DocumentTarget(const std::string& path);
+  /// Nothing if its path is empty. Throws WriteFailed.
+  explicit DocumentTarget(core::FileTarget target);
 
-  bool is_wanted() const { return file_ || is_stdout(); }
+  bool is_wanted() const { return file_.has_value(); }
   /// The document, of which there is one. Only where it is wanted.
   JsonStream& json();
   void commit();
 
-  /// Prints what is for a person to read, unless standard output is for the document.
-  void show(const std::string& text) const;
   /// Prints where the document is, if it is a file: "report: PATH".
-  void tell(const std::string& what, Console& console) const;
+  void tell(const std::string& what, const Run& run) const;
 
  protected:
-  bool is_stdout() const { return path_ == "-"; }
-  bool is_file() const { return file_.has_value(); }
-  const std::string& path() const { return path_; }
-  std::ostream& stream();
+  const core::FileTarget& target() const { return target_; }
+  /// Only where it is wanted.
+  std::ostream& stream() { return file_->stream(); }
 
  private:
-  std::string path_;
+  core::FileTarget target_;
   std::optional<core::FileWriter> file_;
   std::optional<JsonStream> json_;
 };

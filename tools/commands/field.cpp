@@ -22,25 +22,25 @@ struct Options {
 };
 
 /// Points that are wanted, and that only a document can hold.
-void check_points(const Options& options) {
-  if (options.points.count && options.json.empty() && !holds_points(options.output))
+void check_points(const Options& options, const core::FileTarget& output) {
+  if (options.points.count && options.json.empty() && !holds_points(output))
     throw core::InvalidArgument(
         "a text or GIFTI file has the field's values alone: chosen points need --json, or " + options.output +
         " as .ply, .vtp or .glb");
 }
 
-int write(Options& options, const Run& run) {
-  const bool is_shown = options.output == "-";
-  if (is_shown) options.output = kStandardOutput;
+int write(const Options& options, const Run& run) {
+  const core::FileTarget output = output_target(options.output, run);
   FieldRun base(options.mesh, options.request, run);
   const std::optional<PointsRequest> request = options.points.request();
   std::optional<PointsPlan> plan;
   if (request) plan = prepare(*request);
   reads_of_points(base, request);
-  base.writes("-o", options.output, check_field_path).writes_document("--json", options.json);
-  check_points(options);
+  const core::FileTarget json = output_target(options.json, run);
+  base.writes("-o", output, check_field_path).writes_document("--json", json);
+  check_points(options, output);
   base.check_files();
-  DocumentTarget document(options.json);
+  DocumentTarget document(json);
 
   base.read_whole();
   base.make();
@@ -51,10 +51,10 @@ int write(Options& options, const Run& run) {
   if (points && points->fill) provenance.set_fill(*points->fill);
   if (document.is_wanted())
     write_points_document(document.json(), asked, base.source(), *points, base.timings());
-  write_field(options.output, base.source(), base.input_positions(), provenance, points ? &*points : nullptr);
+  write_field(output, base.source(), base.input_positions(), provenance, points ? &*points : nullptr);
   document.commit();
-  document.tell("points", run.console);
-  if (!is_shown) run.console.message("field: " + options.output);
+  document.tell("points", run);
+  tell_written("field", output, run);
   return kDone;
 }
 
@@ -67,14 +67,13 @@ void add_field(Program& program) {
   add_points_options(command, options->points);
   command.begin_group("What is written");
   add_output_option(
-      command, options->output,
+      command, options->output, {{"txt", "ply", "vtp", "glb", "shape.gii", "func.gii"}, "txt"},
       ".txt (a value a line), .ply or .vtp (with the surface), .glb, .shape.gii; - is standard output")
       .shortly("The file to write")
       .in_detail(
           "Vertices have the input's numbers; chosen points are marked, but in .txt and GIFTI (.shape.gii, "
           ".func.gii: values in single precision); .ply has colours, too; .glb, for slides, web pages and "
-          "Blender, has the surface in colours and the chosen points or all critical points as spheres. "
-          "Standard output gets a value a line");
+          "Blender, has the surface in colours and the chosen points or all critical points as spheres");
   add_json_option(command, options->json, "Write the chosen points here").needs("--points");
   add_common_options(command, program.common);
   command.examples = {

@@ -61,10 +61,11 @@ int make_hierarchy(const Options& options, const Run& run) {
   files.reads_of_field(request.field.field);
   ResiduesRun residues(options.residues, run);
   residues.add_files(files);
-  files.writes_document("-o", options.output).fills("--export", options.export_folder).check();
+  const core::FileTarget output = output_target(options.output, run);
+  files.writes_document("-o", output).fills("--export", options.export_folder).check();
   const std::unique_ptr<ResultFolder> folder = open_folder(options.export_folder, files, run);
-  check_writable(options.residues.output);
-  DocumentTarget document(options.output);
+  check_writable(residues.output());
+  DocumentTarget document(output);
 
   const MeshInput input =
       read_input(options.mesh, std::span(&prepared.field.function, 1), run, !options.no_items);
@@ -85,8 +86,8 @@ int make_hierarchy(const Options& options, const Run& run) {
   if (writer) writer->finish();
   document.commit();
 
-  document.show(table.text());
-  document.tell("hierarchy", run.console);
+  show(table.text(), run);
+  document.tell("hierarchy", run);
   if (exports) run.console.message("files for ParaView: " + options.export_folder);
   if (residues.are_wanted()) {
     Json asked = request_section(request, input.about);
@@ -129,9 +130,10 @@ void add_hierarchy(Program& program) {
       .in_detail(
           "In place of thresholds; cells are minima, saddles with their multiplicities and maxima. Where a "
           "number cannot be had it is the nearest smaller one");
-  command.path("-o,--output", options->output, "Write levels and links here, as JSON; - is standard output")
-      .value("LEVELS.json")
-      .shapes_nothing();
+  command
+      .output("-o,--output", options->output, {{"json"}},
+              "Write levels and links here, as JSON; - is standard output")
+      .value("LEVELS.json");
   command.flag("--no-items", options->no_items, "Leave what is listed one by one out of it; counts stay")
       .in_detail("That is: cancellations, and each level's critical points, arcs and cells");
   command

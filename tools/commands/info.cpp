@@ -15,6 +15,7 @@
 #include "morsel/core/text/printable.h"
 #include "morsel/tools/commands/steps.h"
 #include "morsel/tools/formats/text_table.h"
+#include "morsel/tools/report/document_origin.h"
 #include "morsel/tools/report/mesh_section.h"
 #include "morsel/tools/report/outcome_sections.h"
 #include "morsel/tools/report/provenance.h"
@@ -166,16 +167,21 @@ void print_text(const Findings& findings, bool repair_tried) {
   line("after --repair", "no mesh: it still has " + core::listed(lasting, " and "));
 }
 
-/// The usual members; the rest in --json.
-void print_provenance(const Json& provenance) {
+/// The usual members; the rest in --json. `is_document`: whether it is document_origin()'s.
+void print_provenance(const Json& provenance, bool is_document) {
   const auto text = [](const Json& object, const char* key) {
     return object.at(key).get_ref<const std::string&>();
   };
   const auto with_parameters = [&](const char* label, const Json& made) {
     line(label, text(made, "name") + " " + json_text(made.at("parameters")));
   };
+  if (is_document) {
+    const std::string& schema = text(provenance, "schema");
+    line("document", described_schema(schema) + ", " + schema);
+  }
   line("made by", "morsel " + text(provenance.at("tool"), "version"));
-  line("command", text(provenance, "command"));
+  if (!is_document) line("command", text(provenance, "command"));
+  if (is_document && provenance.contains("request")) line("request", json_text(provenance["request"]));
   for (const Json& input : provenance.at("inputs"))
     line("input", text(input, "path") + ", sha256 " + text(input, "sha256"));
   if (provenance.contains("field")) with_parameters("field", provenance["field"]);
@@ -194,6 +200,13 @@ Json provenance_of(const std::string& path, const MeshOrigin& file, bool is_mesh
   }
 }
 
+/// document_origin() of a file that is JSON; null of others.
+Json origin_of_document(const std::string& path) {
+  const core::FileBytes bytes(path, path);
+  const core::DecodedBytes decoded(bytes.view(), path);
+  return core::file_kind(decoded.view()) == "JSON" ? document_origin(decoded.view(), path) : Json();
+}
+
 /// "; it is xz data" of a file that is recognised.
 std::string remark_on_kind(const std::string& path) {
   const std::string_view kind = core::file_kind(core::FileBytes(path, path).view());
@@ -207,7 +220,9 @@ int inform(const Options& options, const Run& run) {
     findings = inspect(file, run.common.build, run.console.progress());
   if (findings && options.json)  // which may go to another program
     for (const std::string& warning : findings->warnings()) run.console.warning(warning);
-  const Json provenance = provenance_of(options.file, file, findings.has_value(), run.console);
+  Json provenance = provenance_of(options.file, file, findings.has_value(), run.console);
+  const bool is_document = !findings && provenance.is_null();
+  if (is_document) provenance = origin_of_document(options.file);
   // The points and lines that morsel writes for ParaView are no mesh.
   if (findings && !provenance.is_null() && findings->file.soup.polygon_count() == 0) findings.reset();
   if (!findings && provenance.is_null())
@@ -221,7 +236,7 @@ int inform(const Options& options, const Run& run) {
   }
   std::cout << core::printable(options.file) << '\n';
   if (findings) print_text(*findings, run.common.build.repair);
-  if (!provenance.is_null()) print_provenance(provenance);
+  if (!provenance.is_null()) print_provenance(provenance, is_document);
   return kDone;
 }
 
@@ -237,8 +252,9 @@ void add_info(Program& program) {
             "A triangle mesh (" + core::mesh_extensions() + "), or what morsel wrote; - is standard input")
       .required()
       .in_detail(
-          "What morsel wrote may be a mesh, .png, .svg, .vtp, .html, .csv or .txt; JSON documents state "
-          "their own origin");
+          "What morsel wrote may be a mesh, .png, .svg, .vtp, .html, .csv, .txt or a JSON document, of which "
+          "the "
+          "request is shown in place of the command");
   command.flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, program.common);
   command.examples = {{"info scan.off", "counts, genus, boundary loops, and what would have to be repaired"},

@@ -41,7 +41,7 @@ LandmarksRequest landmarks_request(const Options& options) {
   return request;
 }
 
-RunFiles files_of(const Options& options, const MarkedFiles& files) {
+RunFiles files_of(const Options& options, const MarkedFiles& files, const core::FileTarget& output) {
   RunFiles named;
   named.reads("LIST", options.list);
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -50,7 +50,7 @@ RunFiles files_of(const Options& options, const MarkedFiles& files) {
   for (const std::string& field : options.request.fields) named.reads_of_field(field);
   reads_of_points(named, options.request.choice);
   named.reads_mask(files.build());
-  write_table(named, options.output).fills("--figures", options.figure_folder).check();
+  write_table(named, output).fills("--figures", options.figure_folder).check();
   return named;
 }
 
@@ -95,9 +95,10 @@ int measure_landmarks(const Options& given, const Run& run) {
   const LandmarksPlan plan = prepare(request);
   const Stopwatch watch;
   MarkedFiles files(options.list, request.first, build_for(plan.functions, run.common.build));
-  const RunFiles named = files_of(options, files);
+  const core::FileTarget output = output_target(options.output, run);
+  const RunFiles named = files_of(options, files, output);
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);
-  TableTarget target(options.output);
+  TableTarget target(output);
 
   const std::vector<HashedFile> field_files = input_files(fields_of(request));
   std::optional<LandmarksJournal> done;
@@ -117,9 +118,9 @@ int measure_landmarks(const Options& given, const Run& run) {
         *figures,
         {{"errors", plot::landmark_errors(plan, summaries)}, {"scores", plot::landmark_scores(plan, meshes)}},
         Provenance(run.common.command, request_section(request, run.common.build), report.inputs()));
-  target.show(landmarks_table(plan, meshes, summaries));
+  show(landmarks_table(plan, meshes, summaries), run);
   tell_fewer(plan, meshes, summaries, run.console);
-  target.tell("landmarks", run.console);
+  target.tell("landmarks", run);
   if (figures) run.console.message("plots: " + options.figure_folder);
   return kDone;
 }
@@ -160,13 +161,10 @@ void add_landmarks(Program& program) {
       .value("K")
       .shows_default("as many as it has marks");
   add_choice_options(command, options->choice);
-  command
-      .path("-o,--output", options->output,
-            "Write all results (.json) or rows (.csv) here; - is standard output")
-      .value("OUT")
-      .shapes_nothing()
+  add_table_option(command, options->output,
+                   "Write all results (.json) or rows (.csv) here; - is standard output")
       .in_detail(
-          "Means and every mesh, or a row for each mesh and method; - is JSON. Should it be interrupted, "
+          "Means and every mesh, or a row for each mesh and method. Should it be interrupted, "
           "OUT.journal holds the meshes that are done, and the same command goes on from there");
   command.path("--figures", options->figure_folder, "Write plots of errors and scores (.svg, .png) here")
       .value("DIR")

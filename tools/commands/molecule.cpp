@@ -3,7 +3,9 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,9 @@
 #include "morsel/core/io/file_extension.h"
 #include "morsel/core/io/mesh_writer.h"
 #include "morsel/core/io/molecule.h"
+#include "morsel/tools/commands/standard_input.h"
 #include "morsel/tools/commands/steps.h"
+#include "morsel/tools/formats/sha256.h"
 #include "morsel/tools/formats/text_table.h"
 #include "morsel/tools/molecule/surface.h"
 #include "morsel/tools/report/outcome_sections.h"
@@ -21,6 +25,7 @@ namespace {
 
 struct Options {
   std::string structure;
+  std::string format;  ///< empty: that of its name
   std::string output;
   SurfaceOptions surface;
   bool waters = false;
@@ -79,34 +84,54 @@ Json request_section(const Options& options, core::MoleculeOptions atoms, core::
   return section;
 }
 
+/// The atoms of FILE, and its hash.
+struct HashedMolecule {
+  core::Molecule molecule;
+  std::string sha256;
+};
+HashedMolecule read(const Options& options, const core::MoleculeOptions& atoms, const std::string& name,
+                    const core::Progress& progress) {
+  std::optional<core::MoleculeFormat> format;
+  if (!options.format.empty()) format = core::molecule_format_named(options.format);
+  if (options.structure == kStandardInput) {
+    const std::string_view bytes = standard_input(progress);
+    return {core::parse_molecule(bytes, *format, name, atoms, progress), sha256_of(bytes)};
+  }
+  return {format ? core::read_molecule(options.structure, *format, atoms, progress)
+                 : core::read_molecule(options.structure, atoms, progress),
+          sha256_of_file(options.structure)};
+}
+
 int make(const Options& options, const Run& run) {
   core::require_molecules("morsel molecule");
-  const std::string extension =
-      core::checked_extension(options.output, "a surface is written", {".off", ".ply"});
+  const core::FileTarget output = output_target(options.output, run);
+  const std::string extension = core::checked_extension(output, "a surface is written", {".off", ".ply"});
+  const bool is_standard_input = options.structure == kStandardInput;
+  if (is_standard_input && options.format.empty()) fail_without_format(core::molecule_format_names());
   const Wanted wanted = wanted_atoms(options);
   check_surface_options(options.surface);
   RunFiles files;
-  files.reads("FILE", options.structure).writes("-o", options.output);
+  files.reads("FILE", is_standard_input ? "/dev/stdin" : options.structure).writes("-o", output);
   for (const core::FileParameter& file : wanted.files) files.reads("--" + file.key, file.path);
   files.check();
-  check_writable(options.output);
+  check_writable(output);
   const core::Progress progress = run.console.progress();
-  const core::Molecule molecule = core::read_molecule(options.structure, wanted.atoms, progress);
+  const std::string name = is_standard_input ? "standard input" : options.structure;
+  const auto [molecule, sha256] = read(options, wanted.atoms, name, progress);
   const MolecularSurface surface = molecular_surface(molecule.atoms, options.surface, progress);
-  std::vector<HashedFile> inputs = {{options.structure, sha256_of_file(options.structure)}};
+  std::vector<HashedFile> inputs = {{options.structure, sha256}};
   for (const core::FileParameter& file : wanted.files)
     inputs.push_back({file.path, sha256_of_file(file.path)});
   const Provenance provenance(run.common.command, request_section(options, wanted.atoms, molecule.radii),
                               inputs);
   if (extension == ".ply")
-    core::write_ply(options.output, surface.mesh, {}, provenance.lines(), progress);
+    core::write_ply(output, surface.mesh, {}, provenance.lines(), progress);
   else
-    core::write_off(options.output, surface.mesh, provenance.lines(), progress);
-  for (const std::string& warning : molecule.warnings)
-    run.console.warning(options.structure + ": " + warning);
+    core::write_off(output, surface.mesh, provenance.lines(), progress);
+  for (const std::string& warning : molecule.warnings) run.console.warning(name + ": " + warning);
   run.console.message(described(molecule));
   run.console.message(described(surface, options));
-  run.console.message("written: " + options.output);
+  tell_written("written", output, run);
   return kDone;
 }
 
@@ -115,8 +140,15 @@ int make(const Options& options, const Run& run) {
 void add_molecule(Program& program) {
   auto options = std::make_shared<Options>();
   Command& command = program.add("molecule", "Make the surface of a molecule, a closed manifold");
-  command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif, .mmcif or .pqr").required();
-  add_output_option(command, options->output, "The surface, in Å: .off or .ply").value("SURFACE");
+  command.path("FILE", options->structure, "Atoms: .pdb, .ent, .cif, .mmcif or .pqr; - is standard input")
+      .required();
+  command
+      .text("--format", options->format,
+            "Read the atoms as this, whatever the file's name; needed where it is -")
+      .value("FORMAT")
+      .among(core::molecule_format_names());
+  add_output_option(command, options->output, {{"off", "ply"}}, "The surface, in Å: .off or .ply")
+      .value("SURFACE");
   command
       .choice("--kind", options->surface.kind,
               {SurfaceKind::gaussian, SurfaceKind::ses, SurfaceKind::sas, SurfaceKind::vdw},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "morsel/core/error.h"
+#include "morsel/core/text/listed.h"
 #include "morsel/core/text/nearest_name.h"
 
 namespace morsel::tools {
@@ -54,9 +55,31 @@ std::vector<std::string> option_names(const Command& command) {
   return names;
 }
 
-[[noreturn]] void refuse_unexpected(const Command& command, const std::string& word) {
+/// Whether the option takes the word; sets its target, if so.
+bool takes(const Option& option, const std::string& word) {
+  try {
+    option.take(option, {word});
+    return true;
+  } catch (const core::InvalidArgument&) {
+    return false;
+  }
+}
+
+/// "; a value of --weld is written with =: --weld=0.01" where the name of an option with an optional value is
+/// followed by what would be one.
+std::string hint_at_value(const Command& command, const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i + 1 < words.size() && words[i] != "--"; ++i)
+    for (const Option& option : command.options())
+      if (!option.implied.empty() && option.is_called(words[i]) && takes(option, words[i + 1]))
+        return "; a value of " + words[i] + " is written with =: " + words[i] + "=" + words[i + 1];
+  return "";
+}
+
+/// `words` are those that were given.
+[[noreturn]] void refuse_unexpected(const Command& command, const std::string& word,
+                                    const std::vector<std::string>& words) {
   if (!word.starts_with('-') || word.size() == 1)
-    refuse(command, "\"" + word + "\" is one argument too many");
+    refuse(command, "\"" + word + "\" is one argument too many" + hint_at_value(command, words));
   const std::string name = word.substr(0, word.find('='));
   const bool is_letter = name.size() == 2;  // which is near to every other
   refuse(command,
@@ -109,32 +132,64 @@ void check_required(const Command& command, const std::vector<Parsed>& rows) {
   }
 }
 
+/// The format of the one output that is standard output; "" if none is.
+std::string standard_output_format(const Command& command, const std::vector<Parsed>& rows) {
+  const Option* output = nullptr;
+  std::string format;
+  for (const Parsed& row : rows) {
+    if (row.count() == 0) continue;
+    const std::string& word = row.given->results().back();
+    if (row.option->is_called(kFormatOption)) format = word;
+    if (!row.option->output || word != kStandardOutput) continue;
+    if (output != nullptr)
+      refuse(command, output->all_names().front() + " and " + row.option->all_names().front() +
+                          " are both standard output (-), which takes one of them");
+    output = row.option;
+  }
+  if (output == nullptr) {
+    if (!format.empty())
+      refuse(command,
+             std::string(kFormatOption) + " " + format +
+                 " is the format of standard output, and no output is -; a file's name says its own");
+    return "";
+  }
+  const OutputFormats& formats = *output->output;
+  const std::string names = core::listed(formats.names, " or ");
+  if (format.empty() && formats.standard.empty())
+    refuse(command,
+           "of standard output (-) the format must be given: " + std::string(kFormatOption) + " " + names);
+  if (!format.empty() && std::ranges::find(formats.names, format) == formats.names.end())
+    refuse(command, output->all_names().front() + " - is written as " + names + ", not as " + format);
+  return format.empty() ? formats.standard : format;
+}
+
 }  // namespace
 
-void parse(Command& command, std::vector<std::string> words) {
+std::string parse(Command& command, const std::vector<std::string>& words) {
   CLI::App app;
   app.set_help_flag();
   const std::vector<Parsed> rows = declare(command, app);
-  std::ranges::reverse(words);
   try {
-    app.parse(std::move(words));
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ExtrasError&) {
     const std::vector<std::string> unexpected = app.remaining();
     const auto option =
         std::ranges::find_if(unexpected, [](const std::string& word) { return word.starts_with('-'); });
-    refuse_unexpected(command, option != unexpected.end() ? *option : unexpected.at(0));
+    refuse_unexpected(command, option != unexpected.end() ? *option : unexpected.at(0), words);
   } catch (const CLI::ArgumentMismatch& error) {
     refuse_mismatch(command, error.what());
   } catch (const CLI::ParseError& error) {
     refuse(command, error.what());
   }
   check(command, rows);
+  std::string format = standard_output_format(command, rows);
   for (const Parsed& row : rows) {
     if (row.count() == 0) continue;
     const std::vector<std::string> flags = {row.denied != nullptr && row.denied->count() > 0 ? "no" : "yes"};
     row.option->take(*row.option, row.option->is_flag() ? flags : row.given->results());
   }
   check_required(command, rows);
+  return format;
 }
 
 }  // namespace morsel::tools

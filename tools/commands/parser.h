@@ -10,7 +10,8 @@
 namespace morsel::tools {
 
 /// Gives the words after the command's name to its options. Throws InvalidArgument, a sentence with the
-/// nearest name where one is unknown.
-void parse(Command& command, std::vector<std::string> words);
+/// nearest name where one is unknown. Returns the format, without dot, of the output that is standard output
+/// (OutputFormats); "" if none is.
+std::string parse(Command& command, const std::vector<std::string>& words);
 
 }  // namespace morsel::tools

@@ -20,8 +20,8 @@ struct Options {
   std::string output;
 };
 
-bool is_document(const std::string& output) {
-  return output == "-" || core::file_extension(output) == ".json";
+bool is_document(const core::FileTarget& output) {
+  return (output.is_open_file() ? output.format : core::file_extension(output.path)) == ".json";
 }
 
 int choose(const Options& options, const Run& run) {
@@ -29,13 +29,14 @@ int choose(const Options& options, const Run& run) {
   const PointsRequest request = *options.points.request();
   const PointsPlan plan = prepare(request);
   reads_of_points(base, request);
-  const bool wants_document = is_document(options.output);
+  const core::FileTarget output = output_target(options.output, run);
+  const bool wants_document = is_document(output);
   if (wants_document)
-    base.writes_document("-o", options.output);
+    base.writes_document("-o", output);
   else
-    base.writes("-o", options.output, check_points_path);
+    base.writes("-o", output, check_points_path);
   base.check_files();
-  DocumentTarget document(wants_document ? options.output : "");
+  DocumentTarget document(wants_document ? output : "");
 
   base.read();
   base.make();
@@ -48,9 +49,9 @@ int choose(const Options& options, const Run& run) {
   } else {
     Provenance provenance = base.provenance(asked);
     if (made.fill) provenance.set_fill(*made.fill);
-    write_points(options.output, made, base.source(), provenance);
+    write_points(output, made, base.source(), provenance);
   }
-  if (options.output != "-") run.console.message("points: " + options.output);
+  tell_written("points", output, run);
   return kDone;
 }
 
@@ -63,7 +64,8 @@ void add_points(Program& program) {
   add_field_options(command, options->mesh, options->request);
   add_points_options(command, options->points);
   command.begin_group("What is written");
-  add_output_option(command, options->output, ".csv, .json, .ply, .vtp or .glb; - is JSON on standard output")
+  add_output_option(command, options->output, {{"json", "csv", "ply", "vtp", "glb"}, "json"},
+                    ".csv, .json, .ply, .vtp or .glb; - is standard output")
       .shortly("The file to write")
       .in_detail(
           "Points come in the order in which they were chosen, vertices have the input's numbers; .glb, for "

@@ -1,6 +1,5 @@
 // morsel quads: from a field to an all-quad mesh.
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -21,22 +20,24 @@ struct Options {
   std::string json;
 };
 
-void check_path(const std::filesystem::path& path) {
-  core::checked_extension(path, "quads are written", {".obj"});
+void check_path(const core::FileTarget& target) {
+  core::checked_extension(target, "quads are written", {".obj"});
 }
 
 int make(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.field, run);
   const QuadPlan quads = prepare(options.quads);
-  base.writes("-o", options.output, check_path).writes_document("--json", options.json).check_files();
-  DocumentTarget document(options.json);
+  const core::FileTarget output = output_target(options.output, run);
+  const core::FileTarget json = output_target(options.json, run);
+  base.writes("-o", output, check_path).writes_document("--json", json).check_files();
+  DocumentTarget document(json);
 
   base.read();
   base.make();
   const core::Progress progress = run.console.progress();
   const Quadrangulation result = quadrangulate(base.field(), quads, progress);
   const QuadsRequest request{options.field, options.quads, run.common.build};
-  core::write_obj(options.output, result.mesh.positions, result.mesh.quads,
+  core::write_obj(output, result.mesh.positions, result.mesh.quads,
                   base.provenance(request_section(request)).lines(), progress);
   if (document.is_wanted())
     write_quads(document.json(), request, base.source(), result,
@@ -44,9 +45,9 @@ int make(const Options& options, const Run& run) {
                               {"sampling", result.sampling_seconds},
                               {"measuring", result.measuring_seconds}}));
   document.commit();
-  document.show(described(result, base.loaded().mesh.bounding_box().diagonal()));
-  run.console.message("quads: " + options.output);
-  document.tell("report", run.console);
+  show(described(result, base.loaded().mesh.bounding_box().diagonal()), run);
+  tell_written("quads", output, run);
+  document.tell("report", run);
   return kDone;
 }
 
@@ -68,7 +69,7 @@ void add_quads(Program& program) {
               "How often corners of patches are moved to the middle of these")
       .value("R")
       .in_detail("0 leaves them at the critical points");
-  add_output_option(command, options->output, "The quads: .obj").value("OUT.obj");
+  add_output_option(command, options->output, {{"obj"}}, "The quads: .obj").value("OUT.obj");
   add_json_option(command, options->json, "Write counts, repairs and quality here")
       .in_detail("Of the quads and of the patches");
   add_common_options(command, program.common);

@@ -1,6 +1,5 @@
 // morsel render: a picture of a surface, its field and its critical points.
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,8 +35,8 @@ struct Options {
   std::string close_up;
 };
 
-void check_path(const std::filesystem::path& path) {
-  core::checked_extension(path, "a picture is written", {".png"});
+void check_path(const core::FileTarget& target) {
+  core::checked_extension(target, "a picture is written", {".png"});
 }
 
 int draw(const Options& options, const Run& run) {
@@ -53,7 +52,8 @@ int draw(const Options& options, const Run& run) {
   if (!options.close_up.empty() && !(options.frame.empty() && options.camera.inset.empty()))
     throw core::InvalidArgument("--close-up does not go with --inset or --frame");
   FieldRun base(options.mesh, options.field, run);
-  base.writes("-o", options.output, check_path).check_files();
+  const core::FileTarget output = output_target(options.output, run);
+  base.writes("-o", output, check_path).check_files();
 
   base.read();
   const core::LoadedMesh& loaded = base.loaded();
@@ -82,9 +82,9 @@ int draw(const Options& options, const Run& run) {
   Provenance provenance = base.provenance(request_section(options.field, run.common.build));
   provenance.set("picture",
                  render::picture_section(request, options.camera, subject.caption, loaded.source.numbering));
-  core::write_file(options.output, drawing::with_png_comment(render::encode_png(image), provenance.json()));
+  core::write_file(output, drawing::with_png_comment(render::encode_png(image), provenance.json()));
   run.console.message(counts);
-  run.console.message("picture: " + options.output);
+  tell_written("picture", output, run);
   return kDone;
 }
 
@@ -98,7 +98,7 @@ void add_render(Program& program) {
       "render",
       "Take a picture of a surface coloured by a field or its segments, with critical points and arcs (PNG)");
   add_field_options(command, options->mesh, options->field);
-  add_output_option(command, options->output, "The picture").value("OUT.png");
+  add_output_option(command, options->output, {{"png"}}, "The picture").value("OUT.png");
 
   command.begin_group("What it shows");
   command

@@ -12,9 +12,10 @@
 namespace morsel::tools {
 
 void add_residues_options(Command& command, ResiduesOptions& options) {
-  command.path("--residues", options.output, "Residues at each segment: .pml, .cxc, .pdb or .csv")
+  command
+      .output("--residues", options.output, {{"pml", "cxc", "pdb", "csv"}},
+              "Residues at each segment: .pml, .cxc, .pdb or .csv")
       .value("OUT")
-      .shapes_nothing()
       .needs("--molecule")
       .in_detail(
           "The residues and atoms nearest to each segment of a molecule's surface: .pml selects and colours "
@@ -29,10 +30,11 @@ void add_residues_options(Command& command, ResiduesOptions& options) {
       .in_detail("The keys of atomic-density that choose atoms and radii, as the surface was made with");
 }
 
-ResiduesRun::ResiduesRun(const ResiduesOptions& options, const Run& run) : options_(options), run_(run) {
+ResiduesRun::ResiduesRun(const ResiduesOptions& options, const Run& run)
+    : options_(options), run_(run), output_(output_target(options.output, run)) {
   if (!are_wanted()) return;
   core::require_molecules("--residues");
-  static_cast<void>(residues_extension(options.output));
+  static_cast<void>(residues_extension(output_));
   core::Specification keys{"--atoms", {}};
   if (!options.atoms.empty()) keys = core::parse_specification("--atoms:" + options.atoms, "--atoms");
   core::ParameterReader reader(std::move(keys));
@@ -66,12 +68,12 @@ void ResiduesRun::write(Provenance provenance, bool with_levels) const {
   if (!are_wanted()) return;
   provenance.add_input({options_.molecule, sha256_of_file(options_.molecule)});
   for (const core::FileParameter& file : files_) provenance.add_input({file.path, sha256_of_file(file.path)});
-  write_residues(options_.output, molecule_.atoms, levels_, with_levels, provenance);
+  write_residues(output_, molecule_.atoms, levels_, with_levels, provenance);
   std::set<core::Index> atoms;
   for (const SegmentedAtoms& level : levels_)
     for (const SegmentAtom& part : level.atoms) atoms.insert(part.atom);
-  run_.console.message("residues: " + options_.output + ", " + core::grouped(atoms.size()) + " of " +
-                       core::grouped(molecule_.atoms.size()) +
+  run_.console.message("residues: " + (output_.is_open_file() ? "" : options_.output + ", ") +
+                       core::grouped(atoms.size()) + " of " + core::grouped(molecule_.atoms.size()) +
                        " atoms are at the surface; radii: " + to_string(molecule_.radii));
 }
 

@@ -33,7 +33,7 @@ class ResiduesRun {
   template <class Files>
   void add_files(Files& files) const {
     if (!options_.are_wanted()) return;
-    files.reads("--molecule", options_.molecule).writes("--residues", options_.output);
+    files.reads("--molecule", options_.molecule).writes("--residues", output_);
     for (const core::FileParameter& file : files_) files.reads("--atoms " + file.key, file.path);
   }
 
@@ -47,12 +47,14 @@ class ResiduesRun {
   void write(Provenance provenance, bool with_levels) const;
 
   bool are_wanted() const { return options_.are_wanted(); }
+  const core::FileTarget& output() const { return output_; }
   /// What a provenance's request has about them: {molecule, atoms}.
   Json request() const;
 
  private:
   const ResiduesOptions& options_;
   const Run& run_;
+  core::FileTarget output_;
   core::MoleculeOptions wanted_;
   std::vector<core::FileParameter> files_;
   core::Molecule molecule_;

@@ -55,10 +55,12 @@ int segment(const Options& options, const Run& run) {
   FieldRun base(options.mesh, options.request, run);
   const SegmentsRequest request{options.request, segment_request(options), run.common.build};
   ResiduesRun residues(options.residues, run);
-  for (const std::filesystem::path& file : label_files(options.output)) base.writes("-o", file);
+  const core::FileTarget output = output_target(options.output, run);
+  const core::FileTarget json = output_target(options.json, run);
+  for (const core::FileTarget& file : label_files(output)) base.writes("-o", file);
   residues.add_files(base);
-  base.writes_document("--json", options.json).check_files();
-  DocumentTarget document(options.json);
+  base.writes_document("--json", json).check_files();
+  DocumentTarget document(json);
 
   base.read_whole();
   base.make();
@@ -74,15 +76,15 @@ int segment(const Options& options, const Run& run) {
   }
 
   const Labels labels{"segment", made.segments.vertex, made.segments.triangle};
-  const std::vector<std::filesystem::path> written = write_labels(
-      options.output, labels, base.field(), base.made().input.name, base.loaded().source.numbering,
-      base.input_positions(), base.provenance(request_section(request)));
+  const std::vector<core::FileTarget> written =
+      write_labels(output, labels, base.field(), base.made().input.name, base.loaded().source.numbering,
+                   base.input_positions(), base.provenance(request_section(request)));
   if (document.is_wanted()) write_segments(document.json(), request, base.source(), made, timings);
   document.commit();
   run.console.message(described(made));
   if (!made.note.empty()) run.console.message(made.note);
-  for (const std::filesystem::path& path : written) run.console.message("labels: " + path.string());
-  document.tell("table", run.console);
+  for (const core::FileTarget& file : written) tell_written("labels", file, run);
+  document.tell("table", run);
   return kDone;
 }
 
@@ -110,7 +112,8 @@ void add_segment(Program& program) {
       .shortly("Merge all of at most this persistence")
       .shows_default("none")
       .in_detail("In the field's unit or, as in 0.1%, in percent of its range");
-  add_output_option(command, options->output, "Labels: .ply, .vtp, .txt, .annot, .label.gii or .glb")
+  add_output_option(command, options->output, {{"ply", "vtp", "annot", "label.gii", "glb"}},
+                    "Labels: .ply, .vtp, .txt, .annot, .label.gii or .glb")
       .in_detail(
           "In the input's vertex numbers: .ply (int properties \"segment\", and colours), .vtp (arrays "
           "\"segment\", and the field) or .txt (a label a line: OUT.vertices.txt, OUT.faces.txt); of "

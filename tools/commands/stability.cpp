@@ -45,9 +45,10 @@ int measure_stability(const Options& options, const Run& run) {
   files.reads_mesh(options.mesh, run.common.format).reads_mask(run.common.build);
   for (const std::string& field : request.fields) files.reads_of_field(field);
   if (!request.reference_field.empty()) files.reads_of_field(request.reference_field, "--reference-field");
-  write_table(files, options.output).fills("--figures", options.figure_folder).check();
+  const core::FileTarget output = output_target(options.output, run);
+  write_table(files, output).fills("--figures", options.figure_folder).check();
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, files, run);
-  TableTarget target(options.output);
+  TableTarget target(output);
 
   const MeshInput input = read_input(options.mesh, prepared.functions, run);
   std::optional<TrialJournal> trials;
@@ -70,8 +71,8 @@ int measure_stability(const Options& options, const Run& run) {
     plot::write_plots(*figures, plots_of(report),
                       Provenance(run.common.command, request_section(request, run.common.build), inputs));
   }
-  target.show(stability_table(prepared, result));
-  target.tell("stability", run.console);
+  show(stability_table(prepared, result), run);
+  target.tell("stability", run);
   if (figures) run.console.message("plots: " + options.figure_folder);
   return kDone;
 }
@@ -124,12 +125,9 @@ void add_stability(Program& program) {
   add_target_option(command, request.target).shortly("End with K critical points, too").help =
       "Besides each method's own count: end with K critical points, or fewer";
   add_preset_option(command, [&request](const std::string& name) { apply_preset(name, request); });
-  command
-      .path("-o,--output", options->output, "Write trials (.json) or rows (.csv) here; - is standard output")
-      .value("OUT")
-      .shapes_nothing()
+  add_table_option(command, options->output, "Write trials (.json) or rows (.csv) here; - is standard output")
       .in_detail(
-          "Every trial, or a row for each method and perturbation; - is JSON. Should it be interrupted, "
+          "Every trial, or a row for each method and perturbation. Should it be interrupted, "
           "OUT.journal holds the trials that are done, and the same command goes on from there");
   command
       .path("--figures", options->figure_folder,

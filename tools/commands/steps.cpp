@@ -12,9 +12,10 @@
 
 namespace morsel::tools {
 
-void check_writable(const std::filesystem::path& path) {
+void check_writable(const core::FileTarget& target) {
   std::error_code error;
-  if (!path.empty() && !std::filesystem::is_fifo(path, error)) const core::FileWriter probe(path);
+  if (target.is_open_file() || (!target.path.empty() && !std::filesystem::is_fifo(target.path, error)))
+    const core::FileWriter probe(target);
 }
 
 std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFiles& files, const Run& run) {
@@ -23,13 +24,16 @@ std::unique_ptr<ResultFolder> open_folder(const std::string& path, const RunFile
                                         ResultFolder::Options{files.outputs(), run.console.stop_token()});
 }
 
+void fail_without_format(const std::vector<std::string>& formats) {
+  throw core::InvalidArgument("of standard input (-) the format must be given: --format " +
+                              core::listed(formats, " or "));
+}
+
 MeshOrigin mesh_file(const std::string& path, const Run& run) {
   MeshOrigin file{path};
   if (!run.common.format.empty()) file.format = core::mesh_format_named(run.common.format);
   if (path != kStandardInput) return file;
-  if (!file.format)
-    throw core::InvalidArgument("of standard input (-) the format must be given: --format " +
-                                core::listed(core::mesh_format_names(), " or "));
+  if (!file.format) fail_without_format(core::mesh_format_names());
   file.path = "standard input";
   file.bytes = standard_input(run.console.progress());
   return file;
@@ -86,17 +90,16 @@ FieldRun::FieldRun(const std::string& mesh, const FieldRequest& request, const R
   files_.reads_mesh(mesh, run.common.format).reads_mask(run.common.build).reads_of_field(request.field);
 }
 
-FieldRun& FieldRun::writes(const std::string& option, const std::filesystem::path& path,
-                           CheckPath check_path) {
-  if (path.empty()) return *this;
-  if (check_path != nullptr) check_path(path);
-  files_.writes(option, path);
-  written_.push_back(path);
+FieldRun& FieldRun::writes(const std::string& option, const core::FileTarget& target, CheckPath check_path) {
+  if (target.path.empty()) return *this;
+  if (check_path != nullptr) check_path(target);
+  files_.writes(option, target);
+  written_.push_back(target);
   return *this;
 }
 
-FieldRun& FieldRun::writes_document(const std::string& option, const std::filesystem::path& path) {
-  files_.writes_document(option, path);
+FieldRun& FieldRun::writes_document(const std::string& option, const core::FileTarget& target) {
+  files_.writes_document(option, target);
   return *this;
 }
 
@@ -112,7 +115,7 @@ FieldRun& FieldRun::reads_of_field(const std::string& specification, const std::
 
 void FieldRun::check_files() const {
   files_.check();
-  for (const std::filesystem::path& path : written_) check_writable(path);
+  for (const core::FileTarget& target : written_) check_writable(target);
 }
 
 void FieldRun::read() {

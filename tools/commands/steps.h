@@ -12,6 +12,7 @@
 
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/commands/commands.h"
+#include "morsel/tools/commands/output_target.h"
 #include "morsel/tools/report/field_document.h"
 #include "morsel/tools/report/hashed_mesh.h"
 #include "morsel/tools/report/output_check.h"
@@ -24,7 +25,7 @@ namespace morsel::tools {
 
 /// Throws WriteFailed unless a file could be written there. An empty path stands for none; a pipe is not
 /// opened, since closing it again would end its reader.
-void check_writable(const std::filesystem::path& path);
+void check_writable(const core::FileTarget& target);
 
 /// The folder of results at `path`, which knows the run's other outputs; null if the path is empty. Throws as
 /// ResultFolder.
@@ -37,6 +38,8 @@ struct MeshInput {
 
   HashedFile file() const { return {about.mesh_path, about.mesh_sha256}; }
 };
+/// Throws InvalidArgument: standard input has no name that says which of the formats it has.
+[[noreturn]] void fail_without_format(const std::vector<std::string>& formats);
 /// MESH as the command line names it: a file, or - for standard input, of which all is read at its first use.
 /// Throws InvalidArgument where - has no --format, BadInput as standard_input().
 MeshOrigin mesh_file(const std::string& path, const Run& run);
@@ -63,13 +66,12 @@ class FieldRun {
   FieldRun& operator=(const FieldRun&) = delete;
 
   /// Throws InvalidArgument if a file's name has an extension that is not written.
-  using CheckPath = void (*)(const std::filesystem::path& path);
+  using CheckPath = void (*)(const core::FileTarget& target);
   /// Adds an output that is written when all is computed; an empty path stands for none. Throws as
   /// `check_path`.
-  FieldRun& writes(const std::string& option, const std::filesystem::path& path,
-                   CheckPath check_path = nullptr);
+  FieldRun& writes(const std::string& option, const core::FileTarget& target, CheckPath check_path = nullptr);
   /// Adds a document, which a DocumentTarget opens. Throws InvalidArgument if it is named as a mesh.
-  FieldRun& writes_document(const std::string& option, const std::filesystem::path& path);
+  FieldRun& writes_document(const std::string& option, const core::FileTarget& target);
   /// Adds a file that is read besides MESH.
   FieldRun& reads(const std::string& option, const std::filesystem::path& path);
   /// Adds the files that keys of another field name.
@@ -105,7 +107,7 @@ class FieldRun {
   FieldPlan plan_;
   HashedFile file_;
   RunFiles files_;  // MESH, what keys of the field name, and what was added
-  std::vector<std::filesystem::path> written_;
+  std::vector<core::FileTarget> written_;
   std::optional<core::WholeMesh> mesh_;
   double load_seconds_ = 0;
   std::optional<MadeField> made_;

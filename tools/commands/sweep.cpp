@@ -53,9 +53,10 @@ int sweep(const Options& options, const Run& run) {
   RunFiles named;
   named.reads_mesh(options.mesh, run.common.format).reads_mask(run.common.build);
   for (const std::string& field : fields_of(prepared)) named.reads_of_field(field);
-  write_table(named, options.output).fills("--figures", options.figure_folder).check();
+  const core::FileTarget output = output_target(options.output, run);
+  write_table(named, output).fills("--figures", options.figure_folder).check();
   const std::unique_ptr<ResultFolder> figures = open_folder(options.figure_folder, named, run);
-  TableTarget target(options.output);
+  TableTarget target(output);
 
   const MeshInput input = read_input(options.mesh, functions_of(prepared), run);
   const std::vector<HashedFile> files = input_files(fields_of(prepared), prepared.registry);
@@ -82,8 +83,8 @@ int sweep(const Options& options, const Run& run) {
     const Json request = request_section(options.request, prepared, run.common.build);
     plot::write_plots(*figures, plots_of(report), Provenance(run.common.command, request, inputs));
   }
-  target.show(sweep_table(report));
-  target.tell("sweep", run.console);
+  show(sweep_table(report), run);
+  target.tell("sweep", run);
   if (figures) run.console.message("plots: " + options.figure_folder);
   return kDone;
 }
@@ -107,14 +108,11 @@ void add_sweep(Program& program) {
           "A..B..xF by the factor F; numbers may have a unit (2eps..16eps..x2). KEY is one of the method or "
           "of the field; where several have it, it is field.KEY, NAME.KEY or, with the number of the step, "
           "2.KEY");
-  command
-      .path("-o,--output", options->output,
-            "Write a row a combination (.json or .csv) here; - is standard output")
-      .value("OUT")
-      .shapes_nothing()
+  add_table_option(command, options->output,
+                   "Write a row a combination (.json or .csv) here; - is standard output")
       .in_detail(
-          "- is JSON. Should it be interrupted, OUT.journal holds what is done, and the same command goes on "
-          "from there");
+          "Should it be interrupted, OUT.journal holds what is done, and the same command goes on from "
+          "there");
   command
       .path("--figures", options->figure_folder,
             "Write plots of counts against each parameter (.svg, .png) here")

@@ -1,27 +1,34 @@
 #include "morsel/tools/commands/table_target.h"
 
+#include <utility>
+
 #include "morsel/core/io/file_extension.h"
 
 namespace morsel::tools {
 
 namespace {
 
-std::string journal_path(const std::string& path) { return path + ".journal"; }
+std::string journal_path(const core::FileTarget& file) { return file.path.string() + ".journal"; }
 
-bool is_csv(const std::string& path) { return core::file_extension(path) == ".csv"; }
+std::string table_extension(const core::FileTarget& target) {
+  return core::checked_extension(target, "a table is written", {".json", ".csv"});
+}
 
 }  // namespace
 
-RunFiles& write_table(RunFiles& files, const std::string& path) {
-  if (path.empty() || path == "-") return files;
-  core::checked_extension(path, "a table is written", {".json", ".csv"});
-  return files.writes("-o", path).writes("the journal of -o", journal_path(path));
+Option& add_table_option(Command& command, std::string& output, std::string help) {
+  return command.output("-o,--output", output, {{"json", "csv"}, "json"}, std::move(help)).value("OUT");
 }
 
-TableTarget::TableTarget(const std::string& path) : DocumentTarget(path) {}
+RunFiles& write_table(RunFiles& files, const core::FileTarget& target) {
+  if (target.path.empty()) return files;
+  static_cast<void>(table_extension(target));
+  files.writes("-o", target);
+  return target.is_open_file() ? files : files.writes("the journal of -o", journal_path(target));
+}
 
 Journal* TableTarget::open_journal(const Json& key) {
-  if (is_file()) journal_.emplace(journal_path(path()), key);
+  if (is_wanted() && !target().is_open_file()) journal_.emplace(journal_path(target()), key);
   return journal_ ? &*journal_ : nullptr;
 }
 
@@ -29,13 +36,13 @@ void TableTarget::tell_journal(std::size_t count, const std::string& of_what, Co
   if (!journal_) return;
   for (const std::string& warning : journal_->warnings()) console.warning(warning);
   if (count > 0)
-    console.message("resuming with " + std::to_string(count) + of_what + ": " + journal_path(path()));
+    console.message("resuming with " + std::to_string(count) + of_what + ": " + journal_path(target()));
 }
 
 void TableTarget::write(const std::function<void(JsonSink&)>& as_json,
                         const std::function<void(std::ostream&)>& as_csv) {
   if (!is_wanted()) return;
-  if (is_csv(path()))
+  if (table_extension(target()) == ".csv")
     as_csv(stream());
   else
     as_json(json());

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a command's table goes: a JSON or CSV file, standard output as JSON, or nowhere.
+/// Where a command's table goes: a JSON or CSV file, standard output, or nowhere.
 
 #include <cstddef>
 #include <functional>
@@ -13,15 +13,17 @@
 
 namespace morsel::tools {
 
-/// Adds what a TableTarget at this path writes. Throws InvalidArgument on another extension.
-RunFiles& write_table(RunFiles& files, const std::string& path);
+/// The option of a table: -o, --output, and --as.
+Option& add_table_option(Command& command, std::string& output, std::string help);
+
+/// Adds what a TableTarget writes there. Throws InvalidArgument on another extension.
+RunFiles& write_table(RunFiles& files, const core::FileTarget& target);
 
 /// A document that can be a table (.csv), too, and what an interrupted run leaves of it.
 class TableTarget : public DocumentTarget {
  public:
-  /// `path`: a file that write_table() takes, "-" for JSON on standard output, nothing if it is empty. Throws
-  /// WriteFailed.
-  explicit TableTarget(const std::string& path);
+  /// One that write_table() takes; nothing if its path is empty. Throws WriteFailed.
+  using DocumentTarget::DocumentTarget;
 
   /// OUT.journal, beside a file that is wanted: what the run has done so far, should it be interrupted. Takes
   /// what follows from the same `key` over. Throws as Journal.

@@ -64,10 +64,10 @@ std::string metadata(const std::string& name, const std::string& value) {
 }
 
 /// `table` is the element LabelTable.
-void write_gifti(const std::filesystem::path& path, const std::string& intent, const std::string& type,
+void write_gifti(const core::FileTarget& target, const std::string& intent, const std::string& type,
                  const std::string& name, std::size_t count, const std::string& data,
                  const std::string& table, const Provenance& provenance) {
-  core::FileWriter file(path);
+  core::FileWriter file(target);
   file.write(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<!DOCTYPE GIFTI SYSTEM \"http://gifti.projects.nitrc.org/gifti.dtd\">\n"
@@ -113,7 +113,7 @@ std::vector<Rgb> distinct_colors(std::span<const Rgb> colors) {
   return distinct;
 }
 
-void write_annotation(const std::filesystem::path& path, const BrainLabels& labels,
+void write_annotation(const core::FileTarget& target, const BrainLabels& labels,
                       const Provenance& provenance) {
   const std::vector<Rgb> colors = distinct_colors(labels.colors);
   BigEndianText text;
@@ -140,10 +140,10 @@ void write_annotation(const std::filesystem::path& path, const BrainLabels& labe
   text.add(std::uint32_t{0});
   text.add(static_cast<std::uint32_t>(origin.size()));
   text.add_raw(origin);
-  core::write_file(path, text.bytes());
+  core::write_file(target, text.bytes());
 }
 
-void write_gifti_labels(const std::filesystem::path& path, const BrainLabels& labels,
+void write_gifti_labels(const core::FileTarget& target, const BrainLabels& labels,
                         const Provenance& provenance) {
   std::string table =
       "<LabelTable>\n<Label Key=\"-1\" Red=\"1\" Green=\"1\" Blue=\"1\" Alpha=\"0\">???"
@@ -155,13 +155,13 @@ void write_gifti_labels(const std::filesystem::path& path, const BrainLabels& la
              "</Label>\n";
   }
   table += "</LabelTable>\n";
-  write_gifti(path, "NIFTI_INTENT_LABEL", "NIFTI_TYPE_INT32", labels.name, labels.of_vertex.size(),
+  write_gifti(target, "NIFTI_INTENT_LABEL", "NIFTI_TYPE_INT32", labels.name, labels.of_vertex.size(),
               encoded<std::int32_t>(labels.of_vertex), table, provenance);
 }
 
-void write_gifti_values(const std::filesystem::path& path, std::span<const double> values,
+void write_gifti_values(const core::FileTarget& target, std::span<const double> values,
                         const std::string& intent, const std::string& name, const Provenance& provenance) {
-  write_gifti(path, intent, "NIFTI_TYPE_FLOAT32", name, values.size(), encoded<float>(values),
+  write_gifti(target, intent, "NIFTI_TYPE_FLOAT32", name, values.size(), encoded<float>(values),
               "<LabelTable/>\n", provenance);
 }
 

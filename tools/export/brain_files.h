@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "morsel/core/io/file_writer.h"
 #include "morsel/tools/report/provenance.h"
 
 namespace morsel::tools {
@@ -23,15 +23,15 @@ struct BrainLabels {
 /// annotation 0, which no entry has: readers show it as unknown. Labels are told apart by their colours
 /// there, so a colour that several labels have is changed in its last bits (distinct_colors()). The
 /// provenance follows the table, under FreeSurfer's tag for a command line. Throws WriteFailed.
-void write_annotation(const std::filesystem::path& path, const BrainLabels& labels,
+void write_annotation(const core::FileTarget& target, const BrainLabels& labels,
                       const Provenance& provenance);
 
 /// GIFTI labels: keys are the labels, −1 is "???" and transparent. Throws WriteFailed.
-void write_gifti_labels(const std::filesystem::path& path, const BrainLabels& labels,
+void write_gifti_labels(const core::FileTarget& target, const BrainLabels& labels,
                         const Provenance& provenance);
 
 /// GIFTI values in single precision, with this intent ("NIFTI_INTENT_SHAPE") and name. Throws WriteFailed.
-void write_gifti_values(const std::filesystem::path& path, std::span<const double> values,
+void write_gifti_values(const core::FileTarget& target, std::span<const double> values,
                         const std::string& intent, const std::string& name, const Provenance& provenance);
 
 /// The same colours, each once and none of them black: of equal ones all but the first are changed in as few

@@ -12,32 +12,32 @@
 namespace morsel::tools {
 namespace {
 
-bool is_ply(const std::filesystem::path& path) {
-  return core::checked_extension(path, "a cut mesh is written", {".off", ".ply"}) == ".ply";
+bool is_ply(const core::FileTarget& target) {
+  return core::checked_extension(target, "a cut mesh is written", {".off", ".ply"}) == ".ply";
 }
 
 }  // namespace
 
-void check_cut_mesh_path(const std::filesystem::path& path) { is_ply(path); }
+void check_cut_mesh_path(const core::FileTarget& target) { is_ply(target); }
 
-void write_cut_mesh(const std::filesystem::path& path, const mscomplex::CutMesh& cut,
+void write_cut_mesh(const core::FileTarget& target, const mscomplex::CutMesh& cut,
                     const core::VertexNumbering& numbering, const Provenance& provenance,
                     const core::Progress& progress) {
-  if (!is_ply(path)) {
-    core::write_off(path, cut.mesh, provenance.lines(), progress);
+  if (!is_ply(target)) {
+    core::write_off(target, cut.mesh, provenance.lines(), progress);
     return;
   }
   core::VertexProperty input_vertex{"input_vertex", std::vector<double>(cut.mesh.vertex_count())};
   for (core::Index v = 0; v < cut.mesh.vertex_count(); ++v)
     input_vertex.values[v] = numbering.input_vertex(cut.original(v));
-  core::write_ply(path, cut.mesh, {&input_vertex, 1}, provenance.lines(), progress);
+  core::write_ply(target, cut.mesh, {&input_vertex, 1}, provenance.lines(), progress);
 }
 
-void check_cut_graph_path(const std::filesystem::path& path) {
-  core::checked_extension(path, "a cut is written for ParaView", {".vtp"});
+void check_cut_graph_path(const core::FileTarget& target) {
+  core::checked_extension(target, "a cut is written for ParaView", {".vtp"});
 }
 
-void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGraph& cut,
+void write_cut_graph(const core::FileTarget& target, const mscomplex::CutGraph& cut,
                      const core::LoadedMesh& loaded, const Provenance& provenance) {
   std::vector<core::Point> points;
   std::vector<core::Index> vertices;
@@ -60,7 +60,7 @@ void write_cut_graph(const std::filesystem::path& path, const mscomplex::CutGrap
   document.cell_arrays = {{"length", std::span<const double>(lengths)},
                           {"component", std::span<const core::Index>(components), core::kNone}};
   document.provenance = provenance.json();
-  write_vtp(path, document);
+  write_vtp(target, document);
 }
 
 }  // namespace morsel::tools

@@ -20,16 +20,14 @@ namespace {
 
 constexpr const char* kChosen = "chosen";
 
-/// Standard output, which has no extension, takes text.
-std::string extension_of(const std::filesystem::path& path) {
-  if (path == kStandardOutput) return ".txt";
-  return core::checked_extension(path, "a field is written",
+std::string extension_of(const core::FileTarget& target) {
+  return core::checked_extension(target, "a field is written",
                                  {".txt", ".ply", ".vtp", ".glb", ".shape.gii", ".func.gii"});
 }
 
-void write_text(const std::filesystem::path& path, std::span<const double> values,
+void write_text(const core::FileTarget& target, std::span<const double> values,
                 const Provenance& provenance) {
-  core::FileWriter file(path);
+  core::FileWriter file(target);
   file.write(provenance.text_comment());
   for (const double value : values) {
     file.write_number(value);
@@ -50,17 +48,17 @@ std::vector<std::int32_t> chosen_order(const MadePoints& chosen, const core::Tri
 
 }  // namespace
 
-void check_field_path(const std::filesystem::path& path) { extension_of(path); }
+void check_field_path(const core::FileTarget& target) { extension_of(target); }
 
-bool holds_points(const std::filesystem::path& field_path) {
-  const std::string extension = extension_of(field_path);
+bool holds_points(const core::FileTarget& field) {
+  const std::string extension = extension_of(field);
   return extension == ".ply" || extension == ".vtp" || extension == ".glb";
 }
 
-void write_field(const std::filesystem::path& path, const FieldSource& source,
+void write_field(const core::FileTarget& target, const FieldSource& source,
                  std::span<const core::Point> input_positions, const Provenance& provenance,
                  const MadePoints* chosen) {
-  const std::string extension = extension_of(path);
+  const std::string extension = extension_of(target);
   const core::ScalarField& field = source.made.field();
   const core::VertexNumbering& numbering = source.loaded.source.numbering;
   const std::string& name = source.made.input.name;
@@ -68,16 +66,16 @@ void write_field(const std::filesystem::path& path, const FieldSource& source,
     GlbScene scene(field.mesh());
     scene.add_surface(value_colors(field.values()));
     scene.add_marks(chosen != nullptr ? marks_of(*chosen) : marks_of(morse::classify(field)));
-    scene.write(path, provenance);
+    scene.write(target, provenance);
     return;
   }
   const std::vector<double> values = by_input_vertex(field, numbering);
   if (extension == ".txt") {
-    write_text(path, values, provenance);
+    write_text(target, values, provenance);
     return;
   }
   if (extension.ends_with(".gii")) {
-    write_gifti_values(path, values, extension == ".shape.gii" ? "NIFTI_INTENT_SHAPE" : "NIFTI_INTENT_NONE",
+    write_gifti_values(target, values, extension == ".shape.gii" ? "NIFTI_INTENT_SHAPE" : "NIFTI_INTENT_NONE",
                        name, provenance);
     return;
   }
@@ -99,14 +97,14 @@ void write_field(const std::filesystem::path& path, const FieldSource& source,
     }
     if (chosen != nullptr) document.point_arrays.emplace_back(kChosen, std::span<const std::int32_t>(order));
     document.provenance = provenance.json();
-    write_vtp(path, document);
+    write_vtp(target, document);
   } else {
     std::vector<core::PropertyView> properties = {{name, std::span<const double>(values)}};
     if (chosen != nullptr) properties.emplace_back(kChosen, std::span<const std::int32_t>(order));
     const PlyColors colors(to_bytes(value_colors(values)));
     add_quality(properties, values);
     colors.add_to(properties);
-    core::write_ply(path, input_positions, triangles, properties, {}, provenance.lines());
+    core::write_ply(target, input_positions, triangles, properties, {}, provenance.lines());
   }
 }
 

@@ -31,8 +31,11 @@ std::vector<std::int32_t> by_input_vertex(std::span<const core::Index> label,
   return result;
 }
 
-std::string label_extension(const fs::path& path) {
-  return core::checked_extension(path, "labels are written",
+std::string label_extension(const core::FileTarget& target) {
+  if (target.is_open_file())
+    return core::checked_extension(target, "labels are written",
+                                   {".ply", ".vtp", ".annot", ".label.gii", ".glb"});
+  return core::checked_extension(target, "labels are written",
                                  {".ply", ".vtp", ".txt", ".annot", ".label.gii", ".glb"});
 }
 
@@ -49,35 +52,36 @@ void write_lines(core::FileWriter& file, std::span<const std::int32_t> labels, c
 
 }  // namespace
 
-std::vector<fs::path> label_files(const fs::path& path) {
-  if (label_extension(path) != ".txt") return {path};
-  fs::path base = path;
+std::vector<core::FileTarget> label_files(const core::FileTarget& target) {
+  if (label_extension(target) != ".txt") return {target};
+  fs::path base = target.path;
+  const std::string extension = base.extension().string();
   base.replace_extension();
-  return {base.string() + ".vertices" + path.extension().string(),
-          base.string() + ".faces" + path.extension().string()};
+  return {base.string() + ".vertices" + extension, base.string() + ".faces" + extension};
 }
 
-std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, const core::ScalarField& field,
-                                   const std::string& field_name, const core::VertexNumbering& numbering,
-                                   std::span<const core::Point> input_positions,
-                                   const Provenance& provenance) {
-  std::vector<fs::path> files = label_files(path);
-  if (core::file_extension(path) == ".glb") {
+std::vector<core::FileTarget> write_labels(const core::FileTarget& target, const Labels& labels,
+                                           const core::ScalarField& field, const std::string& field_name,
+                                           const core::VertexNumbering& numbering,
+                                           std::span<const core::Point> input_positions,
+                                           const Provenance& provenance) {
+  std::vector<core::FileTarget> files = label_files(target);
+  const std::string extension = label_extension(target);
+  if (extension == ".glb") {
     GlbScene scene(field.mesh());
     scene.add_segments(labels.triangle, color_labels(field.mesh(), labels.vertex, labels.triangle));
-    scene.write(path, provenance);
+    scene.write(target, provenance);
     return files;
   }
   const std::vector<std::int32_t> at_vertices = by_input_vertex(labels.vertex, numbering);
-  if (const std::string extension = label_extension(path);
-      extension == ".annot" || extension == ".label.gii") {
+  if (extension == ".annot" || extension == ".label.gii") {
     const std::vector<ColorBytes> colors =
         to_bytes(color_labels(field.mesh(), labels.vertex, labels.triangle));
     const BrainLabels brain{labels.name, at_vertices, colors};
     if (extension == ".annot")
-      write_annotation(path, brain, provenance);
+      write_annotation(target, brain, provenance);
     else
-      write_gifti_labels(path, brain, provenance);
+      write_gifti_labels(target, brain, provenance);
     return files;
   }
   const std::vector<std::int32_t> at_triangles(labels.triangle.begin(), labels.triangle.end());
@@ -91,7 +95,7 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
     return files;
   }
   const std::vector<core::Triangle> triangles = on_input_vertices(field.mesh(), numbering);
-  if (core::file_extension(path) == ".ply") {
+  if (extension == ".ply") {
     const std::vector<Color> palette = color_labels(field.mesh(), labels.vertex, labels.triangle);
     const PlyColors vertex_colors(to_bytes(label_colors(at_vertices, palette)));
     const PlyColors face_colors(to_bytes(label_colors(at_triangles, palette)));
@@ -99,7 +103,7 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
     std::vector<core::PropertyView> of_faces = {{labels.name, std::span<const std::int32_t>(at_triangles)}};
     vertex_colors.add_to(of_vertices);
     face_colors.add_to(of_faces);
-    core::write_ply(path, input_positions, triangles, of_vertices, of_faces, provenance.lines());
+    core::write_ply(target, input_positions, triangles, of_vertices, of_faces, provenance.lines());
     return files;
   }
   const std::vector<double> values = by_input_vertex(field, numbering);
@@ -110,7 +114,7 @@ std::vector<fs::path> write_labels(const fs::path& path, const Labels& labels, c
                            {field_name, std::span<const double>(values)}};
   document.cell_arrays = {{labels.name, std::span<const std::int32_t>(at_triangles)}};
   document.provenance = provenance.json();
-  write_vtp(path, document);
+  write_vtp(target, document);
   return files;
 }
 

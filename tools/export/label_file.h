@@ -1,12 +1,12 @@
 #pragma once
 /// Labels of vertices and triangles as files: PLY, VTP, GLB, text, and for FreeSurfer and GIFTI.
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "morsel/core/field/scalar_field.h"
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/io/mesh_io.h"
 #include "morsel/tools/report/provenance.h"
 
@@ -33,14 +33,14 @@ struct Labels {
 /// that repair dropped. Returns what was written. Throws InvalidArgument on another ending, WriteFailed where
 /// writing fails; of the two text files then none or, should the second fail as it is finished, the first
 /// alone is there.
-std::vector<std::filesystem::path> write_labels(const std::filesystem::path& path, const Labels& labels,
-                                                const core::ScalarField& field, const std::string& field_name,
-                                                const core::VertexNumbering& numbering,
-                                                std::span<const core::Point> input_positions,
-                                                const Provenance& provenance);
+std::vector<core::FileTarget> write_labels(const core::FileTarget& target, const Labels& labels,
+                                           const core::ScalarField& field, const std::string& field_name,
+                                           const core::VertexNumbering& numbering,
+                                           std::span<const core::Point> input_positions,
+                                           const Provenance& provenance);
 
-/// The files that write_labels() would write. Throws InvalidArgument unless it knows the path's ending; to be
-/// called before long work.
-std::vector<std::filesystem::path> label_files(const std::filesystem::path& path);
+/// The files that write_labels() would write; an open file takes all formats but .txt. Throws InvalidArgument
+/// unless it knows the ending; to be called before long work.
+std::vector<core::FileTarget> label_files(const core::FileTarget& target);
 
 }  // namespace morsel::tools

@@ -58,8 +58,8 @@ std::vector<std::int32_t> chosen_order(const MadePoints& made, core::Index verti
   return order;
 }
 
-void check_points_path(const std::filesystem::path& path) {
-  core::checked_extension(path, "points are written", {".csv", ".json", ".ply", ".vtp", ".glb"});
+void check_points_path(const core::FileTarget& target) {
+  core::checked_extension(target, "points are written", {".csv", ".json", ".ply", ".vtp", ".glb"});
 }
 
 void write_points_table(const core::FileTarget& target, const MadePoints& made,
@@ -87,19 +87,19 @@ void write_points_table(const core::FileTarget& target, const MadePoints& made,
   file.commit();
 }
 
-void write_points(const std::filesystem::path& path, const MadePoints& made, const FieldSource& source,
+void write_points(const core::FileTarget& target, const MadePoints& made, const FieldSource& source,
                   const Provenance& provenance) {
   const std::string extension =
-      core::checked_extension(path, "points are written", {".csv", ".ply", ".vtp", ".glb"});
+      core::checked_extension(target, "points are written", {".csv", ".ply", ".vtp", ".glb"});
   if (extension == ".csv") {
-    write_points_table(path, made, source.loaded, source.made.input.name, provenance);
+    write_points_table(target, made, source.loaded, source.made.input.name, provenance);
     return;
   }
   if (extension == ".glb") {
     GlbScene scene(source.loaded.mesh);
     scene.add_surface(value_colors(source.made.field().values()));
     scene.add_marks(marks_of(made));
-    scene.write(path, provenance);
+    scene.write(target, provenance);
     return;
   }
   const Columns columns = columns_of(made, source.loaded, source.made.field());
@@ -115,7 +115,7 @@ void write_points(const std::filesystem::path& path, const MadePoints& made, con
     const PlyColors colors(to_bytes(colors_of_types));
     add_quality(properties, columns.real.front().second);
     colors.add_to(properties);
-    core::write_ply(path, columns.positions, {}, properties, {}, provenance.lines());
+    core::write_ply(target, columns.positions, {}, properties, {}, provenance.lines());
     return;
   }
   VtpDocument document;
@@ -127,7 +127,7 @@ void write_points(const std::filesystem::path& path, const MadePoints& made, con
   for (const auto& [name, values] : columns.real)
     document.point_arrays.emplace_back(name, std::span<const double>(values));
   document.provenance = provenance.json();
-  write_vtp(path, document);
+  write_vtp(target, document);
 }
 
 }  // namespace morsel::tools

@@ -2,7 +2,6 @@
 /// Chosen points as files: a table, a cloud of points for other programs.
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,7 +23,7 @@ namespace morsel::tools {
 ///   (glb_scene.h)
 /// Infinite numbers are "inf"; a percentile that was not asked for is empty, or nan. Throws InvalidArgument
 /// on another ending, WriteFailed where writing fails.
-void write_points(const std::filesystem::path& path, const MadePoints& made, const FieldSource& source,
+void write_points(const core::FileTarget& target, const MadePoints& made, const FieldSource& source,
                   const Provenance& provenance);
 
 /// The table (.csv) alone, at any path; `sync` as FileWriter's.
@@ -37,6 +36,6 @@ std::vector<std::int32_t> chosen_order(const MadePoints& made, core::Index verti
 
 /// Throws InvalidArgument unless write_points() knows the path's ending, or it is .json, whose document
 /// points_writer.h makes; to be called before long work.
-void check_points_path(const std::filesystem::path& path);
+void check_points_path(const core::FileTarget& target);
 
 }  // namespace morsel::tools

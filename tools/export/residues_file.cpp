@@ -365,13 +365,14 @@ void write_csv(core::FileWriter& file, std::span<const Atom> atoms, std::span<co
 
 }  // namespace
 
-std::string residues_extension(const std::filesystem::path& path) {
-  return core::checked_extension(path, "residues of segments are written", {".pml", ".cxc", ".pdb", ".csv"});
+std::string residues_extension(const core::FileTarget& target) {
+  return core::checked_extension(target, "residues of segments are written",
+                                 {".pml", ".cxc", ".pdb", ".csv"});
 }
 
 void write_residues(const core::FileTarget& target, std::span<const Atom> atoms,
                     std::span<const SegmentedAtoms> levels, bool with_levels, const Provenance& provenance) {
-  const std::string extension = residues_extension(target.path);
+  const std::string extension = residues_extension(target);
   core::FileWriter file(target);
   if (extension == ".pdb") {
     file.write(provenance.pdb_remark());

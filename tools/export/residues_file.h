@@ -1,7 +1,6 @@
 #pragma once
 /// The residues and atoms at the segments of a molecular surface, for PyMOL, ChimeraX and others.
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,7 +20,7 @@ struct SegmentedAtoms {
 };
 
 /// ".pml", ".cxc", ".pdb" or ".csv", of the file's name. Throws InvalidArgument on another one.
-std::string residues_extension(const std::filesystem::path& path);
+std::string residues_extension(const core::FileTarget& target);
 
 /// Writes them in the format of the extension, the levels one after the other (`with_levels`: named by their
 /// numbers, 0 the finest; otherwise there is one):

@@ -48,18 +48,21 @@ RunFiles& RunFiles::reads_folder(const std::string& option, const std::filesyste
   return *this;
 }
 
-RunFiles& RunFiles::writes(const std::string& option, const std::filesystem::path& file) {
-  add(outputs_, option, file);
+RunFiles& RunFiles::writes(const std::string& option, const core::FileTarget& target) {
+  if (target.is_open_file())  // which may be a file that is read, too
+    outputs_.push_back({option, target.path, file_place(target.descriptor), true});
+  else
+    add(outputs_, option, target.path);
   return *this;
 }
 
-RunFiles& RunFiles::writes_document(const std::string& option, const std::filesystem::path& file) {
-  return file == "-" ? *this : writes_no_mesh(option, file);
+RunFiles& RunFiles::writes_document(const std::string& option, const core::FileTarget& target) {
+  return writes_no_mesh(option, target);
 }
 
-RunFiles& RunFiles::writes_no_mesh(const std::string& option, const std::filesystem::path& file) {
-  add(no_meshes_, option, file);
-  return writes(option, file);
+RunFiles& RunFiles::writes_no_mesh(const std::string& option, const core::FileTarget& target) {
+  if (!target.is_open_file()) add(no_meshes_, option, target.path);
+  return writes(option, target);
 }
 
 RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path& folder) {
@@ -69,7 +72,7 @@ RunFiles& RunFiles::fills(const std::string& option, const std::filesystem::path
 
 void RunFiles::refuse_lists() const {
   for (const Named& output : outputs_)
-    if (core::followed(output.path).filename() == FileList::kName)
+    if (!output.is_open_file && core::followed(output.path).filename() == FileList::kName)
       throw core::InvalidArgument(output.text() +
                                   " is the list of files of a folder of results; it is not written to");
 }
@@ -103,7 +106,8 @@ void RunFiles::check() const {
 
 std::vector<std::filesystem::path> RunFiles::outputs() const {
   std::vector<std::filesystem::path> paths;
-  for (const Named& output : outputs_) paths.push_back(output.path);
+  for (const Named& output : outputs_)
+    if (!output.is_open_file) paths.push_back(output.path);
   return paths;
 }
 

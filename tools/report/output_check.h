@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "morsel/core/io/file_writer.h"
 #include "morsel/core/mesh/mesh_builder.h"
 #include "morsel/tools/results/file_place.h"
 #include "morsel/tools/study/registry.h"
@@ -12,7 +13,7 @@
 namespace morsel::tools {
 
 /// Every file and folder that a run names, with the option of the command line, or the argument in Python,
-/// that does ("-o", "MESH"). Empty paths, and "-" for a document, stand for none.
+/// that does ("-o", "MESH"). Empty paths stand for none.
 class RunFiles {
  public:
   RunFiles& reads(const std::string& option, const std::filesystem::path& file);
@@ -28,11 +29,11 @@ class RunFiles {
   RunFiles& reads_of_field(const std::string& specification, const std::string& option = "--field",
                            const Registry& registry = Registry::standard());
   RunFiles& reads_folder(const std::string& option, const std::filesystem::path& folder);
-  RunFiles& writes(const std::string& option, const std::filesystem::path& file);
+  RunFiles& writes(const std::string& option, const core::FileTarget& target);
   /// A file of a format that is no mesh's: named as a mesh, it could replace one that was meant to be read.
-  RunFiles& writes_no_mesh(const std::string& option, const std::filesystem::path& file);
+  RunFiles& writes_no_mesh(const std::string& option, const core::FileTarget& target);
   /// The same for a document.
-  RunFiles& writes_document(const std::string& option, const std::filesystem::path& file);
+  RunFiles& writes_document(const std::string& option, const core::FileTarget& target);
   /// A folder of results (result_folder.h).
   RunFiles& fills(const std::string& option, const std::filesystem::path& folder);
 
@@ -42,7 +43,7 @@ class RunFiles {
   /// times; two options may fill one folder, and an output file may lie in it.
   void check() const;
 
-  /// Those of writes().
+  /// Those of writes(), but for open files.
   std::vector<std::filesystem::path> outputs() const;
 
  private:
@@ -50,6 +51,7 @@ class RunFiles {
     std::string option;
     std::filesystem::path path;
     FilePlace place;
+    bool is_open_file = false;
     std::string text() const { return option + " " + path.string(); }
   };
   /// Of folders of results, also through links.

@@ -47,6 +47,12 @@ FilePlace file_place(const fs::path& path) {
   return place;
 }
 
+FilePlace file_place(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) return {0, 0, "", true, true};
+  return {status.st_dev, status.st_ino, "", !S_ISREG(status.st_mode), true};
+}
+
 bool is_in(const fs::path& path, const fs::path& folder) {
   const FilePlace outer = file_place(folder);
   std::error_code error;

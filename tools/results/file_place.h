@@ -25,6 +25,8 @@ struct FilePlace {
 };
 
 FilePlace file_place(const std::filesystem::path& path);
+/// That of an open file; of one that is not open nothing's.
+FilePlace file_place(int descriptor);
 
 /// Whether the path is the folder or lies in it, through links; neither has to exist.
 bool is_in(const std::filesystem::path& path, const std::filesystem::path& folder);
