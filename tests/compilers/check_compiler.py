@@ -5,8 +5,9 @@
 
 COMMANDS is the compile_commands.json of a build, with whatever compiler; what it compiles in the folders (by
 default those of the modules and of the program) is read by COMPILER with the same options, -fsyntax-only and
--Werror. Ninja does the work in WORK and reads a source again only if it, or a header of it, has changed.
-Where many sources share their options, the headers that most of them need are read once for all of them.
+-Werror. Sources that a unity build joins are read together, so that templates are instantiated once for all
+of them. Ninja does the work in WORK and reads sources again only if one, or a header of one, has changed.
+Where many of them share their options, the headers that most of them need are read once for all.
 """
 
 import argparse
@@ -59,12 +60,20 @@ def sources_of(file):
 
 
 def checks(commands, root, folders):
-    """Yields (source, directory, options) for each source of the build in one of the folders of `root`."""
+    """Yields (sources, directory, options) for what the build compiles, at once, of the folders of `root`."""
     for entry in commands:
-        for source in sources_of(pathlib.Path(entry["directory"], entry["file"]).resolve()):
-            if any(source.is_relative_to(root / folder) for folder in folders):
-                words = entry.get("arguments") or shlex.split(entry["command"])
-                yield source, entry["directory"], tuple(o for o in options_of(words) if o != entry["file"])
+        file = pathlib.Path(entry["directory"], entry["file"]).resolve()
+        sources = [source for source in sources_of(file)
+                   if any(source.is_relative_to(root / folder) for folder in folders)]
+        if sources:
+            words = entry.get("arguments") or shlex.split(entry["command"])
+            yield sources, entry["directory"], tuple(o for o in options_of(words) if o != entry["file"])
+
+
+def joined(sources):
+    """The text of several sources as one. They are not included: of what stands in included files a compiler
+    reports less, such as no unused variables."""
+    return "".join(f'#line 1 "{source}"\n{source.read_text(encoding="utf-8")}\n' for source in sources)
 
 
 def escaped(text):
@@ -72,37 +81,56 @@ def escaped(text):
 
 
 def ninja_file(compiler, checks, work, root):
-    """The build that reads each source, and the headers that it wants: {path: text}."""
+    """The build that reads the sources, and the headers and joined sources that it wants: {path: text}."""
     by_options = collections.defaultdict(list)
-    for source, directory, options in checks:
-        by_options[directory, options].append(source)
+    for sources, directory, options in checks:
+        by_options[directory, options].append(sources)
     run = f"cd $in_folder && {shlex.quote(compiler)} $options -Werror -MD -MF $out.d -MT $out"
     lines = ["rule read", f"  command = {run} -fsyntax-only $source && touch $out", "  description = $shown",
              "  depfile = $out.d", "  deps = gcc",
              "rule share", f"  command = {run} -fpch-instantiate-templates -x c++-header $source -o $out",
              "  description = the headers that many need",
              "  depfile = $out.d", "  deps = gcc"]
-    headers = {}
-    for number, ((directory, options), sources) in enumerate(sorted(by_options.items())):
+    made = {}
+    for number, ((directory, options), units) in enumerate(sorted(by_options.items())):
         used = " ".join(map(shlex.quote, options))
         settings = [f"  in_folder = {escaped(shlex.quote(directory)).replace('$ ', ' ')}"]
         shared = ""
-        if len(sources) >= SHARED_FROM:
+        if len(units) >= SHARED_FROM:
             header = work / f"shared{number}.h"
-            headers[header] = "".join(f"#include <{name}>\n" for name in SHARED)
+            made[header] = "".join(f"#include <{name}>\n" for name in SHARED)
             shared = f"{header}.pch"
             lines += [f"build {escaped(shared)}: share {escaped(header)}", *settings,
                       f"  options = {used}".replace("$", "$$"), f"  source = {shlex.quote(str(header))}"]
-        for source in sources:
-            name = source.relative_to(root if source.is_relative_to(root) else source.anchor)
-            stamp = work / name.with_suffix(".checked")
+        for sources in units:
+            names = [source.relative_to(root if source.is_relative_to(root) else source.anchor)
+                     for source in sources]
+            source, stamp = sources[0], work / names[0].with_suffix(".checked")
+            if len(sources) > 1:
+                source = work / names[0].with_suffix(".joined.cpp")
+                made[source] = joined(sources)
             after = f" | {escaped(shared)}" if shared else ""
             own = f"{used} -include-pch {shlex.quote(shared)}" if shared else used
+            if len(sources) > 1:  # headers that they include from beside them
+                folders = sorted({str(path.parent) for path in sources})
+                own = " ".join([own, *(f"-iquote {shlex.quote(folder)}" for folder in folders)])
             lines += [f"build {escaped(stamp)}: read {escaped(source)}{after}", *settings,
                       f"  options = {own}".replace("$", "$$"), f"  source = {shlex.quote(str(source))}",
-                      f"  shown = {name}"]
+                      f"  shown = {' '.join(map(str, names))}".replace("$", "$$")]
             stamp.parent.mkdir(parents=True, exist_ok=True)
-    return {work / "build.ninja": "\n".join(lines) + "\n", **headers}
+    return {work / "build.ninja": "\n".join(lines) + "\n", **made}
+
+
+def write_changed(texts):
+    """Writes what is to be in the files, {path: text}, where it is not: else all would be read again."""
+    for path, text in texts.items():
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+
+
+def run_ninja(ninja, work, jobs):
+    return subprocess.run([ninja, "-C", work, "-j", str(jobs), "-k", "0", "--quiet"]).returncode
 
 
 def main():
@@ -117,17 +145,14 @@ def main():
     arguments = parser.parse_args()
     work = arguments.work.resolve()
     root = arguments.root.resolve()
-    sources = list(checks(json.loads(arguments.commands.read_text(encoding="utf-8")), root,
-                          arguments.folders))
-    if not sources:
+    units = list(checks(json.loads(arguments.commands.read_text(encoding="utf-8")), root,
+                        arguments.folders))
+    if not units:
         sys.exit(f"{arguments.commands} compiles nothing in {', '.join(arguments.folders)}")
-    work.mkdir(parents=True, exist_ok=True)
-    for path, text in ninja_file(arguments.compiler, sources, work, root).items():
-        if not path.exists() or path.read_text(encoding="utf-8") != text:  # else all would be read again
-            path.write_text(text, encoding="utf-8")
-    print(f"{arguments.compiler}: {len(sources)} sources in {', '.join(arguments.folders)}", flush=True)
-    return subprocess.run([arguments.ninja, "-C", work, "-j", str(arguments.jobs), "-k", "0",
-                           "--quiet"]).returncode
+    write_changed(ninja_file(arguments.compiler, units, work, root))
+    count = sum(len(sources) for sources, _, _ in units)
+    print(f"{arguments.compiler}: {count} sources in {', '.join(arguments.folders)}", flush=True)
+    return run_ninja(arguments.ninja, work, arguments.jobs)
 
 
 if __name__ == "__main__":

@@ -54,15 +54,48 @@ class CheckCompiler(unittest.TestCase):
         self.assertIn("unused variable", text)
         self.assertIn("undeclared identifier", text)
 
-    def test_sources_that_a_unity_build_joins_are_read_one_by_one(self):
-        wrong = self.root / "core/wrong.cpp"
-        wrong.write_text("int g() { return twice(1); }\n", encoding="utf-8")  # declared by the one before
-        self.source("build/Unity/unity_0.cpp",
-                    f'#include "{self.root / "core/clean.cpp"}"\n\n#include "{wrong}"\n')
-        del self.entries[0]
+    def join(self, *names):
+        """A unity source in the place of the sources."""
+        paths = [self.root / name for name in names]
+        self.entries = [entry for entry in self.entries if pathlib.Path(entry["file"]) not in paths]
+        self.source("build/Unity/unity_0.cpp", "\n".join(f'#include "{path}"\n' for path in paths))
+
+    def test_sources_that_a_unity_build_joins_are_read_together(self):
+        self.source("core/warns.cpp",
+                    "int g() { return twice(1); }\nint f(int x) { int unused; return x; }\n")
+        self.join("core/clean.cpp", "core/warns.cpp")
         code, text = self.check()
         self.assertNotEqual(code, 0)
-        self.assertIn("undeclared identifier 'twice'", text)
+        self.assertEqual(text.count("error:"), 1, text)  # none for twice(), declared by the source before
+        self.assertIn(f"{self.root / 'core/warns.cpp'}:2:", text)
+        self.assertIn("unused variable", text)
+        (self.root / "core/warns.cpp").write_text("int g() { return twice(1); }\n", encoding="utf-8")
+        self.assertEqual(self.check()[0], 0)
+
+    def test_of_joined_sources_all_is_reported_that_is_of_a_single_one(self):
+        self.source("core/warns.cpp",
+                    "static inline int f() { return 1; }\nstatic const int unused_number = 1;\n")
+        self.source("core/warns_too.cpp", "namespace { constexpr int unused_constant = 2; }\n")
+        for joined in False, True:
+            if joined:
+                self.join("core/warns.cpp", "core/warns_too.cpp")
+            code, text = self.check()
+            self.assertNotEqual(code, 0)
+            for name in "unused function 'f'", "'unused_number'", "'unused_constant'":
+                self.assertIn(name, text)
+
+    def test_a_change_of_a_joined_source_and_of_its_header_is_seen(self):
+        self.source("core/first.cpp", "int once(int x) { return x; }\n")
+        self.join("core/first.cpp", "core/clean.cpp")
+        self.assertEqual(self.check()[0], 0)
+        for name in "core/clean.cpp", "core/a.h":
+            path = self.root / name
+            text = path.read_text(encoding="utf-8")
+            path.write_text(f"{text}static int unused_function() {{ return 1; }}\n", encoding="utf-8")
+            for _ in range(2):
+                self.assertIn("unused function", self.check()[1])
+            path.write_text(text, encoding="utf-8")
+            self.assertEqual(self.check()[0], 0)
 
     def test_other_folders_are_ignored(self):
         self.source("other/wrong.cpp", "int g() { return h(); }\n")

@@ -29,7 +29,7 @@ LoadedSoup from_corpus(const std::string& name) {
   return core::read_polygon_soup(corpus_folder() + "/meshes/" + name);
 }
 
-const std::vector<Point> kTetrahedron = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const std::vector<Point> kTetrahedronPoints = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const std::vector<Index> kFaces = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
 
 /// A JSON text around parts, with a square of four vertices in a buffer that `buffer` describes.
@@ -52,7 +52,7 @@ TEST_CASE("binary and JSON glTF of a tetrahedron") {
                            "fraction_is_whole.gltf", "other_parts_damaged.glb"}) {
     INFO(name);
     const LoadedSoup loaded = from_corpus(name);
-    CHECK(loaded.soup.positions == kTetrahedron);
+    CHECK(loaded.soup.positions == kTetrahedronPoints);
     CHECK(loaded.soup.corners == kFaces);
     CHECK(loaded.properties.empty());
     CHECK(loaded.warnings.empty());

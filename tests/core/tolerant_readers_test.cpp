@@ -20,7 +20,7 @@ namespace {
 using Polygons = std::vector<std::vector<Index>>;
 using Warnings = std::vector<std::string>;
 
-LoadedSoup parsed(const std::string& text, MeshFormat format) {
+LoadedSoup parsed_text(const std::string& text, MeshFormat format) {
   return parse_polygon_soup(text, format, "test");
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("numbers of an OFF file may be on any lines") {
       text += numbers[i] + kBetween[random() % (run < 10 ? 2 : kBetween.size())];
     }
     INFO(text);
-    const LoadedSoup loaded = parsed(text, MeshFormat::off);
+    const LoadedSoup loaded = parsed_text(text, MeshFormat::off);
     CHECK(loaded.soup.positions == std::vector<Point>{{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}});
     CHECK(polygons(loaded) == Polygons{{0, 1, 2}, {2, 1, 0}});
     CHECK(loaded.warnings.empty());
@@ -76,7 +76,9 @@ TEST_CASE("numbers of an OFF file may be on any lines") {
 }
 
 TEST_CASE("an OFF file that has too few numbers or others is refused in one sentence") {
-  const auto read = [](const std::string& rest) { return parsed("OFF\n3 1 0\n" + rest, MeshFormat::off); };
+  const auto read = [](const std::string& rest) {
+    return parsed_text("OFF\n3 1 0\n" + rest, MeshFormat::off);
+  };
   CHECK(polygons(read("0 0 0 1 0 0\n0 1 0 3\n0 1 2")) == Polygons{{0, 1, 2}});
   CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1 0 3\n0 1"), Contains("it ends at line 5, after 0 of 1 faces"));
   CHECK_THROWS_WITH(read("0 0 0 1 0 0\n0 1      "), Contains("it ends at line 4, after 2 of 3 vertices"));
@@ -89,12 +91,12 @@ TEST_CASE("an OFF file that has too few numbers or others is refused in one sent
 
 TEST_CASE("colours of faces are skipped only where lines tell them from faces") {
   const std::string vertices = "OFF\n3 2 0\n0 0 0 1 0 0\n0 1 0";
-  CHECK(polygons(parsed(vertices + "\n3 0 1 2 255 0 0\n3 2 1 0 7\n", MeshFormat::off)) ==
+  CHECK(polygons(parsed_text(vertices + "\n3 0 1 2 255 0 0\n3 2 1 0 7\n", MeshFormat::off)) ==
         Polygons{{0, 1, 2}, {2, 1, 0}});
   CHECK_THROWS_WITH(
-      parsed(vertices + " 3 0 1 2 255 0 0\n3 2 1 0 7\n", MeshFormat::off),
+      parsed_text(vertices + " 3 0 1 2 255 0 0\n3 2 1 0 7\n", MeshFormat::off),
       Contains("line 5: face 1 names vertex 3") && Contains("faces with colours are read only"));
-  CHECK_THROWS_WITH(parsed(vertices + "\n3 0 1\n2 9 9\n3 2 1 0 7\n", MeshFormat::off),
+  CHECK_THROWS_WITH(parsed_text(vertices + "\n3 0 1\n2 9 9\n3 2 1 0 7\n", MeshFormat::off),
                     Contains("face 0 goes over several lines, and more follows its corners"));
 }
 
@@ -105,7 +107,7 @@ TEST_CASE("lines behind the faces of an OFF file are left out with a warning, in
   text += "# no line\nthe end\n1 2\n";
   for (const int threads : {1, 4}) {
     const ThreadLimit limit(threads);
-    const LoadedSoup loaded = parsed(text, MeshFormat::off);
+    const LoadedSoup loaded = parsed_text(text, MeshFormat::off);
     CHECK(loaded.soup.positions.size() == 20000);
     CHECK(loaded.soup.polygon_count() == 20000);
     CHECK(loaded.warnings == Warnings{"2 lines follow the 20,000 vertices and 20,000 faces that its header "
@@ -114,24 +116,25 @@ TEST_CASE("lines behind the faces of an OFF file are left out with a warning, in
 }
 
 TEST_CASE("triangle strips are their triangles, every second one turned round") {
-  CHECK(polygons(parsed(strips_of("6 0 1 2 3 4 5\n", 1), MeshFormat::ply)) ==
+  CHECK(polygons(parsed_text(strips_of("6 0 1 2 3 4 5\n", 1), MeshFormat::ply)) ==
         Polygons{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}});
   // -1 begins anew, so that the first triangle is not turned.
-  CHECK(polygons(parsed(strips_of("9 0 1 2 3 -1 2 3 4 5\n", 1), MeshFormat::ply)) ==
+  CHECK(polygons(parsed_text(strips_of("9 0 1 2 3 -1 2 3 4 5\n", 1), MeshFormat::ply)) ==
         Polygons{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}});
-  CHECK(polygons(parsed(strips_of("8 -1 -1 0 1 2 -1 3 4\n3 3 4 5\n", 2), MeshFormat::ply)) ==
+  CHECK(polygons(parsed_text(strips_of("8 -1 -1 0 1 2 -1 3 4\n3 3 4 5\n", 2), MeshFormat::ply)) ==
         Polygons{{0, 1, 2}, {3, 4, 5}});
   // Repeated vertices join strips; they count for the orientation.
-  CHECK(polygons(parsed(strips_of("7 0 1 2 2 3 4 5\n", 1), MeshFormat::ply)) ==
+  CHECK(polygons(parsed_text(strips_of("7 0 1 2 2 3 4 5\n", 1), MeshFormat::ply)) ==
         Polygons{{0, 1, 2}, {3, 2, 4}, {3, 4, 5}});
-  CHECK_THROWS_WITH(parsed(strips_of("3 0 1 6\n", 1), MeshFormat::ply),
+  CHECK_THROWS_WITH(parsed_text(strips_of("3 0 1 6\n", 1), MeshFormat::ply),
                     Contains("a triangle strip names vertex 6, but there are only 6 vertices"));
-  CHECK_THROWS_WITH(parsed(strips_of("3 0 1 -2\n", 1), MeshFormat::ply), Contains("vertex -2"));
-  CHECK_THROWS_WITH(parsed(strips_of("3 0 1 2\n", 2), MeshFormat::ply), Contains("after 1 of 2 tristrips"));
+  CHECK_THROWS_WITH(parsed_text(strips_of("3 0 1 -2\n", 1), MeshFormat::ply), Contains("vertex -2"));
+  CHECK_THROWS_WITH(parsed_text(strips_of("3 0 1 2\n", 2), MeshFormat::ply),
+                    Contains("after 1 of 2 tristrips"));
 }
 
 TEST_CASE("scalar properties of a PLY file's faces are kept by polygon") {
-  const LoadedSoup loaded = parsed(
+  const LoadedSoup loaded = parsed_text(
       "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nelement vertex 4\n" +
           kPlyVertices +
           "element face 2\nproperty short label\nproperty list uchar int vertex_indices\nproperty float "
@@ -152,50 +155,51 @@ TEST_CASE("what is odd in a PLY file is counted in its warnings") {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + kPlyVertices +
                            "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
                            "0 0 0\n1 0 0\n0 1 0\n";
-  CHECK(parsed(head + "3 0 1 2\n3 2 1 0\n", MeshFormat::ply).warnings.empty());
-  const LoadedSoup loaded = parsed(head + "3 0 1 2 7 8\n3 2.0 1 0. 9\nmore\nand more\n", MeshFormat::ply);
+  CHECK(parsed_text(head + "3 0 1 2\n3 2 1 0\n", MeshFormat::ply).warnings.empty());
+  const LoadedSoup loaded =
+      parsed_text(head + "3 0 1 2 7 8\n3 2.0 1 0. 9\nmore\nand more\n", MeshFormat::ply);
   CHECK(polygons(loaded) == Polygons{{0, 1, 2}, {2, 1, 0}});
   CHECK(loaded.warnings ==
         Warnings{"2 face lines go on after the header's properties; what follows there is left out",
                  "2 whole numbers are written with decimals, all of them 0",
                  "2 lines follow the elements that its header announces; they are left out"});
-  CHECK_THROWS_WITH(parsed(head + "3 0 1 2\n3 2.5 1 0\n", MeshFormat::ply),
+  CHECK_THROWS_WITH(parsed_text(head + "3 0 1 2\n3 2.5 1 0\n", MeshFormat::ply),
                     Contains("expected a whole number, found \"2.5\""));
-  CHECK_THROWS_AS(parsed(head + "3 0 1 2\n3 1e99 1 0\n", MeshFormat::ply), BadInput);
-  CHECK_THROWS_AS(parsed(head + "3 0 1 2\n3 2.0x 1 0\n", MeshFormat::ply), BadInput);
-  CHECK_THROWS_AS(parsed(head + "3 0 1 2 red\n3 2 1 0\n", MeshFormat::ply), BadInput);
+  CHECK_THROWS_AS(parsed_text(head + "3 0 1 2\n3 1e99 1 0\n", MeshFormat::ply), BadInput);
+  CHECK_THROWS_AS(parsed_text(head + "3 0 1 2\n3 2.0x 1 0\n", MeshFormat::ply), BadInput);
+  CHECK_THROWS_AS(parsed_text(head + "3 0 1 2 red\n3 2 1 0\n", MeshFormat::ply), BadInput);
 }
 
 TEST_CASE("bytes behind the triangles of a binary STL file, or 0 for their number, are said") {
-  const LoadedSoup tail = parsed(stl_of(2, 2, "tail"), MeshFormat::stl);
+  const LoadedSoup tail = parsed_text(stl_of(2, 2, "tail"), MeshFormat::stl);
   CHECK(tail.soup.polygon_count() == 2);
   CHECK(tail.warnings == Warnings{"4 bytes follow the 2 triangles that its header announces; they are left "
                                   "out"});
-  CHECK(parsed(stl_of(1, 2, ""), MeshFormat::stl).warnings ==
+  CHECK(parsed_text(stl_of(1, 2, ""), MeshFormat::stl).warnings ==
         Warnings{"50 bytes follow the 1 triangle that its header announces; they are left out"});
-  const LoadedSoup zero = parsed(stl_of(0, 3, ""), MeshFormat::stl);
+  const LoadedSoup zero = parsed_text(stl_of(0, 3, ""), MeshFormat::stl);
   CHECK(zero.soup.polygon_count() == 3);
   CHECK(zero.warnings ==
         Warnings{"its header announces 0 triangles, but it has 3 triangles, which are read"});
-  CHECK_THROWS_WITH(parsed(stl_of(0, 3, "x"), MeshFormat::stl), Contains("announces 0 triangles"));
-  CHECK_THROWS_WITH(parsed(stl_of(3, 2, ""), MeshFormat::stl), Contains("announces 3 triangles"));
-  CHECK(parsed(stl_of(0, 0, ""), MeshFormat::stl).warnings.empty());
+  CHECK_THROWS_WITH(parsed_text(stl_of(0, 3, "x"), MeshFormat::stl), Contains("announces 0 triangles"));
+  CHECK_THROWS_WITH(parsed_text(stl_of(3, 2, ""), MeshFormat::stl), Contains("announces 3 triangles"));
+  CHECK(parsed_text(stl_of(0, 0, ""), MeshFormat::stl).warnings.empty());
 }
 
 TEST_CASE("a backslash may follow a word of an OBJ file without a blank") {
   const LoadedSoup loaded =
-      parsed("v 0 0\\\n0\nv 1 0 0\\\r\n\nv 0 1 0\nf 1/1\\\n2//3 3\\  \n\n", MeshFormat::obj);
+      parsed_text("v 0 0\\\n0\nv 1 0 0\\\r\n\nv 0 1 0\nf 1/1\\\n2//3 3\\  \n\n", MeshFormat::obj);
   CHECK(loaded.soup.positions == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   CHECK(polygons(loaded) == Polygons{{0, 1, 2}});
-  CHECK_THROWS_AS(parsed("v 0 0 0\nf 1\\1 1 1\n", MeshFormat::obj), BadInput);
+  CHECK_THROWS_AS(parsed_text("v 0 0 0\nf 1\\1 1 1\n", MeshFormat::obj), BadInput);
 }
 
 TEST_CASE("a file of another kind is named for what it is") {
-  CHECK_THROWS_WITH(parsed("v 0 0 0\n", MeshFormat::off),
+  CHECK_THROWS_WITH(parsed_text("v 0 0 0\n", MeshFormat::off),
                     "cannot read \"test\": it is an OBJ file, though the format that was given is off (line "
                     "1: an OFF file begins "
                     "with OFF (or COFF, NOFF, STOFF, …), not with \"v\"): use --format obj");
-  CHECK_THROWS_WITH(parsed("<html>", MeshFormat::obj),
+  CHECK_THROWS_WITH(parsed_text("<html>", MeshFormat::obj),
                     Contains("it is an HTML page, though the format that was given is obj"));
-  CHECK_THROWS_WITH(parsed("OFF\n1 0 0\nx\n", MeshFormat::off), !Contains("though"));
+  CHECK_THROWS_WITH(parsed_text("OFF\n1 0 0\nx\n", MeshFormat::off), !Contains("though"));
 }

@@ -24,7 +24,7 @@ void check_result(std::string_view bytes) {
   fuzz::require(written(read(once)) == once, "a result written and read again");
 }
 
-void check_report(std::string_view bytes) {
+void check_written(std::string_view bytes) {
   std::istringstream stream{std::string(bytes)};
   if (const auto report = tools::read_landmarks(stream, "fuzz"))
     fuzz::require(!report->list_path.empty() && !report->request.fields.empty(),

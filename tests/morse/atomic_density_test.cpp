@@ -17,7 +17,7 @@ using core::Atom;
 
 namespace {
 
-core::FunctionResult evaluate(const TriangleMesh& mesh, Given given) {
+core::FunctionResult evaluate_density(const TriangleMesh& mesh, Given given) {
   return made(morse::make_atomic_density, "atomic-density", std::move(given))->evaluate(mesh, {});
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("atomic density reads its molecule and reports the atoms taken") {
   const auto term = [](double distance, double radius) {
     return std::exp(-0.5 * distance * distance / (radius * radius));
   };
-  const core::FunctionResult plain = evaluate(mesh, {{"structure", file}});
+  const core::FunctionResult plain = evaluate_density(mesh, {{"structure", file}});
   CHECK(plain.field.value(0) == Approx(term(1, 1.7) + term(3, 1.7)));
   const core::Parameters expected = {{"structure", file},
                                      {"decay", 0.5},
@@ -103,7 +103,7 @@ TEST_CASE("atomic density reads its molecule and reports the atoms taken") {
                                      {"atoms", std::int64_t{2}}};
   CHECK(plain.parameters == expected);
   const core::FunctionResult chosen =
-      evaluate(mesh, {{"structure", file}, {"waters", "yes"}, {"chains", "A"}, {"decay", "2"}});
+      evaluate_density(mesh, {{"structure", file}, {"waters", "yes"}, {"chains", "A"}, {"decay", "2"}});
   CHECK(chosen.field.value(0) == Approx(std::pow(term(1, 1.7), 4) + std::pow(term(1, 1.52), 4)));
 }
 
@@ -119,12 +119,13 @@ TEST_CASE("atomic density of charges is the sum of signed Gaussians") {
   const auto term = [](double distance, double radius) {
     return std::exp(-0.5 * distance * distance / (radius * radius));
   };
-  const core::FunctionResult charges = evaluate(mesh, {{"structure", file}, {"weight", "charge"}});
+  const core::FunctionResult charges = evaluate_density(mesh, {{"structure", file}, {"weight", "charge"}});
   CHECK(charges.field.value(0) == Approx(-0.5 * term(1, 1.5) + 0.25 * term(3, 2)));
   CHECK(charges.field.value(1) == Approx(-0.5 * term(3, 1.5) + 0.25 * term(1, 2)));
-  CHECK(evaluate(mesh, {{"structure", file}}).field.value(0) == Approx(term(1, 1.5) + term(3, 2)));
+  CHECK(evaluate_density(mesh, {{"structure", file}}).field.value(0) == Approx(term(1, 1.5) + term(3, 2)));
   const std::string pdb = folder.file("x.pdb", pdb_text({{"C1"}})).string();
-  CHECK_THROWS_WITH(evaluate(mesh, {{"structure", pdb}, {"weight", "charge"}}), Contains("no charges"));
+  CHECK_THROWS_WITH(evaluate_density(mesh, {{"structure", pdb}, {"weight", "charge"}}),
+                    Contains("no charges"));
 }
 
 TEST_CASE("atomic density refuses invalid options") {
@@ -141,8 +142,8 @@ TEST_CASE("atomic density refuses invalid options") {
   CHECK_THROWS_AS(morse::atomic_density(mesh, near, {1, 1}), core::InvalidArgument);
   CHECK_THROWS_AS(morse::atomic_density(mesh, std::vector<Atom>{atom_at({0, 0, 0}, 0)}),
                   core::InvalidArgument);
-  CHECK_THROWS_WITH(evaluate(mesh, {}), Contains("structure"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"structure", "x.pdb"}, {"decay", "-1"}}), Contains("decay"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"structure", "x.pdb"}, {"altloc", "AB"}}), Contains("\"AB\""));
-  CHECK_THROWS_AS(evaluate(mesh, {{"structure", "nowhere.pdb"}}), core::BadInput);
+  CHECK_THROWS_WITH(evaluate_density(mesh, {}), Contains("structure"));
+  CHECK_THROWS_WITH(evaluate_density(mesh, {{"structure", "x.pdb"}, {"decay", "-1"}}), Contains("decay"));
+  CHECK_THROWS_WITH(evaluate_density(mesh, {{"structure", "x.pdb"}, {"altloc", "AB"}}), Contains("\"AB\""));
+  CHECK_THROWS_AS(evaluate_density(mesh, {{"structure", "nowhere.pdb"}}), core::BadInput);
 }

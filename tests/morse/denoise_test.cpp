@@ -26,7 +26,7 @@ using morse::SurfaceSmoothing;
 namespace {
 
 /// Of height along (1, 2, 3), or of another function.
-core::MethodResult apply(const ScalarField& field, Given given, core::MethodContext context = {}) {
+core::MethodResult apply_denoise(const ScalarField& field, Given given, core::MethodContext context = {}) {
   if (!context.morse_function)
     context.morse_function = [](const TriangleMesh& mesh) { return morse::height(mesh, {{1, 2, 3}}); };
   return made(morse::make_denoise, "denoise", std::move(given))->apply(field, context);
@@ -207,7 +207,7 @@ TEST_CASE("the denoised field is the function of the smoothed surface on the ori
   const TriangleMesh mesh = jittered(sphere(3).mesh(), 0.02, 3);
   const ScalarField field = morse::height(mesh, {{1, 2, 3}});
   for (const char* kind : {"bilateral", "laplacian"}) {
-    const core::MethodResult result = apply(field, {{"kind", kind}, {"iterations", "3"}});
+    const core::MethodResult result = apply_denoise(field, {{"kind", kind}, {"iterations", "3"}});
     SurfaceSmoothing smoothing = *kind == 'b' ? SurfaceSmoothing(mesh, BilateralDenoising{})
                                               : SurfaceSmoothing(mesh, LaplacianDenoising{});
     for (int i = 0; i < 3; ++i) smoothing.step({});
@@ -230,7 +230,7 @@ TEST_CASE("the denoised field is the function of the smoothed surface on the ori
                                                   {"weights", "uniform"}});
     }
   }
-  CHECK(values_of(apply(field, {{"iterations", "0"}}).field) == values_of(field));
+  CHECK(values_of(apply_denoise(field, {{"iterations", "0"}}).field) == values_of(field));
 }
 
 TEST_CASE("denoising evaluates the Morse function only where a stop condition needs it") {
@@ -242,22 +242,22 @@ TEST_CASE("denoising evaluates the Morse function only where a stop condition ne
     return morse::mean_curvature(surface);
   };
   const ScalarField field = morse::mean_curvature(mesh);
-  const core::MethodResult plain = apply(field, {{"iterations", "6"}}, context);
+  const core::MethodResult plain = apply_denoise(field, {{"iterations", "6"}}, context);
   CHECK(calls == 1);
   CHECK(plain.iterations.empty());
   context.count_iterations = true;
-  const core::MethodResult counted = apply(field, {{"iterations", "6"}}, context);
+  const core::MethodResult counted = apply_denoise(field, {{"iterations", "6"}}, context);
   CHECK(calls == 7);
   CHECK(counted.iterations.size() == 7);
   CHECK(values_of(counted.field) == values_of(plain.field));
   context.count_iterations = false;
   calls = 0;
   const std::size_t goal = counted.iterations[3].total();
-  const core::MethodResult until = apply(field, {{"until-count", std::to_string(goal)}}, context);
+  const core::MethodResult until = apply_denoise(field, {{"until-count", std::to_string(goal)}}, context);
   CHECK(until.iterations.back().total() <= goal);
   CHECK(calls == static_cast<int>(until.iterations.size()) - 1);
   calls = 0;
-  apply(field, {{"until-change", "0.01"}, {"iterations", "40"}}, context);
+  apply_denoise(field, {{"until-change", "0.01"}, {"iterations", "40"}}, context);
   CHECK(calls > 1);
 }
 
@@ -268,13 +268,13 @@ TEST_CASE("denoising needs a Morse function and reports where it fails or ignore
   CHECK_THROWS_AS(morse::make_denoise(reader)->apply(field, {}), core::InvalidArgument);
   core::MethodContext context;
   context.morse_function = [](const TriangleMesh&) -> ScalarField { throw core::BadInput("no such luck"); };
-  CHECK_THROWS_WITH(apply(field, {{"iterations", "4"}}, context),
+  CHECK_THROWS_WITH(apply_denoise(field, {{"iterations", "4"}}, context),
                     Catch::Contains("after 4 iterations of denoising") && Catch::Contains("no such luck"));
-  CHECK_THROWS_AS(apply(field, {}, context), core::BadInput);
+  CHECK_THROWS_AS(apply_denoise(field, {}, context), core::BadInput);
   context.morse_function = [&](const TriangleMesh&) { return field; };
-  CHECK(apply(field, {}, context).details[3].first == "unchanged_because");
+  CHECK(apply_denoise(field, {}, context).details[3].first == "unchanged_because");
   const TriangleMesh point = mesh.with_positions(std::vector<Point>(mesh.vertex_count(), Point(1, 2, 3)));
-  CHECK_THROWS_AS(apply({point, values_of(field)}, {}), core::BadInput);
+  CHECK_THROWS_AS(apply_denoise({point, values_of(field)}, {}), core::BadInput);
 }
 
 TEST_CASE("denoising turns with the surface and scales exactly by powers of two") {
@@ -305,7 +305,7 @@ TEST_CASE("denoising gives the same bits for every number of threads") {
   for (const char* kind : {"bilateral", "laplacian"}) {
     const auto run = [&](int threads) {
       const core::ThreadLimit limit(threads);
-      return apply(field, {{"kind", kind}, {"iterations", "2"}});
+      return apply_denoise(field, {{"kind", kind}, {"iterations", "2"}});
     };
     const core::MethodResult one = run(1);
     const core::MethodResult four = run(4);
@@ -321,12 +321,13 @@ TEST_CASE("denoise keys are checked") {
                      {"weights", "uniform"}, {"sigma", "8eps"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
-    CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
-    CHECK_THROWS_WITH(apply(field, {{key, value}}), Catch::Contains("denoise") && Catch::Contains(key));
+    CHECK_THROWS_AS(apply_denoise(field, {{key, value}}), core::InvalidArgument);
+    CHECK_THROWS_WITH(apply_denoise(field, {{key, value}}),
+                      Catch::Contains("denoise") && Catch::Contains(key));
   }
   for (const auto& [key, value] :
        Given{{"lambda", "0"}, {"lambda", "1.5"}, {"weights", "area"}, {"sigma-c", "1"}})
-    CHECK_THROWS_WITH(apply(field, {{"kind", "laplacian"}, {key, value}}), Catch::Contains(key));
+    CHECK_THROWS_WITH(apply_denoise(field, {{"kind", "laplacian"}, {key, value}}), Catch::Contains(key));
   CHECK_THROWS_AS(SurfaceSmoothing(field.mesh(), LaplacianDenoising{2}), core::InvalidArgument);
   CHECK_THROWS_AS(SurfaceSmoothing(field.mesh(), BilateralDenoising{core::Length::absolute(-1), {}}),
                   core::InvalidArgument);
@@ -337,7 +338,7 @@ TEST_CASE("counts of denoised samples") {
     core::MethodContext context;
     context.morse_function = [](const TriangleMesh& mesh) { return morse::mean_curvature(mesh); };
     const ScalarField field = morse::mean_curvature(core::read_mesh(sample(file)).mesh);
-    return morse::classify(apply(field, std::move(given), context).field).total();
+    return morse::classify(apply_denoise(field, std::move(given), context).field).total();
   };
   CHECK(total("lion-head.off", {}) == 2524);
   CHECK(total("lion-head.off", {{"kind", "laplacian"}}) == 2039);

@@ -44,7 +44,7 @@ TriangleMesh rectangle(double width, double height, int columns, int rows) {
   return soup.mesh();
 }
 
-core::FunctionResult evaluate(const TriangleMesh& mesh, Given given) {
+core::FunctionResult evaluate_eigenfunction(const TriangleMesh& mesh, Given given) {
   return made(morse::make_eigenfunction, "eigenfunction", std::move(given))->evaluate(mesh, {});
 }
 
@@ -264,23 +264,25 @@ TEST_CASE("degenerate triangles have eigenfunctions too") {
 TEST_CASE("the eigenfunction field resolves its parameters") {
   const TriangleMesh mesh = torus(12, 9).mesh();
   const std::vector<Eigenfunction> functions = morse::eigenfunctions(mesh, 3);
-  const core::FunctionResult result = evaluate(mesh, {{"index", "3"}});
+  const core::FunctionResult result = evaluate_eigenfunction(mesh, {{"index", "3"}});
   CHECK(std::vector<double>(result.field.values().begin(), result.field.values().end()) == functions[2].phi);
   REQUIRE(result.parameters.size() == 4);
   CHECK(result.parameters[0] == core::Parameters::value_type{"index", std::int64_t{3}});
   CHECK(result.parameters[1] == core::Parameters::value_type{"eigenvalue", functions[2].eigenvalue});
   CHECK(result.parameters[3] == core::Parameters::value_type{"component", std::int64_t{0}});
-  CHECK(evaluate(mesh, {}).parameters[0] == core::Parameters::value_type{"index", std::int64_t{1}});
+  CHECK(evaluate_eigenfunction(mesh, {}).parameters[0] ==
+        core::Parameters::value_type{"index", std::int64_t{1}});
 }
 
 TEST_CASE("an eigenfunction that does not exist is refused") {
   const TriangleMesh mesh = octahedron().mesh();
-  CHECK_NOTHROW(evaluate(mesh, {{"index", "5"}}));
-  CHECK_THROWS_AS(evaluate(mesh, {{"index", "6"}}), core::BadInput);
-  CHECK_THROWS_WITH(evaluate(mesh, {{"index", "6"}}), Catch::Contains("6") && Catch::Contains("1 to 5"));
-  CHECK_THROWS_AS(evaluate(mesh, {{"index", "0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"index", "1001"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"index", "first"}}), core::InvalidArgument);
+  CHECK_NOTHROW(evaluate_eigenfunction(mesh, {{"index", "5"}}));
+  CHECK_THROWS_AS(evaluate_eigenfunction(mesh, {{"index", "6"}}), core::BadInput);
+  CHECK_THROWS_WITH(evaluate_eigenfunction(mesh, {{"index", "6"}}),
+                    Catch::Contains("6") && Catch::Contains("1 to 5"));
+  CHECK_THROWS_AS(evaluate_eigenfunction(mesh, {{"index", "0"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_eigenfunction(mesh, {{"index", "1001"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_eigenfunction(mesh, {{"index", "first"}}), core::InvalidArgument);
 }
 
 TEST_CASE("counts of eigenfunctions on the samples") {
@@ -294,7 +296,7 @@ TEST_CASE("counts of eigenfunctions on the samples") {
         Expected{"bunny00.off", "1", 1, 1, 2}, Expected{"bunny00.off", "10", 2, 5, 5}}) {
     INFO(expected.file << " " << expected.index);
     const core::TriangleMesh mesh = core::read_mesh(sample(expected.file)).mesh;
-    const auto points = morse::classify(evaluate(mesh, {{"index", expected.index}}).field);
+    const auto points = morse::classify(evaluate_eigenfunction(mesh, {{"index", expected.index}}).field);
     CHECK(points.minima == expected.minima);
     CHECK(points.saddle_multiplicity == expected.multiplicity);
     CHECK(points.maxima == expected.maxima);

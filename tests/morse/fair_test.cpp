@@ -36,7 +36,7 @@ ScalarField cancel(const ScalarField& field, double threshold) {
   return persistence::cancel(field, {persistence::Threshold::absolute(threshold), {}}).field;
 }
 
-core::MethodResult apply(const ScalarField& field, Given given, const core::MethodContext& with = {}) {
+core::MethodResult apply_fair(const ScalarField& field, Given given, const core::MethodContext& with = {}) {
   return made(morse::make_fair, "fair", std::move(given))->apply(field, with);
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("real meshes have exactly the extrema that are asked for") {
     const ScalarField field = morse::mean_curvature(core::read_mesh(sample(file)).mesh);
     for (const std::size_t count : {3, 30, 300}) {
       INFO(file << " " << count);
-      const core::MethodResult result = apply(field, {{"extrema", std::to_string(count)}});
+      const core::MethodResult result = apply_fair(field, {{"extrema", std::to_string(count)}});
       check_extrema(result.field, field, persistent(field, count));
     }
   }
@@ -211,13 +211,13 @@ TEST_CASE("caps of a component without chosen maxima are held at the greatest va
 TEST_CASE("too few extrema are refused with the least number") {
   const TriangleMesh mesh = together(together(sphere(1), torus(6, 5)), grid(4, 4)).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 8));
-  CHECK_THROWS_AS(apply(field, {{"extrema", "4"}}), core::BadInput);
-  CHECK_THROWS_WITH(apply(field, {{"extrema", "4"}}),
+  CHECK_THROWS_AS(apply_fair(field, {{"extrema", "4"}}), core::BadInput);
+  CHECK_THROWS_WITH(apply_fair(field, {{"extrema", "4"}}),
                     Catch::Contains("4 extrema") && Catch::Contains("at least 5"));
-  CHECK_NOTHROW(apply(field, {{"extrema", "5"}}));
-  CHECK_THROWS_AS(apply(field, {{"extrema", "0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(apply(field, {{"values", "mine"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(apply(field, {{"weights", "cotangent"}}), core::InvalidArgument);
+  CHECK_NOTHROW(apply_fair(field, {{"extrema", "5"}}));
+  CHECK_THROWS_AS(apply_fair(field, {{"extrema", "0"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(apply_fair(field, {{"values", "mine"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(apply_fair(field, {{"weights", "cotangent"}}), core::InvalidArgument);
   const Index regular = [&] {
     for (Index v = 0;; ++v)
       if (morse::classify_vertex(field, v).type == CriticalType::regular) return v;
@@ -231,23 +231,23 @@ TEST_CASE("too few extrema are refused with the least number") {
 TEST_CASE("the fair method resolves its parameters") {
   const TriangleMesh mesh = sphere(3).mesh();
   const ScalarField field(mesh, smooth_values(mesh, 3, 4));
-  const core::MethodResult result = apply(field, {});
+  const core::MethodResult result = apply_fair(field, {});
   CHECK(result.parameters ==
         core::Parameters{{"extrema", std::int64_t{8}}, {"values", "ends"}, {"weights", "clamped"}});
   REQUIRE(result.details.size() == 6);
   CHECK(result.details[2] == core::Parameters::value_type{"extrema_left", std::int64_t{8}});
-  const core::MethodResult many = apply(field, {{"extrema", "100000"}});
+  const core::MethodResult many = apply_fair(field, {{"extrema", "100000"}});
   REQUIRE(many.details.size() == 7);
   CHECK(many.details[6].first == "note");
   for (const int threads : {1, 4}) {
     const core::ThreadLimit limit(threads);
-    const core::MethodResult again = apply(field, {});
+    const core::MethodResult again = apply_fair(field, {});
     CHECK(
         std::equal(again.field.values().begin(), again.field.values().end(), result.field.values().begin()));
     CHECK(std::equal(again.field.ranks().begin(), again.field.ranks().end(), result.field.ranks().begin()));
   }
   std::vector<double> huge(field.values().begin(), field.values().end());
   for (double& value : huge) value = value * 1e308 - 0.5e308;
-  const ScalarField large = apply({mesh, huge}, {}).field;
+  const ScalarField large = apply_fair({mesh, huge}, {}).field;
   CHECK(std::equal(large.ranks().begin(), large.ranks().end(), result.field.ranks().begin()));
 }

@@ -18,7 +18,7 @@ using namespace morsel::test;
 using core::ScalarField;
 namespace {
 
-core::MethodResult apply(const ScalarField& field, Given given) {
+core::MethodResult apply_gaussian(const ScalarField& field, Given given) {
   return made(morse::make_gaussian, "gaussian", std::move(given))->apply(field, {});
 }
 
@@ -47,7 +47,7 @@ std::vector<double> slow_average(const ScalarField& field, double sigma, double 
 TEST_CASE("the Gaussian average is the formula") {
   // Sides 3, 4, 5 and a reach of 4.
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
-  const ScalarField result = apply({mesh, {1, 2, 5}}, {{"sigma", "2"}}).field;
+  const ScalarField result = apply_gaussian({mesh, {1, 2, 5}}, {{"sigma", "2"}}).field;
   const double w1 = std::exp(-9.0 / 8);
   const double w2 = std::exp(-2.0);
   CHECK(result.value(0) == Approx((1 + 2 * w1 + 5 * w2) / (1 + w1 + w2)).epsilon(1e-15));
@@ -86,7 +86,8 @@ TEST_CASE("Gaussian averages keep constants and stay within the extremes") {
   for (const NamedMesh& entry : mesh_zoo())
     for (const NamedField& named : field_zoo(entry.mesh, 3)) {
       INFO(entry.name << ", " << named.name);
-      const core::MethodResult result = apply(named.field, {{"iterations", "3"}, {"sigma", "40eps"}});
+      const core::MethodResult result =
+          apply_gaussian(named.field, {{"iterations", "3"}, {"sigma", "40eps"}});
       const double margin = 1e-12 * (1 + std::abs(named.field.max()));
       CHECK(result.field.min() >= named.field.min() - margin);
       CHECK(result.field.max() <= named.field.max() + margin);
@@ -100,20 +101,21 @@ TEST_CASE("Gaussian averages keep constants and stay within the extremes") {
 TEST_CASE("the Gaussian method resolves its keys and obeys its stop conditions") {
   const TriangleMesh mesh = sphere(3).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 3));
-  const core::MethodResult result = apply(field, {});
+  const core::MethodResult result = apply_gaussian(field, {});
   CHECK(result.parameters == core::Parameters{{"iterations", std::int64_t{1}},
                                               {"sigma", 8 * mesh.epsilon()},
                                               {"support", 2.0},
                                               {"weights", "none"},
                                               {"ball", "euclidean"}});
   CHECK(values_of(result.field) == values_of(morse::gaussian(field)));
-  const core::MethodResult counted = apply(field, {{"until-count", "20"}, {"sigma", "0.2"}});
+  const core::MethodResult counted = apply_gaussian(field, {{"until-count", "20"}, {"sigma", "0.2"}});
   CHECK(counted.iterations.back().total() <= 20);
   CHECK(counted.iterations.size() > 2);
   CHECK(morse::classify(counted.field).total() == counted.iterations.back().total());
-  CHECK(values_of(apply(field, {{"iterations", "0"}}).field) == values_of(field));
+  CHECK(values_of(apply_gaussian(field, {{"iterations", "0"}}).field) == values_of(field));
   const Given connected = {{"sigma", "0.2"}, {"weights", "area"}, {"ball", "connected"}};
-  CHECK(values_of(apply(field, connected).field) != values_of(apply(field, {{"sigma", "0.2"}}).field));
+  CHECK(values_of(apply_gaussian(field, connected).field) !=
+        values_of(apply_gaussian(field, {{"sigma", "0.2"}}).field));
 }
 
 TEST_CASE("the Gaussian method refuses what is out of range") {
@@ -122,15 +124,16 @@ TEST_CASE("the Gaussian method refuses what is out of range") {
                      {"range", "1std"}, {"ball", "flat"},   {"weights", "1"}, {"iterations", "-1"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
-    CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
-    CHECK_THROWS_WITH(apply(field, {{key, value}}), Catch::Contains("gaussian") && Catch::Contains(key));
+    CHECK_THROWS_AS(apply_gaussian(field, {{key, value}}), core::InvalidArgument);
+    CHECK_THROWS_WITH(apply_gaussian(field, {{key, value}}),
+                      Catch::Contains("gaussian") && Catch::Contains(key));
   }
 }
 
 TEST_CASE("counts of Gaussian averages on the samples") {
   const auto total = [](const char* file, Given given) {
     const ScalarField field = morse::mean_curvature(core::read_mesh(sample(file)).mesh);
-    return morse::classify(apply(field, std::move(given)).field).total();
+    return morse::classify(apply_gaussian(field, std::move(given)).field).total();
   };
   CHECK(total("lion-head.off", {}) == 360);
   CHECK(total("lion-head.off", {{"iterations", "5"}}) == 73);

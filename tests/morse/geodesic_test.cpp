@@ -30,8 +30,8 @@ std::vector<double> from(const TriangleMesh& mesh, std::vector<Index> sources,
   return {field.values().begin(), field.values().end()};
 }
 
-core::FunctionResult evaluate(const TriangleMesh& mesh, Given given,
-                              const core::MeshSource* source = nullptr) {
+core::FunctionResult evaluate_geodesic(const TriangleMesh& mesh, Given given,
+                                       const core::MeshSource* source = nullptr) {
   return made(morse::make_geodesic, "geodesic", std::move(given))->evaluate(mesh, {source, {}});
 }
 
@@ -281,14 +281,14 @@ TEST_CASE("the average distance is lowest in the middle of a tube") {
 
 TEST_CASE("geodesic sources are vertices of the input or ends of an axis") {
   const TriangleMesh mesh = sphere(2).mesh();
-  const core::FunctionResult by_name = evaluate(mesh, {{"source", "max-x/min-z"}});
+  const core::FunctionResult by_name = evaluate_geodesic(mesh, {{"source", "max-x/min-z"}});
   Index high = 0, low = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.position(v).x() > mesh.position(high).x()) high = v;
     if (mesh.position(v).z() < mesh.position(low).z()) low = v;
   }
   const std::string numbers = std::to_string(high) + "/" + std::to_string(low);
-  const core::FunctionResult by_number = evaluate(mesh, {{"source", numbers}});
+  const core::FunctionResult by_number = evaluate_geodesic(mesh, {{"source", numbers}});
   CHECK(std::equal(by_name.field.values().begin(), by_name.field.values().end(),
                    by_number.field.values().begin()));
   CHECK(by_name.parameters == by_number.parameters);
@@ -308,32 +308,34 @@ TEST_CASE("geodesic sources are vertices of the input or ends of an axis") {
     source.numbering.to_input.push_back(v + 1);
     source.numbering.from_input.push_back(v);
   }
-  CHECK(evaluate(mesh, {{"source", "3"}}, &source).field.value(2) == 0);
-  CHECK(evaluate(mesh, {{"source", "3"}}, &source).parameters[1].second == core::ParameterValue("3"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"source", "0"}}, &source), Catch::Contains("dropped"));
-  CHECK_NOTHROW(evaluate(mesh, {{"source", "162"}}, &source));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"source", "163"}}, &source),
+  CHECK(evaluate_geodesic(mesh, {{"source", "3"}}, &source).field.value(2) == 0);
+  CHECK(evaluate_geodesic(mesh, {{"source", "3"}}, &source).parameters[1].second ==
+        core::ParameterValue("3"));
+  CHECK_THROWS_WITH(evaluate_geodesic(mesh, {{"source", "0"}}, &source), Catch::Contains("dropped"));
+  CHECK_NOTHROW(evaluate_geodesic(mesh, {{"source", "162"}}, &source));
+  CHECK_THROWS_WITH(evaluate_geodesic(mesh, {{"source", "163"}}, &source),
                     Catch::Contains("163") && Catch::Contains("0 to 162"));
 }
 
 TEST_CASE("geodesic keys are checked") {
   const TriangleMesh mesh = sphere(1).mesh();
-  CHECK_THROWS_AS(evaluate(mesh, {{"source", "42"}}), core::BadInput);
-  CHECK_THROWS_WITH(evaluate(mesh, {{"source", "42"}}), Catch::Contains("42 vertices"));
-  CHECK_THROWS_AS(evaluate(mesh, {{"source", "7/99999999999"}}), core::BadInput);
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"source", "42"}}), core::BadInput);
+  CHECK_THROWS_WITH(evaluate_geodesic(mesh, {{"source", "42"}}), Catch::Contains("42 vertices"));
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"source", "7/99999999999"}}), core::BadInput);
   for (const char* source : {"", "-1", "max", "max-w", "1.5", "3//4", "7 8"}) {
     INFO(source);
-    CHECK_THROWS_AS(evaluate(mesh, {{"source", source}}), core::InvalidArgument);
+    CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"source", source}}), core::InvalidArgument);
   }
-  CHECK_THROWS_AS(evaluate(mesh, {}), core::InvalidArgument);
-  CHECK_THROWS_WITH(evaluate(mesh, {{"mode", "average"}, {"source", "1"}}), Catch::Contains("not both"));
-  CHECK_THROWS_AS(evaluate(mesh, {{"source", "1"}, {"samples", "5"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"mode", "average"}, {"samples", "0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"source", "1"}, {"time", "0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"source", "1"}, {"boundary", "free"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {}), core::InvalidArgument);
+  CHECK_THROWS_WITH(evaluate_geodesic(mesh, {{"mode", "average"}, {"source", "1"}}),
+                    Catch::Contains("not both"));
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"source", "1"}, {"samples", "5"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"mode", "average"}, {"samples", "0"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"source", "1"}, {"time", "0"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_geodesic(mesh, {{"source", "1"}, {"boundary", "free"}}), core::InvalidArgument);
   CHECK_THROWS_AS(morse::geodesic_distance(mesh, {}), core::InvalidArgument);
   CHECK_THROWS_AS(morse::geodesic_distance(mesh, std::vector<Index>{42}), core::InvalidArgument);
-  const auto average = evaluate(mesh, {{"mode", "average"}, {"samples", "1000"}});
+  const auto average = evaluate_geodesic(mesh, {{"mode", "average"}, {"samples", "1000"}});
   CHECK(average.parameters[1] == core::Parameters::value_type{"samples", std::int64_t{42}});
   core::ParameterReader help = core::ParameterReader::for_help("geodesic");
   morse::make_geodesic(help);
@@ -361,7 +363,7 @@ TEST_CASE("counts of geodesic distances on the samples") {
                                    Expected{"bunny00.off", {"mode", "average"}, 5, 23, 20}}) {
     INFO(expected.file << " " << expected.key.first << "=" << expected.key.second);
     const auto points =
-        morse::classify(evaluate(core::read_mesh(sample(expected.file)).mesh, {expected.key}).field);
+        morse::classify(evaluate_geodesic(core::read_mesh(sample(expected.file)).mesh, {expected.key}).field);
     CHECK(points.minima == expected.minima);
     CHECK(points.saddle_multiplicity == expected.multiplicity);
     CHECK(points.maxima == expected.maxima);

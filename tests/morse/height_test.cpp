@@ -15,7 +15,7 @@ using core::ScalarField;
 
 namespace {
 
-core::FunctionResult evaluate(const TriangleMesh& mesh, Given given) {
+core::FunctionResult evaluate_height(const TriangleMesh& mesh, Given given) {
   return made(morse::make_height, "height", std::move(given))->evaluate(mesh, {});
 }
 
@@ -31,11 +31,11 @@ TEST_CASE("height along an axis is the coordinate") {
   }
   const std::vector<std::string> axes = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    const core::FunctionResult result = evaluate(mesh, {{"axis", axes[axis]}});
+    const core::FunctionResult result = evaluate_height(mesh, {{"axis", axes[axis]}});
     CHECK(result.parameters == core::Parameters{{"axis", axes[axis]}});
     for (Index v = 0; v < mesh.vertex_count(); ++v) CHECK(result.field.value(v) == mesh.position(v)[axis]);
   }
-  CHECK(evaluate(mesh, {}).parameters == core::Parameters{{"axis", "z"}});
+  CHECK(evaluate_height(mesh, {}).parameters == core::Parameters{{"axis", "z"}});
 }
 
 TEST_CASE("the length of a direction does not matter") {
@@ -49,8 +49,9 @@ TEST_CASE("the length of a direction does not matter") {
     for (Index v = 0; v < mesh.vertex_count(); ++v)
       CHECK(other.value(v) == Approx(reference.value(v)).margin(1e-13));
   }
-  CHECK(evaluate(mesh, {{"direction", "3/0/4"}}).field.value(5) == reference.value(5));
-  CHECK(evaluate(mesh, {{"direction", "3/0/4"}}).parameters == core::Parameters{{"direction", "3/0/4"}});
+  CHECK(evaluate_height(mesh, {{"direction", "3/0/4"}}).field.value(5) == reference.value(5));
+  CHECK(evaluate_height(mesh, {{"direction", "3/0/4"}}).parameters ==
+        core::Parameters{{"direction", "3/0/4"}});
 }
 
 TEST_CASE("height on a torus that stands has one minimum one maximum and two saddles") {
@@ -69,15 +70,16 @@ TEST_CASE("height refuses zero and non-finite directions") {
 
 TEST_CASE("height keys are checked") {
   const TriangleMesh mesh = octahedron().mesh();
-  CHECK_THROWS_WITH(evaluate(mesh, {{"axis", "w"}}), Catch::Contains("must be x, y or z"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"axis", "z"}, {"direction", "1/0/0"}}), Catch::Contains("not both"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"direction", "1/2"}}), Catch::Contains("three numbers"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"direction", "1/2/3/4"}}), Catch::Contains("three numbers"));
-  CHECK_THROWS_WITH(evaluate(mesh, {{"direction", "1//3"}}), Catch::Contains("height:direction"));
-  CHECK_THROWS_AS(evaluate(mesh, {{"direction", "0/0/-0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"direction", "nan/0/1"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(evaluate(mesh, {{"direction", ""}}), core::InvalidArgument);
-  CHECK_THROWS_WITH(evaluate(mesh, {{"speed", "1"}}), Catch::Contains("axis, direction"));
+  CHECK_THROWS_WITH(evaluate_height(mesh, {{"axis", "w"}}), Catch::Contains("must be x, y or z"));
+  CHECK_THROWS_WITH(evaluate_height(mesh, {{"axis", "z"}, {"direction", "1/0/0"}}),
+                    Catch::Contains("not both"));
+  CHECK_THROWS_WITH(evaluate_height(mesh, {{"direction", "1/2"}}), Catch::Contains("three numbers"));
+  CHECK_THROWS_WITH(evaluate_height(mesh, {{"direction", "1/2/3/4"}}), Catch::Contains("three numbers"));
+  CHECK_THROWS_WITH(evaluate_height(mesh, {{"direction", "1//3"}}), Catch::Contains("height:direction"));
+  CHECK_THROWS_AS(evaluate_height(mesh, {{"direction", "0/0/-0"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_height(mesh, {{"direction", "nan/0/1"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(evaluate_height(mesh, {{"direction", ""}}), core::InvalidArgument);
+  CHECK_THROWS_WITH(evaluate_height(mesh, {{"speed", "1"}}), Catch::Contains("axis, direction"));
   core::ParameterReader help = core::ParameterReader::for_help("height");
   CHECK_NOTHROW(morse::make_height(help));
   CHECK(help.declared().size() == 2);

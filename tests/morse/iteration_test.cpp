@@ -18,9 +18,9 @@ using morse::IterationControl;
 using morse::StopCriteria;
 namespace {
 
-using Make = std::unique_ptr<core::Method> (*)(core::ParameterReader&);
+using MakeMethod = std::unique_ptr<core::Method> (*)(core::ParameterReader&);
 
-core::MethodResult run(Make make, const ScalarField& field, Given given,
+core::MethodResult run(MakeMethod make, const ScalarField& field, Given given,
                        const core::MethodContext& context = {}) {
   return made(make, "method", std::move(given))->apply(field, context);
 }
@@ -49,7 +49,7 @@ ScalarField noisy(int subdivisions = 3) {
   return {mesh, random_values(mesh.vertex_count(), 3)};
 }
 
-constexpr Make kIterative[] = {morse::make_salient, morse::make_laplacian, morse::make_gaussian};
+constexpr MakeMethod kIterative[] = {morse::make_salient, morse::make_laplacian, morse::make_gaussian};
 
 }  // namespace
 
@@ -107,7 +107,7 @@ TEST_CASE("equal counts in a row end the iterations") {
 
 TEST_CASE("every iterative method stops at the first iteration with few enough critical points") {
   const ScalarField input = noisy();
-  for (const Make make : kIterative) {
+  for (const MakeMethod make : kIterative) {
     core::MethodContext context;
     context.count_iterations = true;
     const core::MethodResult all = run(make, input, {{"iterations", "12"}}, context);
@@ -134,7 +134,7 @@ TEST_CASE("every iterative method stops at the first iteration with few enough c
 
 TEST_CASE("an observer of an iterative method gets every field and may end it") {
   const ScalarField input = noisy();
-  for (const Make make : kIterative) {
+  for (const MakeMethod make : kIterative) {
     core::MethodContext context;
     int seen = 0;
     double last = 0;
@@ -156,7 +156,7 @@ TEST_CASE("an observer of an iterative method gets every field and may end it") 
 
 TEST_CASE("an observer of some iterations gets these alone, and nothing else changes") {
   const ScalarField field = noisy();
-  for (const Make make : kIterative) {
+  for (const MakeMethod make : kIterative) {
     std::vector<int> told;
     std::vector<double> third;
     core::MethodContext context;
@@ -224,7 +224,7 @@ TEST_CASE("conditions to stop are checked when the method is made") {
   const Given bad = {{"iterations", "-1"},  {"until-count", "-1"},   {"until-count", "few"},
                      {"until-stable", "1"}, {"until-stable", "1.5"}, {"until-change", "-1"},
                      {"until-change", "2"}, {"until-change", "1%"}};
-  for (const Make make : kIterative)
+  for (const MakeMethod make : kIterative)
     for (const auto& [key, value] : bad) {
       INFO(key << "=" << value);
       CHECK_THROWS_AS(run(make, field, {{key, value}}), core::InvalidArgument);

@@ -13,7 +13,7 @@ using core::ScalarField;
 
 namespace {
 
-core::MethodResult apply(const ScalarField& field, Given given) {
+core::MethodResult apply_salient(const ScalarField& field, Given given) {
   return made(morse::make_salient, "salient", std::move(given))->apply(field, {});
 }
 
@@ -37,7 +37,7 @@ TEST_CASE("the conventional method returns the field with its order") {
 TEST_CASE("the salient method resolves its parameters on the mesh") {
   const TriangleMesh mesh = sphere(3).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 3));
-  const core::MethodResult result = apply(field, {});
+  const core::MethodResult result = apply_salient(field, {});
   const morse::SalientResult direct = morse::salient(field);
   CHECK(values_of(result.field) == values_of(direct.field));
   CHECK(result.parameters == core::Parameters{{"iterations", std::int64_t{10}},
@@ -55,18 +55,18 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
                                            {"promised_error", 0.0},
                                            {"iterations_run", std::int64_t{10}},
                                            {"stopped_by", "iterations"}});
-  const core::MethodResult small = apply(field, {{"accuracy", "1e-4"}, {"iterations", "1"}});
+  const core::MethodResult small = apply_salient(field, {{"accuracy", "1e-4"}, {"iterations", "1"}});
   CHECK(small.parameters[6] == core::Parameters::value_type{"accuracy", 1e-4});
   REQUIRE(small.details.size() == 6);
   CHECK(small.details[1] == core::Parameters::value_type{"algorithm", "exact"});
   CHECK(small.details[2] == core::Parameters::value_type{"promised_error", 1e-4});
   CHECK(small.details[3].first == "exact_because");
 
-  const core::MethodResult local = apply(field, {{"iterations", "2"},
-                                                 {"sigma", "0.25"},
-                                                 {"range", "local"},
-                                                 {"support", "1.5"},
-                                                 {"classify", "saliency"}});
+  const core::MethodResult local = apply_salient(field, {{"iterations", "2"},
+                                                         {"sigma", "0.25"},
+                                                         {"range", "local"},
+                                                         {"support", "1.5"},
+                                                         {"classify", "saliency"}});
   CHECK(local.parameters == core::Parameters{{"iterations", std::int64_t{2}},
                                              {"sigma", 0.25},
                                              {"range", "local"},
@@ -79,14 +79,14 @@ TEST_CASE("the salient method resolves its parameters on the mesh") {
   morse::SalientOptions options{
       2, core::Length::absolute(0.25), {morse::ValueRange::Kind::local, 1}, 1.5, true};
   CHECK(values_of(local.field) == values_of(morse::salient(field, options).field));
-  const core::MethodResult single = apply(field, {{"sigma", "0.25"}, {"precision", "single"}});
+  const core::MethodResult single = apply_salient(field, {{"sigma", "0.25"}, {"precision", "single"}});
   CHECK(single.parameters[5] == core::Parameters::value_type{"precision", "single"});
   morse::SalientOptions in_single;
   in_single.sigma = core::Length::absolute(0.25);
   in_single.precision = morse::Precision::float32;
   CHECK(values_of(single.field) == values_of(morse::salient(field, in_single).field));
   const core::MethodResult literal =
-      apply(field, {{"sigma", "0.1"}, {"range", "literal"}, {"iterations", "1"}});
+      apply_salient(field, {{"sigma", "0.1"}, {"range", "literal"}, {"iterations", "1"}});
   CHECK(literal.parameters.back() == core::Parameters::value_type{"sigma_s", 0.1});
 }
 
@@ -103,10 +103,12 @@ TEST_CASE("salient keys are checked when the method is made") {
       {"scale", "wide"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
-    CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
-    CHECK_THROWS_WITH(apply(field, {{key, value}}), Catch::Contains("salient") && Catch::Contains(key));
+    CHECK_THROWS_AS(apply_salient(field, {{key, value}}), core::InvalidArgument);
+    CHECK_THROWS_WITH(apply_salient(field, {{key, value}}),
+                      Catch::Contains("salient") && Catch::Contains(key));
   }
-  CHECK_THROWS_AS(apply(field, {{"iterations", "0"}, {"classify", "saliency"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(apply_salient(field, {{"iterations", "0"}, {"classify", "saliency"}}),
+                  core::InvalidArgument);
   core::ParameterReader help = core::ParameterReader::for_help("salient");
   morse::make_salient(help);
   REQUIRE(help.declared().size() == 14);

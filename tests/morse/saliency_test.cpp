@@ -18,7 +18,7 @@ using namespace morsel::test;
 using core::ScalarField;
 namespace {
 
-core::MethodResult apply(const ScalarField& field, Given given) {
+core::MethodResult apply_saliency(const ScalarField& field, Given given) {
   return made(morse::make_saliency, "saliency", std::move(given))->apply(field, {});
 }
 
@@ -86,21 +86,23 @@ TEST_CASE("saliency is the steps of the papers") {
 TEST_CASE("saliency without suppression of a single peak by hand") {
   // Sides 3, 4, 5: at σ = 1 no vertex has neighbours, but in the coarse map vertex 0 reaches 3 and 4.
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
-  const core::MethodResult result = apply({mesh, {6, 0, 0}}, {{"scales", "1"}, {"suppression", "none"}});
+  const core::MethodResult result =
+      apply_saliency({mesh, {6, 0, 0}}, {{"scales", "1"}, {"suppression", "none"}});
   const double w1 = std::exp(-9.0 / 8);
   const double w2 = std::exp(-2.0);
   CHECK(result.field.value(0) == Approx(6 - 6 / (1 + w1 + w2)));
   CHECK(result.field.value(1) == Approx(6 * w1 / (1 + w1)));
   CHECK(result.field.value(2) == Approx(6 * w2 / (1 + w2)));
   // Normalised, the highest value is the only local maximum: m̄ = 0.
-  CHECK(apply({mesh, {6, 0, 0}}, {{"scales", "1"}}).field.max() == 1);
+  CHECK(apply_saliency({mesh, {6, 0, 0}}, {{"scales", "1"}}).field.max() == 1);
 }
 
 TEST_CASE("saliency of a constant is zero") {
   for (const char* suppression : {"itti", "none"}) {
     const TriangleMesh mesh = sphere(2).mesh();
     const ScalarField field(mesh, std::vector<double>(mesh.vertex_count(), 3.25));
-    const ScalarField result = apply(field, {{"suppression", suppression}, {"scales", "9eps/20eps"}}).field;
+    const ScalarField result =
+        apply_saliency(field, {{"suppression", suppression}, {"scales", "9eps/20eps"}}).field;
     CHECK(result.min() == 0);
     CHECK(result.max() == 0);
   }
@@ -112,10 +114,11 @@ TEST_CASE("suppressed saliency has no unit and does not turn with the mesh") {
   std::vector<double> other = values;
   for (double& value : other) value = 8 * value - 100;
   const Given given = {{"scales", "0.3/0.4"}};
-  const ScalarField a = apply({mesh, values}, given).field;
-  const ScalarField b = apply({mesh, other}, given).field;
+  const ScalarField a = apply_saliency({mesh, values}, given).field;
+  const ScalarField b = apply_saliency({mesh, other}, given).field;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Point(1, -2, 0.5).normalized()).toRotationMatrix();
-  const ScalarField c = apply({moved(mesh, 3 * turn, {7, -4, 2}), values}, {{"scales", "0.9/1.2"}}).field;
+  const ScalarField c =
+      apply_saliency({moved(mesh, 3 * turn, {7, -4, 2}), values}, {{"scales", "0.9/1.2"}}).field;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     CHECK(b.value(v) == Approx(a.value(v)).margin(1e-10));
     CHECK(c.value(v) == Approx(a.value(v)).margin(1e-10));
@@ -125,7 +128,7 @@ TEST_CASE("suppressed saliency has no unit and does not turn with the mesh") {
 TEST_CASE("saliency reports its scales and gives the same bits for every number of threads") {
   const TriangleMesh mesh = sphere(4).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 5));
-  const core::MethodResult result = apply(field, {{"scales", "0.1/0.25"}, {"suppression", "none"}});
+  const core::MethodResult result = apply_saliency(field, {{"scales", "0.1/0.25"}, {"suppression", "none"}});
   CHECK(result.parameters == core::Parameters{{"scales", "0.1/0.25"},
                                               {"suppression", "none"},
                                               {"support", 2.0},
@@ -134,7 +137,7 @@ TEST_CASE("saliency reports its scales and gives the same bits for every number 
   CHECK(result.details == core::Parameters{{"factors", "1/1"}});
   const auto run = [&](int threads) {
     const core::ThreadLimit limit(threads);
-    return values_of(apply(field, {{"ball", "connected"}}).field);
+    return values_of(apply_saliency(field, {{"ball", "connected"}}).field);
   };
   CHECK(run(1) == run(4));
 }
@@ -146,8 +149,8 @@ TEST_CASE("saliency refuses what is out of range") {
                      {"suppression", "strong"}, {"sigma", "8eps"},        {"ball", "flat"}};
   for (const auto& [key, value] : bad) {
     INFO(key << "=" << value);
-    CHECK_THROWS_AS(apply(field, {{key, value}}), core::InvalidArgument);
-    CHECK_THROWS_WITH(apply(field, {{key, value}}), Catch::Contains(key));
+    CHECK_THROWS_AS(apply_saliency(field, {{key, value}}), core::InvalidArgument);
+    CHECK_THROWS_WITH(apply_saliency(field, {{key, value}}), Catch::Contains(key));
   }
   morse::SaliencyOptions none;
   none.scales.clear();
@@ -160,7 +163,7 @@ TEST_CASE("saliency refuses what is out of range") {
 TEST_CASE("counts of saliency on the samples") {
   const auto total = [](const char* file, Given given) {
     const ScalarField field = morse::mean_curvature(core::read_mesh(sample(file)).mesh);
-    return morse::classify(apply(field, std::move(given)).field).total();
+    return morse::classify(apply_saliency(field, std::move(given)).field).total();
   };
   const std::string published = "2eps/3eps/4eps/5eps/6eps";
   CHECK(total("lion-head.off", {{"scales", published}}) == 1539);

@@ -19,7 +19,7 @@ using core::ScalarField;
 
 namespace {
 
-core::MethodResult apply(const ScalarField& field, Given given) {
+core::MethodResult apply_spectral(const ScalarField& field, Given given) {
   return made(morse::make_spectral, "spectral", std::move(given))->apply(field, {});
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("a constant field keeps its order") {
 TEST_CASE("the spectral method resolves its parameters") {
   const TriangleMesh mesh = sphere(3).mesh();
   const ScalarField field(mesh, random_values(mesh.vertex_count(), 4));
-  const core::MethodResult result = apply(field, {});
+  const core::MethodResult result = apply_spectral(field, {});
   CHECK(result.parameters == core::Parameters{{"modes", std::int64_t{20}}});
   CHECK(values_of(result.field) == values_of(morse::spectral(field, 20).field));
   REQUIRE(result.details.size() == 2);
@@ -91,18 +91,19 @@ TEST_CASE("the spectral method resolves its parameters") {
   CHECK(result.details[1].first == "variance_kept");
   for (const int threads : {1, 4}) {
     const core::ThreadLimit limit(threads);
-    CHECK(values_of(apply(field, {}).field) == values_of(result.field));
+    CHECK(values_of(apply_spectral(field, {}).field) == values_of(result.field));
   }
-  CHECK_THROWS_AS(apply(field, {{"modes", "0"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(apply(field, {{"modes", "1001"}}), core::InvalidArgument);
-  CHECK_THROWS_AS(apply({octahedron().mesh(), {1, 2, 3, 4, 5, 6}}, {{"modes", "6"}}), core::BadInput);
+  CHECK_THROWS_AS(apply_spectral(field, {{"modes", "0"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(apply_spectral(field, {{"modes", "1001"}}), core::InvalidArgument);
+  CHECK_THROWS_AS(apply_spectral({octahedron().mesh(), {1, 2, 3, 4, 5, 6}}, {{"modes", "6"}}),
+                  core::BadInput);
 }
 
 TEST_CASE("counts of few modes on the samples") {
   for (const auto& [file, modes, total] :
        {std::tuple{"lion-head.off", "10", 9U}, std::tuple{"bunny00.off", "10", 10U}}) {
     const ScalarField field = morse::mean_curvature(core::read_mesh(sample(file)).mesh);
-    const auto points = morse::classify(apply(field, {{"modes", modes}}).field);
+    const auto points = morse::classify(apply_spectral(field, {{"modes", modes}}).field);
     CHECK(points.total() == total);
   }
 }

@@ -6,24 +6,21 @@
 #include <utility>
 
 namespace morsel::test {
-namespace {
-
-struct Cloud {
-  std::span<const core::Point> points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, core::Index>;
-
-}  // namespace
 
 struct SalientListing::Search {
+  struct Cloud {
+    std::span<const core::Point> points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<int>(axis)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  using Tree =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, core::Index>;
+
   /// Keeps of `found` what can be reached from v within it.
   void keep_connected(core::Index v) {
     const auto distance = [&](core::Index u) {

@@ -40,7 +40,7 @@ class Collection {
   const Scratch folder;
 };
 
-LandmarksRequest request() {
+LandmarksRequest report_request() {
   LandmarksRequest result;
   result.fields = {"height", "mean-curvature"};
   result.methods = {"gaussian:iterations=1+tps:count=40"};
@@ -82,7 +82,7 @@ TEST_CASE("marked files are read with their hashes, and what is wrong with them 
 TEST_CASE("results of landmarks are read back as they were written, and others are refused") {
   const Collection collection;
   MarkedFiles files = collection.files();
-  const LandmarksPlan plan = tools::prepare(request());
+  const LandmarksPlan plan = tools::prepare(report_request());
   for (const LandmarksOnMesh& result : run_landmarks(files, plan)) {
     const Json written = section(result, plan);
     CHECK(section(tools::read_result(JsonView(written, "a result"), plan), plan) == written);
@@ -109,7 +109,7 @@ TEST_CASE("results of landmarks are read back as they were written, and others a
 
 TEST_CASE("a journal of landmarks gives back meshes whose files are the same") {
   const Collection collection;
-  const LandmarksPlan plan = tools::prepare(request());
+  const LandmarksPlan plan = tools::prepare(report_request());
   const Json key = tools::landmarks_key(plan.request, {}, {});
   const auto path = collection.folder / "out.json.journal";
   std::vector<Json> whole;
@@ -142,7 +142,7 @@ TEST_CASE("a journal of landmarks gives back meshes whose files are the same") {
     CHECK(kept.find(1));
   }
   MarkedFiles files = collection.files();
-  LandmarksRequest other = request();
+  LandmarksRequest other = report_request();
   other.methods = {"conventional"};
   const LandmarksPlan other_plan = tools::prepare(other);
   tools::Journal journal(path, tools::landmarks_key(other, {}, {}));
@@ -153,7 +153,7 @@ TEST_CASE("a journal of landmarks gives back meshes whose files are the same") {
 TEST_CASE("the table, the CSV and the plots of landmarks have every row") {
   const Collection collection;
   MarkedFiles files = collection.files();
-  const LandmarksPlan plan = tools::prepare(request());
+  const LandmarksPlan plan = tools::prepare(report_request());
   const auto meshes = run_landmarks(files, plan);
   const auto sums = summarize(plan, meshes);
   const std::string table = landmarks_table(plan, meshes, sums);

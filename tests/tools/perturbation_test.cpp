@@ -25,7 +25,7 @@ using tools::RandomUse;
 
 namespace {
 
-core::LoadedMesh loaded(const TriangleMesh& mesh) { return {mesh, {}}; }
+core::LoadedMesh as_loaded(const TriangleMesh& mesh) { return {mesh, {}}; }
 
 std::vector<Point> positions(const TriangleMesh& mesh) {
   return {mesh.positions().begin(), mesh.positions().end()};
@@ -105,7 +105,7 @@ TEST_CASE("noise has the standard deviation that it is given, in mean edge lengt
   CHECK(edge == Approx(sum / mesh.edge_count()));
   for (const double amount : {0.05, 0.5}) {
     std::vector<double> along;
-    const auto normal = moves(mesh, perturb(loaded(mesh), noise(amount, NoiseKind::normal), 1, 0));
+    const auto normal = moves(mesh, perturb(as_loaded(mesh), noise(amount, NoiseKind::normal), 1, 0));
     for (Index v = 0; v < mesh.vertex_count(); ++v) {
       along.push_back(normal[v].dot(normals[v]));
       CHECK((normal[v] - along.back() * normals[v]).norm() < 1e-12);
@@ -113,7 +113,7 @@ TEST_CASE("noise has the standard deviation that it is given, in mean edge lengt
     CHECK(tools::estimate(along).deviation == Approx(amount * edge).epsilon(0.03));
     CHECK(tools::estimate(along).mean == Approx(0).margin(0.04 * amount * edge));
     std::vector<double> axes[3];
-    for (const Point& move : moves(mesh, perturb(loaded(mesh), noise(amount, NoiseKind::isotropic), 1, 0)))
+    for (const Point& move : moves(mesh, perturb(as_loaded(mesh), noise(amount, NoiseKind::isotropic), 1, 0)))
       for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(move[axis]);
     double product = 0;
     for (std::size_t v = 0; v < axes[0].size(); ++v) product += axes[0][v] * axes[1][v];
@@ -127,7 +127,7 @@ TEST_CASE("a trial's noise is the same at all amounts, and that of another trial
   const TriangleMesh mesh = torus(20, 12).mesh();
   for (const NoiseKind direction : {NoiseKind::normal, NoiseKind::isotropic}) {
     const auto at = [&](double amount, std::uint64_t seed, std::uint64_t trial) {
-      return moves(mesh, perturb(loaded(mesh), noise(amount, direction), seed, trial));
+      return moves(mesh, perturb(as_loaded(mesh), noise(amount, direction), seed, trial));
     };
     const auto small = at(0.1, 1, 0);
     const auto large = at(0.4, 1, 0);
@@ -135,9 +135,9 @@ TEST_CASE("a trial's noise is the same at all amounts, and that of another trial
     CHECK(at(0.1, 1, 1) != small);
     CHECK(at(0.1, 2, 0) != small);
     CHECK(at(0.1, 1, 0) == small);
-    const PerturbedMesh none = perturb(loaded(mesh), noise(0, direction), 1, 0);
+    const PerturbedMesh none = perturb(as_loaded(mesh), noise(0, direction), 1, 0);
     CHECK(positions(none.loaded.mesh) == positions(mesh));
-    const PerturbedMesh some = perturb(loaded(mesh), noise(0.3, direction), 1, 0);
+    const PerturbedMesh some = perturb(as_loaded(mesh), noise(0.3, direction), 1, 0);
     CHECK(some.places == positions(mesh));
   }
 }
@@ -149,7 +149,7 @@ TEST_CASE("decimation leaves a manifold of the same topology with vertices of th
       INFO(entry.name << " to " << share);
       const TriangleMesh& mesh = entry.mesh;
       try {
-        const PerturbedMesh result = perturb(loaded(mesh), decimation(share), 3, 1);
+        const PerturbedMesh result = perturb(as_loaded(mesh), decimation(share), 3, 1);
         const TriangleMesh& fewer = result.loaded.mesh;
         fewer.validate();
         ++done;
@@ -170,7 +170,7 @@ TEST_CASE("decimation leaves a manifold of the same topology with vertices of th
       }
     }
   CHECK(done > 2 * mesh_zoo().size());
-  CHECK_THROWS_WITH(perturb(loaded(tetrahedron().mesh()), decimation(0.5), 1, 0),
+  CHECK_THROWS_WITH(perturb(as_loaded(tetrahedron().mesh()), decimation(0.5), 1, 0),
                     Catch::Contains("decimated to 2 vertices") && Catch::Contains("4 of its 4"));
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("decimation around a vertex of very large degree keeps the surface") {
       }
     }
   const TriangleMesh mesh(places, triangles);
-  const TriangleMesh fewer = perturb(loaded(mesh), decimation(0.2), 1, 0).loaded.mesh;
+  const TriangleMesh fewer = perturb(as_loaded(mesh), decimation(0.2), 1, 0).loaded.mesh;
   fewer.validate();
   CHECK(fewer.vertex_count() == std::llround(0.2 * mesh.vertex_count()));
   CHECK(fewer.euler_characteristic() == 1);
@@ -202,7 +202,7 @@ TEST_CASE("decimation around a vertex of very large degree keeps the surface") {
 TEST_CASE("decimation keeps the shape and spreads vertices evenly, differently in each trial") {
   const TriangleMesh mesh = sphere(4).mesh();
   const auto at = [&](std::uint64_t trial) {
-    return perturb(loaded(mesh), decimation(0.25), 1, trial).loaded.mesh;
+    return perturb(as_loaded(mesh), decimation(0.25), 1, trial).loaded.mesh;
   };
   const TriangleMesh fewer = at(0);
   double volume = 0;
@@ -222,7 +222,7 @@ TEST_CASE("decimation keeps the shape and spreads vertices evenly, differently i
 
 TEST_CASE("subdivision numbers its new vertices after those of the file") {
   const TriangleMesh mesh = annulus(8, 3).mesh();
-  core::LoadedMesh clean = loaded(mesh);
+  core::LoadedMesh clean = as_loaded(mesh);
   const PerturbedMesh finer = perturb(clean, subdivision(2), 1, 0);
   CHECK(finer.loaded.mesh.triangle_count() == 4 * mesh.triangle_count());
   CHECK(finer.places == positions(finer.loaded.mesh));

@@ -32,7 +32,7 @@ using Texts = std::vector<std::string>;
 
 namespace {
 
-core::LoadedMesh bumpy() { return {jittered(sphere(3).mesh(), 0.01, 3), {}}; }
+core::LoadedMesh bumpy_sphere() { return {jittered(sphere(3).mesh(), 0.01, 3), {}}; }
 
 std::vector<SweepRow> sweep(const core::LoadedMesh& mesh, const SweepRequest& request) {
   return run_sweep(mesh, tools::prepare(request));
@@ -159,7 +159,7 @@ TEST_CASE("a sweep whose keys or values are wrong is refused") {
 }
 
 TEST_CASE("the iterates of a method are the results of fewer iterations, bit by bit") {
-  const core::LoadedMesh mesh = bumpy();
+  const core::LoadedMesh mesh = bumpy_sphere();
   const tools::NamedFunction function = tools::Registry::standard().make_function("mean-curvature");
   const core::ScalarField field = tools::evaluate_field(mesh, function).field;
   std::set<std::string> seen;
@@ -211,7 +211,7 @@ TEST_CASE("the iterates of a method are the results of fewer iterations, bit by 
 }
 
 TEST_CASE("a row is the same as that of its combination run alone") {
-  const core::LoadedMesh mesh = bumpy();
+  const core::LoadedMesh mesh = bumpy_sphere();
   for (const SweepRequest& request : std::vector<SweepRequest>{
            {"mean-curvature", "salient", {"iterations=0..4", "sigma=4eps,12eps"}},
            {"mean-curvature", "salient:classify=saliency", {"iterations=1..3"}},
@@ -236,14 +236,14 @@ TEST_CASE("a row is the same as that of its combination run alone") {
 
 TEST_CASE("the number of iterations that ran is that of all steps together") {
   const std::vector<SweepRow> rows = sweep(
-      bumpy(),
+      bumpy_sphere(),
       {"mean-curvature", "gaussian:iterations=2+laplacian:until-count=20", {"laplacian.iterations=1,2,500"}});
   CHECK(rows[0].iterations_run == 3);
   CHECK(rows[0].critical_points.total() > 20);
   CHECK(rows[1].iterations_run == 4);
   CHECK(rows[2].iterations_run.value() < 502);
   CHECK(rows[2].critical_points.total() <= 20);
-  CHECK_FALSE(sweep(bumpy(), {"height", "tps", {"threshold=1%"}})[0].iterations_run);
+  CHECK_FALSE(sweep(bumpy_sphere(), {"height", "tps", {"threshold=1%"}})[0].iterations_run);
 }
 
 TEST_CASE("iterations of one run are run once") {
@@ -251,7 +251,7 @@ TEST_CASE("iterations of one run are run once") {
   const tools::SweepPlan plan =
       tools::prepare({"mean-curvature", "counted+tps", {"iterations=2..20..2", "threshold=1%,5%"}},
                      registry_with_counted(counts));
-  const std::vector<SweepRow> rows = run_sweep(bumpy(), plan);
+  const std::vector<SweepRow> rows = run_sweep(bumpy_sphere(), plan);
   CHECK(counts.applications == 1);
   CHECK(counts.iterations == 20);
   CHECK(counts.fields == 10);
@@ -261,7 +261,7 @@ TEST_CASE("iterations of one run are run once") {
 }
 
 TEST_CASE("a method of one's own takes part in a sweep") {
-  const core::LoadedMesh mesh = bumpy();
+  const core::LoadedMesh mesh = bumpy_sphere();
   Counts counts;
   const tools::Registry registry = registry_with_counted(counts);
   const SweepRequest request{"height", "counted", {"iterations=0,3"}};
@@ -283,7 +283,7 @@ TEST_CASE("a plan outlives the registry that it was made with") {
   const auto plan = [&] {
     return tools::prepare({"height", "counted", {"iterations=1,2"}}, registry_with_counted(counts));
   }();
-  run_sweep(bumpy(), plan);
+  run_sweep(bumpy_sphere(), plan);
   CHECK(counts.iterations == 2);
 }
 
@@ -295,8 +295,8 @@ TEST_CASE("a row is read back from documents") {
     return tools::read_row(tools::JsonView(sections.first, "row"), tools::JsonView(sections.second, "row"));
   };
   std::vector<SweepRow> rows =
-      sweep(bumpy(), {"mean-curvature", "salient+tps", {"iterations=0,2", "threshold=1%"}});
-  rows.push_back(sweep(bumpy(), {"height", "conventional", {"axis=z"}}).front());
+      sweep(bumpy_sphere(), {"mean-curvature", "salient+tps", {"iterations=0,2", "threshold=1%"}});
+  rows.push_back(sweep(bumpy_sphere(), {"height", "conventional", {"axis=z"}}).front());
   rows.back().field.parameters.emplace_back("none", std::numeric_limits<double>::infinity());
   for (const SweepRow& row : rows) {
     const auto sections = written(row);
@@ -335,7 +335,7 @@ TEST_CASE("a row is read back from documents") {
 }
 
 TEST_CASE("rows that are known are not made again") {
-  const core::LoadedMesh mesh = bumpy();
+  const core::LoadedMesh mesh = bumpy_sphere();
   const tools::SweepPlan plan =
       tools::prepare({"mean-curvature", "salient", {"sigma=4eps,8eps", "iterations=1..3"}});
   const std::vector<SweepRow> rows = run_sweep(mesh, plan);
@@ -349,7 +349,7 @@ TEST_CASE("rows that are known are not made again") {
 }
 
 TEST_CASE("a sweep gives the same at any number of threads") {
-  const core::LoadedMesh mesh = bumpy();
+  const core::LoadedMesh mesh = bumpy_sphere();
   const SweepRequest request{"mean-curvature", "salient+tps", {"iterations=1..3", "threshold=1%,5%"}};
   const auto results = [&](int threads) {
     const core::ThreadLimit limit(threads);
@@ -362,9 +362,10 @@ TEST_CASE("a sweep gives the same at any number of threads") {
 }
 
 TEST_CASE("an error of a sweep names its combination") {
-  CHECK_THROWS_WITH(sweep(bumpy(), {"vertex-scalar", "gaussian", {"file=/no-such-file.txt"}}),
+  CHECK_THROWS_WITH(sweep(bumpy_sphere(), {"vertex-scalar", "gaussian", {"file=/no-such-file.txt"}}),
                     Contains("vertex-scalar:file=/no-such-file.txt, gaussian: ") && Contains("no-such-file"));
-  CHECK_THROWS_AS(sweep(bumpy(), {"vertex-scalar", "gaussian", {"file=/no-such-file.txt"}}), core::BadInput);
+  CHECK_THROWS_AS(sweep(bumpy_sphere(), {"vertex-scalar", "gaussian", {"file=/no-such-file.txt"}}),
+                  core::BadInput);
 }
 
 namespace {
