@@ -74,8 +74,8 @@ std::string element_by_letters(std::string_view name) {
     constexpr std::string_view kClear[] = {"CL", "BR", "SE", "SI", "FE", "ZN", "MG", "MN", "CU"};
     const bool cased = letters[0] == symbol[0] && letters[1] != symbol[1];
     if (cased || std::find(std::begin(kClear), std::end(kClear), symbol) != std::end(kClear))
-      if (gemmi_bridge::Element found = gemmi_bridge::find_element(symbol); found.symbol != "X")
-        return std::move(found.symbol);
+      if (const gemmi_bridge::Element found = gemmi_bridge::find_element(symbol); found.symbol != "X")
+        return found.symbol;
   }
   constexpr std::string_view kOrganic = "HDCNOSPFBIK";
   if (kOrganic.find(symbol[0]) != std::string_view::npos) return symbol.substr(0, 1);

@@ -26,13 +26,6 @@ using core::VertexValues;
 
 namespace {
 
-PolygonSoup polygons_of(const Soup& soup) {
-  PolygonSoup result;
-  result.positions = soup.positions;
-  for (const core::Triangle& t : soup.triangles) result.add_polygon(t);
-  return result;
-}
-
 /// columns × rows vertices, all squares between them.
 PolygonSoup squares(Index columns, Index rows) {
   PolygonSoup result;
@@ -205,7 +198,7 @@ TEST_CASE("what is wrong elsewhere is refused in the input's numbers") {
     for (Index& v : t)
       if (v == 12) v = 8;  // the second's first vertex is the first's
   for (Index v = 13; v < 16; ++v) both.positions[v] += Point(0, 0, 9);
-  PolygonSoup soup = polygons_of(both);
+  PolygonSoup soup = both.polygons();
   soup.positions[12] = soup.positions[13];
   std::vector<bool> left_out = mask_of(16, {0, 12});
   std::vector<core::Defect> defects;

@@ -63,13 +63,6 @@ PolygonSoup polygons_of(std::vector<Point> positions, const std::vector<std::vec
   return result;
 }
 
-PolygonSoup polygons_of(const Soup& soup) {
-  PolygonSoup result;
-  result.positions = soup.positions;
-  for (const core::Triangle& t : soup.triangles) result.add_polygon(t);
-  return result;
-}
-
 std::string repairs_of(const BuiltMesh& built) {
   std::string text;
   for (const core::Repair& r : built.repairs)
@@ -149,7 +142,7 @@ TEST_CASE("a sphere of loose triangles is welded to the sphere") {
   }
   CHECK_THROWS_AS(core::build_mesh(loose, {.weld = Length::absolute(-1)}), core::InvalidArgument);
   // A mesh whose vertices are shared stays as it is.
-  const PolygonSoup shared = polygons_of(whole);
+  const PolygonSoup shared = whole.polygons();
   const BuiltMesh same = core::build_mesh(shared, kExactly);
   CHECK(same.repairs.empty());
   CHECK(same.numbering.to_input.empty());
@@ -163,7 +156,7 @@ TEST_CASE("coordinates that are too large for cells are refused") {
 
 TEST_CASE("lengths on polygons are those on the mesh") {
   const Soup soup = sphere(2);
-  const PolygonSoup polygons = polygons_of(soup);
+  const PolygonSoup polygons = soup.polygons();
   for (const Length& length : {Length::absolute(0.5), Length::epsilons(2), Length::edges(2),
                                Length::percent(3), Length::root_areas(0.5)})
     CHECK(core::length_on(length, polygons) == Approx(length.on(soup.mesh())).epsilon(1e-12));

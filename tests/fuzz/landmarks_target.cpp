@@ -34,7 +34,7 @@ void check_written(std::string_view bytes) {
 }  // namespace
 
 void morsel::fuzz::landmarks(std::string_view bytes) {
-  for (const auto check : {check_result, check_report}) {
+  for (const auto check : {check_result, check_written}) {
     try {
       check(bytes);
     } catch (const core::BadInput&) {

@@ -13,6 +13,14 @@
 #include <utility>
 
 namespace morsel::test {
+
+core::PolygonSoup Soup::polygons() const {
+  core::PolygonSoup result;
+  result.positions = positions;
+  for (const core::Triangle& t : triangles) result.add_polygon(t);
+  return result;
+}
+
 namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "morsel/core/mesh/mesh.h"
+#include "morsel/core/mesh/mesh_builder.h"
 
 namespace morsel::test {
 
@@ -17,6 +18,7 @@ struct Soup {
   std::vector<Point> positions;
   std::vector<core::Triangle> triangles;
   TriangleMesh mesh() const { return {positions, triangles}; }
+  core::PolygonSoup polygons() const;
 };
 
 // Drawn by hand.
