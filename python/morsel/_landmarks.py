@@ -130,8 +130,8 @@ def landmarks(marked: Marked, *, fields: Sequence[Named] | None = None,
     radius, largest_radius : str or float
         Of a hit, along the surface; and up to which errors are counted in the document.
     first, repair, weld, mask
-        Of a list: the number of a file's first vertex, 0 or 1; and whether meshes are repaired, their vertices
-        joined and vertices left out, as of read().
+        Of a list: the number of a file's first vertex, 0 or 1; and whether meshes are repaired, their
+        vertices joined and vertices left out, as of read().
     resamples, seed : int
         Of the intervals; the seed is that of the random points, too.
 

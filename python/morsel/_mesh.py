@@ -72,8 +72,8 @@ class Mesh(Immutable):
     weld : bool, str or float
         First join vertices at the same position (True) or within a length ("0.1eps", or a number).
     mask : array_like (n,), or str
-        Leave out the vertices where it is False, 0 or nan, the faces at them, and vertices that no face is left
-        at; `input_vertices` has the numbers of the others. Of a path, a mask as read() takes it.
+        Leave out the vertices where it is False, 0 or nan, the faces at them, and vertices that no face is
+        left at; `input_vertices` has the numbers of the others. Of a path, a mask as read() takes it.
     progress : bool or callable
         True shows a bar; a function is called with the step's name and the fraction done.
 
@@ -296,8 +296,8 @@ def read(path: PathLike, *, repair: bool = False, weld: Weld = None, mask: PathL
 
     Raises MeshError, with all defects, for a mesh that breaks a rule (repair=True mends what can be mended),
     InputError for a file that is missing, damaged or of another kind. With `weld`, vertices at the same
-    position (True) or within a length ("0.1eps", or a number) are joined first. With `mask` (a file of values,
-    "file=PATH,column=NAME" or "property=NAME"), vertices where it is 0 or nan are left out. Issues a
+    position (True) or within a length ("0.1eps", or a number) are joined first. With `mask` (a file of
+    values, "file=PATH,column=NAME" or "property=NAME"), vertices where it is 0 or nan are left out. Issues a
     MorselWarning for each of `Mesh.warnings`.
 
     >>> mesh = ms.read("scan.ply")

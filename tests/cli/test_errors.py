@@ -256,7 +256,7 @@ class BadInput(ProgramTest):
     def test_field_files(self):
         mesh = self.file("o.off", OCTAHEDRON)
         for text, words in (("1\n2\n3\n", ["6", "3"]), ("1\n2\nx\n4\n5\n6\n", ["line 3", "x"]),
-                            ("1\n2\nnan\n4\n5\n6\n", ["nan"]), ("1\n2\n3\n4\n5\n1e999\n", ["1e999"])):
+                            ("1\n2\ninf\n4\n5\n6\n", ["inf"]), ("1\n2\n3\n4\n5\n1e999\n", ["1e999"])):
             self.file("f.txt", text)
             result = self.morsel("compare", mesh, "--field", "vertex-scalar:file=f.txt", code=3)
             for word in words + ["f.txt"]:

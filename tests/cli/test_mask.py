@@ -138,7 +138,8 @@ class Mask(ProgramTest):
                              code=2)
         self.assertIn("--mask mask.txt", result.stderr)
         self.file("inf.txt", "inf\n" * (SIDE * SIDE))
-        result = self.morsel("field", self.mesh, "--field", "vertex-scalar:file=inf.txt", "-o", "f.txt", code=3)
+        result = self.morsel("field", self.mesh, "--field", "vertex-scalar:file=inf.txt", "-o", "f.txt",
+                             code=3)
         self.assertIn("not finite", result.stderr)
 
 

@@ -48,15 +48,24 @@ Words shaping_options(const std::string& command) {
 /// A value that is not the default. An option without one here fails the tests until it is given one.
 Words words_that_give(const Option& row) {
   static const std::map<std::string, Words> kValues = {
-      {"--field", {"height:axis=z"}}, {"--target", {"7"}},
-      {"--view", {"-30/20"}},         {"--up", {"x"}},
-      {"--size", {"320x200"}},        {"--inset", {"5:3eps"}},
-      {"--data", {"somewhere"}},      {"--meshes", {"elsewhere"}},
-      {"--samples", {"5"}},           {"--method", {"tps", "salient:iterations=2+tps"}},
-      {"--preset", {"noise"}},        {"--points", {"7"}},
-      {"--kind", {"saddles"}},        {"--rank", {"salience"}},
-      {"--spacing", {"3%"}},          {"--fill", {"height:axis=x"}},
-      {"--salience-scale", {"5eps"}}, {"--weld", {"0.5eps"}},
+      {"--field", {"height:axis=z"}},
+      {"--target", {"7"}},
+      {"--view", {"-30/20"}},
+      {"--up", {"x"}},
+      {"--size", {"320x200"}},
+      {"--inset", {"5:3eps"}},
+      {"--data", {"somewhere"}},
+      {"--meshes", {"elsewhere"}},
+      {"--samples", {"5"}},
+      {"--method", {"tps", "salient:iterations=2+tps"}},
+      {"--preset", {"noise"}},
+      {"--points", {"7"}},
+      {"--kind", {"saddles"}},
+      {"--rank", {"salience"}},
+      {"--spacing", {"3%"}},
+      {"--fill", {"height:axis=x"}},
+      {"--salience-scale", {"5eps"}},
+      {"--weld", {"0.5eps"}},
       {"--mask", {"property=inside"}},
   };
   const std::string name = name_of(row);
@@ -165,8 +174,9 @@ TEST_CASE("each option of render that shapes a picture is among the words of its
   camera.up = render::UpAxis::x;
   core::VertexNumbering shifted;
   shifted.to_input = {10, 11, 12, 13, 14, 15};
-  const Words words = with(words_of(field, {true, core::Length::absolute(0), core::VertexValues{"", "inside"}}),
-                           render::words_of(picture, camera, "auto", shifted));
+  const Words words =
+      with(words_of(field, {true, core::Length::absolute(0), core::VertexValues{"", "inside"}}),
+           render::words_of(picture, camera, "auto", shifted));
   // With a flag of the opposite meaning: whichever is not the default.
   const std::map<std::string, std::string> opposite = {
       {"--points", "--no-points"}, {"--arcs", "--no-arcs"}, {"--legend", "--no-legend"}};
