@@ -82,7 +82,7 @@ class Mesh(Immutable):
 
     >>> mesh = ms.Mesh(V, F)
     >>> mesh = ms.Mesh(trimesh.load("scan.stl"), repair=True)
-    >>> mesh = ms.Mesh(V, F, mask=np.isfinite(thickness))
+    >>> mesh = ms.Mesh(V, F, mask=np.isfinite(V[:, 2]))
     """
 
     __slots__ = ("_data", "__weakref__")
