@@ -4,6 +4,7 @@
 #include "morsel/core/error.h"
 #include "morsel/tools/formats/json_reader.h"
 #include "morsel/tools/report/difference.h"
+#include "morsel/tools/report/document_origin.h"
 #include "morsel/tools/report/report_reader.h"
 #include "target.h"
 
@@ -35,12 +36,23 @@ void check_report(std::string_view bytes) {
                 "a report does not differ from itself");
 }
 
+/// What info shows of any document.
+void check_origin(std::string_view bytes) {
+  const tools::Json origin = tools::document_origin(bytes, "fuzz");
+  if (origin.is_null()) return;
+  fuzz::require(origin.at("inputs").is_array(), "a document has inputs, or none");
+  fuzz::require(tools::document_origin(tools::read_json(bytes, "fuzz").dump(2), "fuzz") == origin,
+                "a document laid out otherwise has the same origin");
+}
+
 }  // namespace
 
 void morsel::fuzz::report(std::string_view bytes) {
   check_json(bytes);
-  try {
-    check_report(bytes);
-  } catch (const core::BadInput&) {
+  for (const auto check : {check_report, check_origin}) {
+    try {
+      check(bytes);
+    } catch (const core::BadInput&) {
+    }
   }
 }

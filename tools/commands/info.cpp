@@ -253,8 +253,7 @@ void add_info(Program& program) {
       .required()
       .in_detail(
           "What morsel wrote may be a mesh, .png, .svg, .vtp, .html, .csv, .txt or a JSON document, of which "
-          "the "
-          "request is shown in place of the command");
+          "the request is shown in place of the command");
   command.flag("--json", options->json, "As JSON instead of text");
   add_common_options(command, program.common);
   command.examples = {{"info scan.off", "counts, genus, boundary loops, and what would have to be repaired"},
