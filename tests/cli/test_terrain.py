@@ -172,13 +172,16 @@ class Terrain(ProgramTest):
         tiles = ["TILED=YES", "BLOCKXSIZE=16", "BLOCKYSIZE=16"]
         for name, kind, options in (
                 ("a.tif", gdal.GDT_Int16, ["COMPRESS=DEFLATE"]), ("b.tiff", gdal.GDT_Float64, tiles),
-                ("c.tif", gdal.GDT_Float32, ["COMPRESS=LZW", "PREDICTOR=3", "ENDIANNESS=BIG"])):
+                # Not both: GDAL 3.6 does not read its own files of that kind right.
+                ("c.tif", gdal.GDT_Float32, ["COMPRESS=LZW", "PREDICTOR=3"]),
+                ("d.tif", gdal.GDT_Float32, ["COMPRESS=LZW", "ENDIANNESS=BIG"])):
             write(name, big, kind, options)
             self.assertEqual(self.values(name, "height"), [v for row in big for v in row])
             self.assertEqual(self.values(name, "height:axis=x")[:3], [101, 103, 105])
             self.assertEqual(self.values(name, "height:axis=y")[:3], [499, 499, 499])
         write("n.tif", GRID, gdal.GDT_Int16, no_data=90)
-        self.assertEqual(sorted(self.values("n.tif", "height")), sorted(v for v in flat if v != 90))
+        # The corner's triangle meets the rest in two cells of height 30, which are split.
+        self.assertEqual(sorted(self.values("n.tif", "height")), sorted([v for v in flat if v != 90] + [30, 30]))
         write("s.tif", GRID, gdal.GDT_Int16, scale=0.5, offset=100)
         self.assertEqual(self.values("s.tif", "height"), [100 + v / 2 for v in flat])
         write("r.tif", GRID, gdal.GDT_Int16, geo=(100, 3, 4, 500, 4, -3))
