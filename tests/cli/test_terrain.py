@@ -181,7 +181,8 @@ class Terrain(ProgramTest):
             self.assertEqual(self.values(name, "height:axis=y")[:3], [499, 499, 499])
         write("n.tif", GRID, gdal.GDT_Int16, no_data=90)
         # The corner's triangle meets the rest in two cells of height 30, which are split.
-        self.assertEqual(sorted(self.values("n.tif", "height")), sorted([v for v in flat if v != 90] + [30, 30]))
+        self.assertEqual(sorted(self.values("n.tif", "height")),
+                         sorted([v for v in flat if v != 90] + [30, 30]))
         write("s.tif", GRID, gdal.GDT_Int16, scale=0.5, offset=100)
         self.assertEqual(self.values("s.tif", "height"), [100 + v / 2 for v in flat])
         write("r.tif", GRID, gdal.GDT_Int16, geo=(100, 3, 4, 500, 4, -3))
