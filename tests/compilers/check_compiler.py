@@ -133,14 +133,20 @@ def run_ninja(ninja, work, jobs):
     return subprocess.run([ninja, "-C", work, "-j", str(jobs), "-k", "0", "--quiet"]).returncode
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def check_parser(documentation, jobs):
+    """The command line of a check that has Ninja read sources with the commands of a build."""
+    parser = argparse.ArgumentParser(description=documentation.splitlines()[0])
     parser.add_argument("compiler")
     parser.add_argument("commands", type=pathlib.Path)
     parser.add_argument("work", type=pathlib.Path)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=jobs)
     parser.add_argument("--ninja", default="ninja")
+    return parser
+
+
+def main():
+    parser = check_parser(__doc__, jobs=2)
     parser.add_argument("--folders", nargs="+", default=FOLDERS)
     arguments = parser.parse_args()
     work = arguments.work.resolve()

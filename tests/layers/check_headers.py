@@ -14,7 +14,6 @@ include it, one after the other, and where core's mesh is among what they includ
 that is made of that alone. Ninja does the work in WORK and reads again what has changed.
 """
 
-import argparse
 import collections
 import json
 import pathlib
@@ -155,14 +154,7 @@ def build_of(compiler, root, commands, work):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("compiler")
-    parser.add_argument("commands", type=pathlib.Path)
-    parser.add_argument("work", type=pathlib.Path)
-    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--ninja", default="ninja")
-    arguments = parser.parse_args()
+    arguments = check_compiler.check_parser(__doc__, jobs=1).parse_args()
     work = arguments.work.resolve()
     made, count = build_of(arguments.compiler, arguments.root.resolve(),
                            json.loads(arguments.commands.read_text(encoding="utf-8")), work)
